@@ -1,0 +1,41 @@
+# One target per folder, the same flags for all of them.
+set(SCANBENCH_WARNINGS -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+
+function(scanbench_flags target)
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  # No contraction of a*b+c: recordings are equal to the byte on any x86-64.
+  target_compile_options(${target} PRIVATE ${SCANBENCH_WARNINGS} -ffp-contract=off)
+  if(SCANBENCH_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${SCANBENCH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${SCANBENCH_SANITIZE})
+  endif()
+endfunction()
+
+# scanbench_library(folder [OBJECT]): target scanbench_<folder> from all of the folder's files.
+function(scanbench_library folder)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
+  if(ARGN STREQUAL "OBJECT")
+    add_library(scanbench_${folder} OBJECT ${sources})
+  else()
+    add_library(scanbench_${folder} STATIC ${sources})
+  endif()
+  target_sources(scanbench_${folder} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
+  set_target_properties(scanbench_${folder} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+  scanbench_flags(scanbench_${folder})
+endfunction()
+
+# scanbench_executable(name FOLDER folder | SOURCES file...): links every module. Files that register themselves must arrive
+# whole: algorithms as objects, metrics, render and sim as whole archives.
+function(scanbench_executable name)
+  cmake_parse_arguments(arg "" "FOLDER" "SOURCES" ${ARGN})
+  if(arg_FOLDER)
+    file(GLOB_RECURSE arg_SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${arg_FOLDER}/*.cpp)
+  endif()
+  add_executable(${name} ${arg_SOURCES})
+  scanbench_flags(${name})
+  target_link_libraries(${name} PRIVATE scanbench_algorithms scanbench_harness scanbench_sim scanbench_metrics scanbench_render
+                                        scanbench_core)
+  set_target_properties(${name} PROPERTIES LINK_LIBRARY_OVERRIDE
+    "WHOLE_ARCHIVE,scanbench_sim,scanbench_metrics,scanbench_render")
+endfunction()

@@ -1,0 +1,39 @@
+// Errors: what a user can mend (ConfigError) and what only we can (InternalError).
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace scanbench {
+
+/// A wrong file, value or argument. The message names the place (file:line:col where there is one), what was found and
+/// what is allowed. Caught once, in app/, which exits with 2.
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A value that a parameter does not accept. Thrown where values meet bounds, which knows no file; the reader of the
+/// file turns it into a ConfigError with the place in front.
+class ParamError : public ConfigError {
+ public:
+  ParamError(std::string param, const std::string& message) : ConfigError(message), param_(std::move(param)) {}
+  const std::string& param() const { return param_; }
+
+ private:
+  std::string param_;
+};
+
+/// A broken promise of our own code. Exits with 70.
+class InternalError : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+[[noreturn]] void fail_assertion(const char* condition, const char* file, int line);
+
+}  // namespace scanbench
+
+/// Checks a condition that only a bug of ours can break. Stays on in every build: none of them stands in an inner loop.
+#define SCANBENCH_ASSERT(condition) \
+  (static_cast<bool>(condition) ? void(0) : ::scanbench::fail_assertion(#condition, __FILE__, __LINE__))

@@ -1,0 +1,20 @@
+// Names of the outcomes, as they stand in files.
+#include "core/modules.hpp"
+
+namespace scanbench {
+
+std::string_view to_string(Status status) {
+  switch (status) {
+    case Status::converged:
+      return "converged";
+    case Status::max_iterations:
+      return "max_iterations";
+    case Status::degenerate:
+      return "degenerate";
+    case Status::no_match:
+      return "no_match";
+  }
+  return "unknown";
+}
+
+}  // namespace scanbench

@@ -1,0 +1,185 @@
+// The checks between a value somebody wrote and a parameter somebody declared.
+#include "core/params.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/number_text.hpp"
+
+namespace scanbench {
+namespace {
+
+std::string join(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+[[noreturn]] void refuse(const ParamSpec& spec, const std::string& found, const std::string& allowed) {
+  throw ParamError(spec.name, spec.name + " is " + found + "; allowed: " + allowed);
+}
+
+std::string allowed_numbers(const ParamSpec& spec) {
+  const std::string kind = spec.type == ParamType::integer ? "a whole number" : "a number";
+  const std::string bounds = spec.bounds.describe();
+  const std::string unit = spec.unit.empty() ? "" : " " + spec.unit;
+  return bounds.empty() ? kind + (unit.empty() ? "" : " in" + unit) : kind + " " + bounds + unit;
+}
+
+void check_number(const ParamSpec& spec, double v) {
+  if (!std::isfinite(v) || !spec.bounds.contains(v)) refuse(spec, number_text(v), allowed_numbers(spec));
+}
+
+std::string kind_of(const ParamValue& value) {
+  static constexpr std::string_view kNames[] = {"a boolean", "a whole number", "a number",    "text",
+                                                "a list",    "a list of rows", "named points"};
+  return std::string(kNames[value.index()]) + " (" + to_text(value) + ")";
+}
+
+// Levenshtein distance, for "did you mean".
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string Bounds::describe() const {
+  const bool has_min = std::isfinite(min);
+  const bool has_max = std::isfinite(max);
+  if (has_min && has_max && !open_min) return number_text(min) + " .. " + number_text(max);
+  std::string text;
+  if (has_min) text = (open_min ? "> " : ">= ") + number_text(min);
+  if (has_max) text += (text.empty() ? "<= " : " and <= ") + number_text(max);
+  return text;
+}
+
+std::string_view to_string(ParamType type) {
+  static constexpr std::string_view kNames[] = {"boolean", "integer",         "number",          "text",
+                                                "choice",  "list of numbers", "rows of numbers", "named points"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
+std::string to_text(const ParamValue& value) {
+  struct Visitor {
+    std::string operator()(bool v) const { return v ? "true" : "false"; }
+    std::string operator()(std::int64_t v) const { return std::to_string(v); }
+    std::string operator()(double v) const { return number_text(v); }
+    std::string operator()(const std::string& v) const { return v; }
+    std::string operator()(const std::vector<double>& v) const {
+      std::string text = "[";
+      for (std::size_t i = 0; i < v.size(); ++i) text += (i ? ", " : "") + number_text(v[i]);
+      return text + "]";
+    }
+    std::string operator()(const NumberRows& v) const {
+      std::string text = "[";
+      for (std::size_t i = 0; i < v.size(); ++i) text += (i ? ", " : "") + (*this)(v[i]);
+      return text + "]";
+    }
+    std::string operator()(const NamedPoints& v) const {
+      std::string text = "{";
+      for (std::size_t i = 0; i < v.size(); ++i)
+        text += (i ? ", " : "") + v[i].first + ": [" + number_text(v[i].second.x()) + ", " +
+                number_text(v[i].second.y()) + "]";
+      return text + "}";
+    }
+  };
+  return std::visit(Visitor{}, value);
+}
+
+ParamValue checked(const ParamSpec& spec, const ParamValue& value) {
+  switch (spec.type) {
+    case ParamType::boolean:
+      if (std::holds_alternative<bool>(value)) return value;
+      refuse(spec, kind_of(value), "true, false");
+    case ParamType::integer:
+      if (!std::holds_alternative<std::int64_t>(value)) refuse(spec, kind_of(value), allowed_numbers(spec));
+      check_number(spec, static_cast<double>(std::get<std::int64_t>(value)));
+      return value;
+    case ParamType::number: {
+      double number = 0.0;
+      if (const auto* i = std::get_if<std::int64_t>(&value))
+        number = static_cast<double>(*i);
+      else if (const auto* d = std::get_if<double>(&value))
+        number = *d;
+      else
+        refuse(spec, kind_of(value), allowed_numbers(spec));
+      check_number(spec, number);
+      return number;
+    }
+    case ParamType::text:
+      if (std::holds_alternative<std::string>(value)) return value;
+      refuse(spec, kind_of(value), "text");
+    case ParamType::choice: {
+      const auto* text = std::get_if<std::string>(&value);
+      if (text == nullptr || std::ranges::find(spec.choices, *text) == spec.choices.end())
+        refuse(spec, text ? "'" + *text + "'" : kind_of(value), join(spec.choices));
+      return value;
+    }
+    case ParamType::number_list: {
+      const auto* list = std::get_if<std::vector<double>>(&value);
+      if (list == nullptr) refuse(spec, kind_of(value), "a list of numbers");
+      for (const double v : *list) check_number(spec, v);
+      return value;
+    }
+    case ParamType::number_rows: {
+      const auto* rows = std::get_if<NumberRows>(&value);
+      if (rows == nullptr) refuse(spec, kind_of(value), "a list of rows of numbers");
+      for (const auto& row : *rows)
+        for (const double v : row) check_number(spec, v);
+      return value;
+    }
+    case ParamType::named_points: {
+      const auto* points = std::get_if<NamedPoints>(&value);
+      if (points == nullptr) refuse(spec, kind_of(value), "points by name, {A: [x, y], ...}");
+      for (const auto& [name, p] : *points) {
+        check_number(spec, p.x());
+        check_number(spec, p.y());
+      }
+      return value;
+    }
+  }
+  throw InternalError("a parameter type without a check");
+}
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
+  for (const auto& candidate : known) {
+    const std::size_t d = edit_distance(name, candidate);
+    if (d < best_distance) {
+      best_distance = d;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+ParamSet resolve(const std::vector<ParamSpec>& specs, const ParamSet& given) {
+  ParamSet all;
+  for (const auto& spec : specs) {
+    const auto found = given.find(spec.name);
+    all.emplace(spec.name, found == given.end() ? spec.default_value : checked(spec, found->second));
+  }
+  for (const auto& [name, value] : given) {
+    if (all.contains(name)) continue;
+    std::vector<std::string> known;
+    for (const auto& spec : specs) known.push_back(spec.name);
+    const std::string near = nearest_name(name, known);
+    throw ParamError(name, "unknown parameter '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                               (known.empty() ? " there are no parameters here" : " known: " + join(known)));
+  }
+  return all;
+}
+
+}  // namespace scanbench

@@ -1,0 +1,16 @@
+// What is saved and replayed: the observed scans and, for simulated ones, the truth beside them.
+#pragma once
+
+#include <optional>
+
+#include "core/scan.hpp"
+#include "core/truth.hpp"
+
+namespace scanbench {
+
+struct Recording {
+  ScanSet observed;
+  std::optional<Truth> truth;
+};
+
+}  // namespace scanbench

@@ -1,0 +1,80 @@
+// Registries of named things. A file that defines a module registers it with one line:
+//
+//   const bool registered = Registry<LineExtractor>::add<Iepf>({.name = "iepf", .summary = "...", .reference = "..."});
+//
+// Impl has a nested `Params` (core/params.hpp) and a constructor from it.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/params.hpp"
+
+namespace scanbench {
+
+struct ModuleInfo {
+  std::string name;
+  std::string summary;    ///< one line
+  std::string reference;  ///< paper and section
+};
+
+template <class Interface>
+class Registry {
+ public:
+  struct Entry {
+    ModuleInfo info;
+    std::vector<ParamSpec> params;
+    std::function<std::unique_ptr<Interface>(const ParamSet&)> make;
+  };
+
+  /// Returns true, so that a file can register while it initialises a constant. A name taken twice is an InternalError.
+  template <class Impl>
+  static bool add(ModuleInfo info) {
+    using Params = typename Impl::Params;
+    const std::string name = info.name;
+    const bool is_new = entries()
+                            .emplace(name, Entry{std::move(info), param_specs<Params>(),
+                                                 [](const ParamSet& set) -> std::unique_ptr<Interface> {
+                                                   return std::make_unique<Impl>(make_params<Params>(set));
+                                                 }})
+                            .second;
+    if (!is_new) throw InternalError("the name '" + name + "' is registered twice");
+    return true;
+  }
+
+  /// By name, in alphabetical order: independent of the order of linking.
+  static const std::map<std::string, Entry, std::less<>>& all() { return entries(); }
+
+  static std::vector<std::string> names() {
+    std::vector<std::string> result;
+    for (const auto& [name, entry] : entries()) result.push_back(name);
+    return result;
+  }
+
+  /// The entry, or nullptr.
+  static const Entry* find(std::string_view name) {
+    const auto it = entries().find(name);
+    return it == entries().end() ? nullptr : &it->second;
+  }
+
+  /// A module with its parameters; throws ConfigError for an unknown name, ParamError for a bad parameter.
+  static std::unique_ptr<Interface> make(std::string_view name, const ParamSet& params = {}) {
+    const Entry* entry = find(name);
+    if (entry == nullptr) {
+      std::string known;
+      for (const auto& n : names()) known += (known.empty() ? "" : ", ") + n;
+      throw ConfigError("unknown " + std::string(Interface::kKind) + " '" + std::string(name) + "'; known: " + known);
+    }
+    return entry->make(params);
+  }
+
+ private:
+  static std::map<std::string, Entry, std::less<>>& entries() {
+    static std::map<std::string, Entry, std::less<>> map;
+    return map;
+  }
+};
+
+}  // namespace scanbench

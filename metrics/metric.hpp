@@ -1,0 +1,56 @@
+// Metrics: pure functions of (observed scans, truth, result) to rows of a table.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.hpp"
+#include "core/scan.hpp"
+#include "core/truth.hpp"
+
+namespace scanbench::metrics {
+
+/// One value, as it stands in metrics.csv.
+struct MetricRow {
+  std::string metric;
+  std::string subject;     ///< what it is about: a wall's label, "all", ...
+  double value = 0.0;      ///< NaN: not defined on this input (count is then 0)
+  std::string unit;        ///< "" for counts and shares
+  std::int64_t count = 0;  ///< how many observations stand behind it
+  std::optional<double> ci_low;
+  std::optional<double> ci_high;
+};
+
+enum class Direction { lower_is_better, higher_is_better, neither };
+
+/// What a metric means, for tables, docs and `compare`.
+struct MetricDescription {
+  std::string metric;
+  std::string unit;
+  Direction direction = Direction::neither;
+  double tolerance = 0.0;  ///< absolute change, in the metric's unit, that `compare` lets pass
+  std::string doc;
+  bool timing = false;  ///< depends on the machine: never part of a comparison of bytes
+};
+
+struct MetricInput {
+  const ScanSet& observed;
+  const Truth* truth;  ///< nullptr for recorded logs
+  const PipelineResult& result;
+};
+
+/// A family of metrics computed together: borges2000, siadat1997, segments, ... Registered in Registry<MetricFamily>.
+class MetricFamily {
+ public:
+  static constexpr std::string_view kKind = "metrics";
+  virtual ~MetricFamily() = default;
+  virtual std::vector<MetricDescription> describe() const = 0;
+  /// False: the family cannot say anything about this input (no truth, no map); then it is absent, not zero.
+  virtual bool applies(const MetricInput& input) const = 0;
+  virtual std::vector<MetricRow> evaluate(const MetricInput& input) const = 0;
+};
+
+}  // namespace scanbench::metrics

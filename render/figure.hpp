@@ -1,0 +1,42 @@
+// Figures: views of a recording and of the results on it, as scenes that any backend draws.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/params.hpp"
+#include "core/recording.hpp"
+#include "core/result.hpp"
+#include "render/scene.hpp"
+
+namespace scanbench::render {
+
+struct NamedResult {
+  std::string pipeline;
+  const PipelineResult* result;
+};
+
+struct FigureInput {
+  std::string title;  ///< the scenario's name
+  const Recording& recording;
+  NamedPoints waypoints;             ///< may be empty
+  std::vector<NamedResult> results;  ///< in the scenario's order; a method keeps its colour by its place here
+};
+
+struct NamedScene {
+  std::string name;  ///< file name without ending
+  std::string caption;
+  Scene scene;
+};
+
+/// Registered in Registry<Figure>: environment, scan_overlay, ...
+class Figure {
+ public:
+  static constexpr std::string_view kKind = "figure";
+  virtual ~Figure() = default;
+  /// No scenes if there is nothing to show (no truth, no map).
+  virtual std::vector<NamedScene> draw(const FigureInput& input) const = 0;
+};
+
+}  // namespace scanbench::render

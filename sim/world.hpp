@@ -1,0 +1,44 @@
+// The world that is scanned: straight walls, which are the truth, and things that are not walls.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/geometry.hpp"
+#include "core/truth.hpp"
+
+namespace scanbench::sim {
+
+/// A round distractor: returns beams, but is no line of the truth.
+struct Circle {
+  std::string label;
+  Vec2 center = Vec2::Zero();
+  double radius_m = 0.0;
+};
+
+/// A body on its own path, so that a person can walk through a scan. Kinematic: it moves whatever happens.
+struct MovingBody {
+  std::string label;
+  double radius_m = 0.0;
+  std::vector<Vec2> path;
+  double speed_mps = 0.0;
+  bool loop = false;  ///< back and forth along the path, else it stays at the end
+
+  /// Centre at a time, by arc length along the path.
+  Vec2 position(double time_s) const;
+};
+
+/// Metres, world frame. Wall ids are indices into walls.
+struct World {
+  std::string name;
+  std::string about;
+  std::vector<Wall> walls;
+  std::vector<Circle> circles;
+  std::vector<MovingBody> moving;
+};
+
+/// Throws ConfigError for a world without walls, a wall or path without length, a radius or speed that is not positive,
+/// a number that is not finite. Names the wall.
+void validate(const World& world);
+
+}  // namespace scanbench::sim
