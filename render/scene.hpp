@@ -1,5 +1,160 @@
-// A plain draw list. The render helper replaces this line with the real thing.
+// A scene: a plain draw list of panels in data coordinates. Backends draw the same scene as PNG, SVG and PDF.
 #pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/pose2.hpp"
+
 namespace scanbench::render {
-struct Scene {};
+
+/// Opaque sRGB. There is no transparency: overlapping strokes then look alike in every backend.
+struct Color {
+  std::uint8_t r = 0, g = 0, b = 0;
+  bool operator==(const Color&) const = default;
+};
+inline constexpr Color kBlack{0, 0, 0};
+inline constexpr Color kWhite{255, 255, 255};
+inline constexpr Color kGrey{110, 110, 110};
+inline constexpr Color kFaint{190, 190, 190};
+
+enum class Dash { solid, dashed, dotted, dash_dot };
+enum class Marker { none, dot, circle, square, diamond, triangle, triangle_down, plus, cross };
+
+struct Stroke {
+  Color color = kBlack;
+  double width_pt = 0.8;
+  Dash dash = Dash::solid;
+};
+
+// ---- items of a panel, in data coordinates, drawn in order; those with non-finite coordinates are left out
+
+struct Lines {
+  std::vector<Segment> segments;
+  Stroke stroke;
+};
+
+/// A point that is not finite breaks the line.
+struct Polyline {
+  std::vector<Vec2> points;
+  Stroke stroke;
+  bool closed = false;
+};
+
+struct Points {
+  std::vector<Vec2> points;
+  Marker marker = Marker::dot;
+  Color color = kBlack;
+  double size_pt = 1.0;
+  bool filled = true;  ///< else an outline on white
+};
+
+struct Polygon {
+  std::vector<Vec2> points;
+  Color fill = kFaint;
+  std::optional<Stroke> outline;
+};
+
+/// A circle if the semi-axes are equal.
+struct Ellipse {
+  Vec2 center = Vec2::Zero();
+  Vec2 semi_axes = Vec2::Ones();
+  double angle_rad = 0.0;  ///< of the first semi-axis
+  Stroke stroke;
+  std::optional<Color> fill;
+};
+
+/// Text beside a point. `offset_pt` points from there to the nearest edge of the text, y up.
+struct Text {
+  Vec2 at = Vec2::Zero();
+  std::string text;
+  Vec2 offset_pt{0.0, 3.0};
+  Color color = kBlack;
+  double scale = 1.0;   ///< times the scene's font size
+  bool halo = true;     ///< a white rim, so that it can be read over lines
+  bool movable = true;  ///< may be put on another side of its point if it would cover a line, a marker or another label
+};
+
+/// A pose: a dot at its origin and an arrow along its x axis, of a length on paper.
+struct Arrow {
+  Pose2 pose;
+  double length_pt = 14.0;
+  Stroke stroke;
+};
+
+/// Vertical bars from `base` to y.
+struct Bars {
+  std::vector<Vec2> tops;
+  double width = 0.8;  ///< in data units of x
+  double base = 0.0;
+  Color fill = kGrey;
+};
+
+/// Vertical intervals [low, high] at x with end caps.
+struct ErrorBars {
+  std::vector<std::array<double, 3>> intervals;  ///< x, low, high
+  Stroke stroke;
+  double cap_pt = 4.0;
+};
+
+using Item = std::variant<Lines, Polyline, Points, Polygon, Ellipse, Text, Arrow, Bars, ErrorBars>;
+
+struct Axis {
+  std::string label;                                    ///< with its unit: "x [m]"
+  std::optional<std::pair<double, double>> range;       ///< absent: from the items, with a margin
+  bool log = false;                                     ///< decades; values <= 0 are left out
+  std::vector<std::pair<double, std::string>> ticks{};  ///< absent: round numbers
+  bool grid = true;
+};
+
+/// One set of axes with its items.
+struct Panel {
+  std::string title;
+  Axis x{.label = "x [m]", .range = {}};
+  Axis y{.label = "y [m]", .range = {}};
+  bool equal_aspect = true;  ///< a metre is as long in x as in y: ranges grow to fill the box
+  std::vector<Item> items;
+};
+
+/// A swatch with a text, below the panels: never over the data.
+struct LegendEntry {
+  std::string text;
+  std::optional<Stroke> stroke;
+  Marker marker = Marker::none;
+  Color marker_color = kBlack;
+  double marker_size_pt = 4.0;
+  bool marker_filled = true;
+  std::optional<Color> fill;  ///< a box, for bars and polygons
+  bool arrow = false;         ///< a pose arrow in the stroke's colour
+};
+
+inline constexpr double kSingleColumnIn = 3.5;
+inline constexpr double kDoubleColumnIn = 7.16;
+
+/// Small multiples: panels row by row on a grid. Sizes are those on paper.
+struct Scene {
+  double width_in = kSingleColumnIn;
+  double height_in = 0.0;  ///< 0: as the content needs
+  double max_height_in = 8.5;
+  double font_pt = 8.0;
+  std::string title;
+  std::vector<Panel> panels;
+  int columns = 0;           ///< 0: at most three, chosen by the number of panels
+  bool share_axes = false;   ///< all panels have one range; tick labels stand at the outer edges only
+  double box_aspect = 0.66;  ///< height over width of panels without equal aspect
+  std::vector<LegendEntry> legend;
+  bool scale_bar = false;  ///< a bar of a round length in metres beside the legend
+};
+
+/// The whole scene as bytes of a file. The same scene gives the same bytes in every thread and process.
+/// Throws ConfigError if the font (DejaVu Sans) is not installed, InternalError if a library fails.
+std::string to_svg(const Scene& scene);
+std::string to_pdf(const Scene& scene);
+std::string to_png(const Scene& scene, double dpi = 200.0);
+
 }  // namespace scanbench::render
