@@ -7,6 +7,27 @@
 
 namespace scanbench {
 
+PointMoments PointMoments::of(std::span<const Vec2> points) {
+  PointMoments m;
+  if (points.empty()) return m;
+  const Vec2 origin = points.front();  // so that equal points have moments of exactly zero
+  double sx = 0.0, sy = 0.0;
+  for (const Vec2& p : points) {
+    sx += p.x() - origin.x();
+    sy += p.y() - origin.y();
+  }
+  m.weight_ = static_cast<double>(points.size());
+  m.centroid_ = {origin.x() + sx / m.weight_, origin.y() + sy / m.weight_};
+  for (const Vec2& p : points) {
+    const double x = p.x() - m.centroid_.x();
+    const double y = p.y() - m.centroid_.y();
+    m.sxx_ += x * x;
+    m.sxy_ += x * y;
+    m.syy_ += y * y;
+  }
+  return m;
+}
+
 void PointMoments::add(const Vec2& p, double weight) {
   if (!(weight > 0)) return;
   const Vec2 before = p - centroid_;
@@ -55,9 +76,7 @@ LineFit fit_line(const PointMoments& m) {
 }
 
 LineFit fit_line(std::span<const Vec2> points) {
-  PointMoments moments;
-  for (const Vec2& p : points) moments.add(p);
-  return fit_line(moments);
+  return fit_line(PointMoments::of(points));
 }
 
 }  // namespace scanbench

@@ -10,6 +10,9 @@ namespace scanbench {
 /// Count, mean and central second moments of points, by Welford's update: no difference of large sums. Metres.
 class PointMoments {
  public:
+  PointMoments() = default;
+  /// Of points of equal weight, by two passes: as accurate as the update, without its division per point.
+  static PointMoments of(std::span<const Vec2> points);
   void add(const Vec2& p, double weight = 1.0);
   void add(const PointMoments& other);
 

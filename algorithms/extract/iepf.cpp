@@ -1,0 +1,97 @@
+// Iterative end point fit (IEPF): the chord of a run of points is broken at the farthest point until all are near.
+// Siadat et al. 1997, section 4 and fig. 6; Borges & Aldon 2000, section 2.2.
+//
+// The break point belongs to both halves (p' and p'' of Borges & Aldon): both chords and both fitted lines use it. As
+// support it counts for the second half only, so that supports partition the points.
+#include <cmath>
+
+#include "algorithms/extract/breakpoints.hpp"
+#include "algorithms/extract/chord.hpp"
+#include "core/modules.hpp"
+#include "core/registry.hpp"
+
+namespace scanbench {
+namespace {
+
+using namespace extract;
+
+enum class Threshold { constant, linear };
+
+class Iepf final : public LineExtractor {
+ public:
+  struct Params {
+    double threshold_m = 0.10;
+    Threshold threshold = Threshold::constant;
+    double threshold_per_m = 0.01;
+    Fit fit = Fit::tls;  // the least squares that both papers put behind the grouping
+    bool share_breaks = true;
+    int min_points = 2;
+    double min_length_m = 0.0;
+    double max_gap_m = 0.0;
+    int max_missing_beams = -1;
+
+    static auto fields() {
+      return std::tuple_cat(
+          std::tuple{field("threshold_m", &Params::threshold_m, at_least(0), "m",
+                           "largest distance of a point from the chord of its line"),
+                     choice("threshold", &Params::threshold,
+                            {{Threshold::constant, "constant"}, {Threshold::linear, "linear"}},
+                            "threshold_m, or threshold_m + threshold_per_m * r at the range r of the farthest point"),
+                     field("threshold_per_m", &Params::threshold_per_m, at_least(0), "m/m",
+                           "growth of the linear threshold with range"),
+                     field("share_breaks", &Params::share_breaks,
+                           "whether both lines at a break point are fitted to it; it supports the second in any case")},
+          fit_field<Params>(), support_fields<Params>(), gap_fields<Params>());
+    }
+  };
+
+  explicit Iepf(const Params& params) : params_(params) {}
+
+  ScanLines extract(const Scan& scan, Trace& trace) const override {
+    trace.stage("pre");
+    const ScanPoints points = valid_points(scan);
+    trace.stage("segment");
+    std::vector<PointRun> runs;
+    runs.reserve(64);
+    std::vector<PointRun> pending;
+    pending.reserve(64);
+    for (const PointRun& whole : runs_between_gaps(points, {params_.max_gap_m, params_.max_missing_beams}))
+      split(scan, points, whole, pending, runs);
+    trace.stage("post");
+    return lines_of_runs(scan, points, runs, params_.fit, {params_.min_points, params_.min_length_m});
+  }
+
+ private:
+  void split(const Scan& scan, const ScanPoints& points, const PointRun& whole, std::vector<PointRun>& pending,
+             std::vector<PointRun>& runs) const {
+    pending.assign(1, whole);
+    while (!pending.empty()) {
+      const PointRun run = pending.back();
+      pending.pop_back();
+      if (run.last - run.first >= 2) {
+        const Farthest far = farthest_from_chord(points.points, run);
+        double t = params_.threshold_m;
+        if (params_.threshold == Threshold::linear)
+          t += params_.threshold_per_m *
+               scan.ranges[static_cast<std::size_t>(points.beams[static_cast<std::size_t>(far.index)])];
+        if (far.exceeds(t)) {
+          pending.push_back({far.index, run.last});
+          pending.push_back({run.first, far.index});  // on top: lines come out in scan order
+          continue;
+        }
+      }
+      runs.push_back(run);
+      if (!params_.share_breaks && run.last < whole.last) --runs.back().last;
+    }
+  }
+
+  Params params_;
+};
+
+const bool registered = Registry<LineExtractor>::add<Iepf>(
+    {.name = "iepf",
+     .summary = "Iterative end point fit: splits at the point farthest from the chord",
+     .reference = "Siadat et al. 1997, section 4, fig. 6; Borges & Aldon 2000, section 2.2"});
+
+}  // namespace
+}  // namespace scanbench

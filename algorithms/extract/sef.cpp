@@ -1,0 +1,126 @@
+// Successive edge following (SEF): a line ends where two neighbouring returns lie too far apart.
+// Siadat et al. 1997, section 4 and fig. 4 (differences of ranges); Borges & Aldon 2000, section 2.1 (distances of
+// points); Borges & Aldon 2004, section 3.1 (the adaptive threshold).
+#include <cmath>
+
+#include "algorithms/extract/breakpoints.hpp"
+#include "core/modules.hpp"
+#include "core/portable_math.hpp"
+#include "core/registry.hpp"
+
+namespace scanbench {
+namespace {
+
+using namespace extract;
+
+enum class Variant { ranges, points };
+enum class Threshold { constant, linear, incidence, adaptive };
+
+class Sef final : public LineExtractor {
+ public:
+  struct Params {
+    Variant variant = Variant::ranges;
+    double threshold_m = 0.12;  // the row of Siadat's tables 1 and 2 that is rated best
+    Threshold threshold = Threshold::constant;
+    double threshold_per_m = 0.01;
+    double beta_min_rad = radians(10.0);
+    double lambda_rad = radians(10.0);
+    Fit fit = Fit::tls;
+    int min_points = 2;
+    double min_length_m = 0.0;
+    double max_gap_m = 0.0;
+    int max_missing_beams = -1;
+
+    static auto fields() {
+      return std::tuple_cat(
+          std::tuple{
+              choice("variant", &Params::variant, {{Variant::ranges, "ranges"}, {Variant::points, "points"}},
+                     "what is compared with the threshold: the difference of neighbouring ranges (Siadat et al. 1997) "
+                     "or the distance of neighbouring points (Borges & Aldon 2000)"),
+              field("threshold_m", &Params::threshold_m, at_least(0), "m",
+                    "largest difference or distance inside a line; not used by the adaptive threshold"),
+              choice("threshold", &Params::threshold,
+                     {{Threshold::constant, "constant"},
+                      {Threshold::linear, "linear"},
+                      {Threshold::incidence, "incidence"},
+                      {Threshold::adaptive, "adaptive"}},
+                     "threshold at the smaller range r of two neighbours: threshold_m; threshold_m + threshold_per_m * "
+                     "r; threshold_m + r * beam step * cot(beta_min_rad), which a plane met at a larger angle does not "
+                     "exceed; or the adaptive breakpoint detector of Borges & Aldon 2004"),
+              field("threshold_per_m", &Params::threshold_per_m, at_least(0), "m/m",
+                    "growth of the linear threshold with range"),
+              field("beta_min_rad", &Params::beta_min_rad, between(0.001, 1.57), "rad",
+                    "incidence threshold: smallest angle between beam and surface at which a noise-free plane stays "
+                    "whole")},
+          lambda_field<Params>(), fit_field<Params>(), support_fields<Params>(), gap_fields<Params>());
+    }
+  };
+
+  explicit Sef(const Params& params) : params_(params), adaptive_(params.lambda_rad) {
+    const auto [s, c] = portable::sincos(params.beta_min_rad);
+    cot_beta_min_ = c / s;
+  }
+
+  ScanLines extract(const Scan& scan, Trace& trace) const override {
+    trace.stage("pre");
+    const ScanPoints points = valid_points(scan);
+    trace.stage("segment");
+    const std::vector<PointRun> runs = group(scan, points);
+    trace.stage("post");
+    return lines_of_runs(scan, points, runs, params_.fit, {params_.min_points, params_.min_length_m});
+  }
+
+ private:
+  std::vector<PointRun> group(const Scan& scan, const ScanPoints& points) const {
+    const GapRules gaps{params_.max_gap_m, params_.max_missing_beams};
+    std::vector<PointRun> runs;
+    runs.reserve(64);
+    for (const PointRun& whole : runs_between_gaps(points, gaps)) {
+      int first = whole.first;
+      for (int i = whole.first; i < whole.last; ++i) {
+        if (!ends_after(scan, points, static_cast<std::size_t>(i))) continue;
+        runs.push_back({first, i});
+        first = i + 1;
+      }
+      runs.push_back({first, whole.last});
+    }
+    return runs;
+  }
+
+  bool ends_after(const Scan& scan, const ScanPoints& points, std::size_t i) const {
+    const int beam = points.beams[i];
+    const int next = points.beams[i + 1];
+    const double r = scan.ranges[static_cast<std::size_t>(beam)];
+    const double r_next = scan.ranges[static_cast<std::size_t>(next)];
+    const double t = threshold(scan, beam, next, r < r_next ? r : r_next);
+    if (params_.variant == Variant::ranges) return std::fabs(r_next - r) > t;
+    return (points.points[i + 1] - points.points[i]).squaredNorm() > t * t;
+  }
+
+  double threshold(const Scan& scan, int beam, int next, double r) const {
+    switch (params_.threshold) {
+      case Threshold::constant:
+        break;
+      case Threshold::linear:
+        return params_.threshold_m + params_.threshold_per_m * r;
+      case Threshold::incidence:
+        return params_.threshold_m + r * std::fabs(scan.sensor.geometry.angle_step()) * (next - beam) * cot_beta_min_;
+      case Threshold::adaptive:
+        return adaptive_.max_distance(scan, beam, next);
+    }
+    return params_.threshold_m;
+  }
+
+  Params params_;
+  AdaptiveBreakpoint adaptive_;
+  double cot_beta_min_ = 0.0;
+};
+
+const bool registered =
+    Registry<LineExtractor>::add<Sef>({.name = "sef",
+                                       .summary = "Successive edge following: breaks where neighbouring ranges jump",
+                                       .reference = "Siadat et al. 1997, section 4, fig. 4; the variant on points: "
+                                                    "Borges & Aldon 2000, section 2.1"});
+
+}  // namespace
+}  // namespace scanbench
