@@ -23,6 +23,7 @@ struct ModuleChoice {
 struct PipelineSpec {
   std::string name;
   std::vector<ModuleChoice> slots;  ///< in the order of the chain: extract -> (align | match) -> (map | merge)
+  std::string published;            ///< the method's name in Scenario::published_file; may be empty
 };
 
 /// Scans come from a simulated world ...
@@ -60,6 +61,7 @@ struct Scenario {
   std::vector<PipelineSpec> pipelines;
   std::vector<ModuleChoice> metrics;
   std::vector<ModuleChoice> figures;
+  std::filesystem::path published_file;  ///< values that a paper prints, shown beside ours; empty: none (key `published`)
   Limits limits;
 };
 

@@ -1,0 +1,27 @@
+// Summaries of a metric over seeds, with intervals that keep their promise for few seeds.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace scanbench::harness {
+
+/// A mean with a 95 % confidence interval; low = high = mean for fewer than two values, all NaN for none.
+struct Interval {
+  double mean;
+  double low;
+  double high;
+  std::int64_t count;
+
+  double half_width() const { return 0.5 * (high - low); }
+};
+
+/// The wider, at each end, of Student's t interval and a seeded bias-corrected and accelerated bootstrap (Efron 1987):
+/// the percentile bootstrap alone covers too little below some twenty seeds. NaN values are left out.
+Interval mean_interval(std::span<const double> values);
+
+double median(std::span<const double> values);  ///< NaN values left out; NaN for none
+double pearson_correlation(std::span<const double> x,
+                           std::span<const double> y);  ///< NaN for fewer than two pairs or no spread
+
+}  // namespace scanbench::harness

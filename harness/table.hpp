@@ -1,0 +1,42 @@
+// Tables for people: the same table as text on a terminal, Markdown and HTML.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace scanbench::harness {
+
+struct TableCell {
+  std::string text;
+  bool best = false;       ///< the best of its row or column
+  bool published = false;  ///< from a paper, not computed here
+};
+
+struct TableColumn {
+  std::string group;  ///< heading over neighbouring columns of the same group; may be empty
+  std::string head;
+  bool published = false;
+};
+
+struct Table {
+  std::string id;  ///< anchor, file name
+  std::string title;
+  std::string caption;
+  std::vector<std::string> row_heads;  ///< headings of the leading text columns
+  std::vector<TableColumn> columns;
+  struct Row {
+    std::vector<std::string> heads;
+    std::vector<TableCell> cells;
+    bool published = false;
+  };
+  std::vector<Row> rows;
+};
+
+std::string to_terminal(const Table& table, bool color);
+std::string to_markdown(const Table& table);
+std::string to_html(const Table& table);
+
+/// The five characters that HTML and XML reserve, escaped.
+std::string html_escaped(const std::string& text);
+
+}  // namespace scanbench::harness
