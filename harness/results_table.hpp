@@ -23,6 +23,8 @@ struct SummaryRow {
   std::int64_t count = 0;
 };
 
+std::vector<SummaryRow> load_summary(const std::filesystem::path& path);
+
 /// A value that a paper prints, by the paper's name of the method.
 struct PublishedValue {
   std::string metric;

@@ -1,0 +1,30 @@
+// Everything that is registered, whatever its kind: what `list`, `describe` and docs/modules.md show.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/params.hpp"
+#include "core/registry.hpp"
+
+namespace scanbench::harness {
+
+struct CatalogEntry {
+  std::string kind;  ///< extract, merge, match, align, map, metrics, figure, trajectory, sensor
+  ModuleInfo info;
+  std::vector<ParamSpec> params;
+  std::vector<std::string> notes;  ///< further lines: the rows of a metric family
+};
+
+/// By kind, then by name.
+std::vector<CatalogEntry> catalog();
+
+/// The entries of that name (or "kind/name"). Throws ConfigError, naming the nearest, if there are none.
+std::vector<CatalogEntry> find_in_catalog(const std::string& name);
+
+std::string describe_text(const CatalogEntry& entry);
+std::string catalog_text(const std::vector<CatalogEntry>& entries);
+std::string catalog_markdown(const std::vector<CatalogEntry>& entries);
+std::string catalog_json(const std::vector<CatalogEntry>& entries);
+
+}  // namespace scanbench::harness
