@@ -35,19 +35,19 @@ struct Stroke {
 // ---- items of a panel, in data coordinates, drawn in order; those with non-finite coordinates are left out
 
 struct Lines {
-  std::vector<Segment> segments;
-  Stroke stroke;
+  std::vector<Segment> segments{};
+  Stroke stroke{};
 };
 
 /// A point that is not finite breaks the line.
 struct Polyline {
-  std::vector<Vec2> points;
-  Stroke stroke;
+  std::vector<Vec2> points{};
+  Stroke stroke{};
   bool closed = false;
 };
 
 struct Points {
-  std::vector<Vec2> points;
+  std::vector<Vec2> points{};
   Marker marker = Marker::dot;
   Color color = kBlack;
   double size_pt = 1.0;
@@ -55,9 +55,9 @@ struct Points {
 };
 
 struct Polygon {
-  std::vector<Vec2> points;
+  std::vector<Vec2> points{};
   Color fill = kFaint;
-  std::optional<Stroke> outline;
+  std::optional<Stroke> outline{};
 };
 
 /// A circle if the semi-axes are equal.
@@ -65,14 +65,14 @@ struct Ellipse {
   Vec2 center = Vec2::Zero();
   Vec2 semi_axes = Vec2::Ones();
   double angle_rad = 0.0;  ///< of the first semi-axis
-  Stroke stroke;
-  std::optional<Color> fill;
+  Stroke stroke{};
+  std::optional<Color> fill{};
 };
 
 /// Text beside a point. `offset_pt` points from there to the nearest edge of the text, y up.
 struct Text {
   Vec2 at = Vec2::Zero();
-  std::string text;
+  std::string text{};
   Vec2 offset_pt{0.0, 3.0};
   Color color = kBlack;
   double scale = 1.0;   ///< times the scene's font size
@@ -82,14 +82,14 @@ struct Text {
 
 /// A pose: a dot at its origin and an arrow along its x axis, of a length on paper.
 struct Arrow {
-  Pose2 pose;
+  Pose2 pose{};
   double length_pt = 14.0;
-  Stroke stroke;
+  Stroke stroke{};
 };
 
 /// Vertical bars from `base` to y.
 struct Bars {
-  std::vector<Vec2> tops;
+  std::vector<Vec2> tops{};
   double width = 0.8;  ///< in data units of x
   double base = 0.0;
   Color fill = kGrey;
@@ -97,16 +97,16 @@ struct Bars {
 
 /// Vertical intervals [low, high] at x with end caps.
 struct ErrorBars {
-  std::vector<std::array<double, 3>> intervals;  ///< x, low, high
-  Stroke stroke;
+  std::vector<std::array<double, 3>> intervals{};  ///< x, low, high
+  Stroke stroke{};
   double cap_pt = 4.0;
 };
 
 using Item = std::variant<Lines, Polyline, Points, Polygon, Ellipse, Text, Arrow, Bars, ErrorBars>;
 
 struct Axis {
-  std::string label;                                    ///< with its unit: "x [m]"
-  std::optional<std::pair<double, double>> range;       ///< absent: from the items, with a margin
+  std::string label{};                                  ///< with its unit: "x [m]"
+  std::optional<std::pair<double, double>> range{};     ///< absent: from the items, with a margin
   bool log = false;                                     ///< decades; values <= 0 are left out
   std::vector<std::pair<double, std::string>> ticks{};  ///< absent: round numbers
   bool grid = true;
@@ -114,23 +114,23 @@ struct Axis {
 
 /// One set of axes with its items.
 struct Panel {
-  std::string title;
-  Axis x{.label = "x [m]", .range = {}};
-  Axis y{.label = "y [m]", .range = {}};
+  std::string title{};
+  Axis x{.label = "x [m]"};
+  Axis y{.label = "y [m]"};
   bool equal_aspect = true;  ///< a metre is as long in x as in y: ranges grow to fill the box
-  std::vector<Item> items;
+  std::vector<Item> items{};
 };
 
 /// A swatch with a text, below the panels: never over the data.
 struct LegendEntry {
-  std::string text;
-  std::optional<Stroke> stroke;
+  std::string text{};
+  std::optional<Stroke> stroke{};
   Marker marker = Marker::none;
   Color marker_color = kBlack;
   double marker_size_pt = 4.0;
   bool marker_filled = true;
-  std::optional<Color> fill;  ///< a box, for bars and polygons
-  bool arrow = false;         ///< a pose arrow in the stroke's colour
+  std::optional<Color> fill{};  ///< a box, for bars and polygons
+  bool arrow = false;           ///< a pose arrow in the stroke's colour
 };
 
 inline constexpr double kSingleColumnIn = 3.5;
@@ -142,12 +142,12 @@ struct Scene {
   double height_in = 0.0;  ///< 0: as the content needs
   double max_height_in = 8.5;
   double font_pt = 8.0;
-  std::string title;
-  std::vector<Panel> panels;
+  std::string title{};
+  std::vector<Panel> panels{};
   int columns = 0;           ///< 0: at most three, chosen by the number of panels
   bool share_axes = false;   ///< all panels have one range; tick labels stand at the outer edges only
   double box_aspect = 0.66;  ///< height over width of panels without equal aspect
-  std::vector<LegendEntry> legend;
+  std::vector<LegendEntry> legend{};
   bool scale_bar = false;  ///< a bar of a round length in metres beside the legend
 };
 

@@ -1,0 +1,60 @@
+// What the figures share: where frames stand in the world, their points, and the looks of recurring things.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/figure.hpp"
+#include "render/palette.hpp"
+
+namespace scanbench::render {
+
+/// Looks that are the same in every figure.
+inline constexpr Color kWallColor = kBlack;
+inline constexpr Color kScanColor = kBlue;
+inline constexpr Color kPathColor = kVermillion;
+inline const Color kTruthUnderlay{205, 205, 205};  ///< true walls behind coloured lines
+inline const Color kFaintPoints{175, 175, 175};
+
+/// How many segments or points all panels of one figure may show: an SVG of them stays below a megabyte.
+inline constexpr std::size_t kSegmentBudget = 14000;
+inline constexpr std::size_t kPointBudget = 9000;
+
+/// The frame to show: `wanted`, -1 for the middle one, the last one if there are fewer. The recording has frames.
+std::size_t shown_frame(const Recording& recording, int wanted);
+
+enum class PoseSource { estimated, truth, odometry };
+std::string to_string(PoseSource source);  ///< "estimated poses", "true poses", "odometry"
+
+/// World poses of all frames: estimated ones if the result has them, else true ones, else odometry. `result` may be
+/// nullptr.
+struct PlacedFrames {
+  PoseSource source = PoseSource::odometry;
+  std::vector<Pose2> world_from_sensor;
+};
+PlacedFrames place_frames(const Recording& recording, const PipelineResult* result);
+
+/// World points of the valid returns of one frame, sensor frame if the pose is the identity.
+std::vector<Vec2> frame_points(const Recording& recording, std::size_t frame, const Pose2& world_from_sensor);
+
+/// At most `budget` points, evenly taken from the valid returns of all frames.
+std::vector<Vec2> all_points(const Recording& recording, std::span<const Pose2> world_from_sensor, std::size_t budget);
+
+/// Positions of poses; their path as a line, dots where the sensor was placed.
+Polyline path_of(std::span<const Pose2> poses, const Stroke& stroke);
+
+/// True walls as seen from a frame (identity: world frame); empty without truth.
+std::vector<Segment> true_walls(const Recording& recording, const Pose2& frame_from_world);
+
+/// Axis ranges of the bulk of the points: a few far outliers do not shrink the rest. Absent if the points are few or
+/// have no outliers.
+void set_robust_ranges(Panel& panel, const std::vector<Vec2>& points);
+
+/// A scene of small multiples for `panels` panels: width and columns.
+Scene small_multiples(std::size_t panels);
+
+/// "1 line", "3 lines".
+std::string counted(std::size_t n, const std::string& noun);
+
+}  // namespace scanbench::render

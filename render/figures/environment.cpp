@@ -1,0 +1,111 @@
+// The world as it is and one scan of it: walls with their labels, the way, its named points, the returns of one pose.
+// Of a recorded log: the points of all scans in place of walls.
+#include <fmt/format.h>
+
+#include "core/registry.hpp"
+#include "render/figures/common.hpp"
+
+namespace scanbench::render {
+namespace {
+
+constexpr std::size_t kMostLabels = 60;  // more cannot be read at a column's width
+
+class Environment : public Figure {
+ public:
+  struct Params {
+    int frame = -1;
+    double width_in = kSingleColumnIn;
+    bool scan = true;
+    static auto fields() {
+      return std::tuple{
+          field("frame", &Params::frame, at_least(-1), "", "frame whose scan is shown, from 0; -1: the middle one"),
+          field("width_in", &Params::width_in, between(2, 20), "in", "width on paper: 3.5 one column, 7.16 two"),
+          field("scan", &Params::scan, "show the points of one scan and its pose")};
+    }
+  };
+  explicit Environment(const Params& params) : params_(params) {}
+
+  std::vector<NamedScene> draw(const FigureInput& input) const override {
+    const Recording& recording = input.recording;
+    const bool has_frames = !recording.observed.frames.empty();
+    const bool has_walls = recording.truth && !recording.truth->walls.empty();
+    if (!has_frames && !has_walls) return {};
+    Scene scene{.width_in = params_.width_in, .title = input.title, .scale_bar = true};
+    Panel panel;
+    std::string caption = input.title + ":";
+
+    const PlacedFrames placed = place_frames(recording, nullptr);
+    if (has_walls) {
+      add_walls(*recording.truth, panel, scene);
+      caption += " walls with their labels";
+    } else {
+      const std::vector<Vec2> points = all_points(recording, placed.world_from_sensor, kPointBudget);
+      set_robust_ranges(panel, points);
+      panel.items.emplace_back(Points{.points = points, .color = kFaintPoints, .size_pt = 0.8});
+      scene.legend.push_back(
+          {.text = "points of all scans", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.0});
+      caption += " points of all scans";
+    }
+    if (has_frames) {
+      const Stroke stroke{kPathColor, 0.7, Dash::solid};
+      panel.items.emplace_back(path_of(placed.world_from_sensor, stroke));
+      scene.legend.push_back(
+          {.text = placed.source == PoseSource::truth ? "trajectory" : "odometry", .stroke = stroke});
+      caption += fmt::format(", {} of {} scans", placed.source == PoseSource::truth ? "trajectory" : "odometry",
+                             recording.observed.frames.size());
+    }
+    if (has_frames && params_.scan) {
+      const std::size_t frame = shown_frame(recording, params_.frame);
+      add_scan(recording, frame, placed.world_from_sensor[frame], panel, scene);
+      caption += fmt::format(", and the returns of scan {} with the pose of the sensor", frame + 1);
+    }
+    add_waypoints(input.waypoints, panel, scene);
+    scene.panels.push_back(std::move(panel));
+    return {{"environment", caption + ".", std::move(scene)}};
+  }
+
+ private:
+  static void add_walls(const Truth& truth, Panel& panel, Scene& scene) {
+    Lines walls{.stroke = {kWallColor, 1.2, Dash::solid}};
+    for (const Wall& wall : truth.walls) walls.segments.push_back(wall.segment);
+    panel.items.emplace_back(std::move(walls));
+    scene.legend.push_back({.text = "walls", .stroke = Stroke{kWallColor, 1.2, Dash::solid}});
+    if (truth.walls.size() > kMostLabels) return;
+    for (const Wall& wall : truth.walls) {
+      const Vec2 behind = -perpendicular(wall.segment.direction());  // free space is on the left
+      panel.items.emplace_back(
+          Text{.at = wall.segment.midpoint(), .text = wall.label, .offset_pt = 2.6 * behind, .scale = 0.88});
+    }
+  }
+
+  static void add_scan(const Recording& recording, std::size_t frame, const Pose2& pose, Panel& panel, Scene& scene) {
+    panel.items.emplace_back(
+        Points{.points = frame_points(recording, frame, pose), .color = kScanColor, .size_pt = 1.5});
+    panel.items.emplace_back(Arrow{.pose = pose, .length_pt = 15, .stroke = {kScanColor, 1.0, Dash::solid}});
+    scene.legend.push_back(
+        {.text = "one scan", .marker = Marker::dot, .marker_color = kScanColor, .marker_size_pt = 2.4});
+    scene.legend.push_back({.text = "its pose", .stroke = Stroke{kScanColor, 1.0, Dash::solid}, .arrow = true});
+  }
+
+  static void add_waypoints(const NamedPoints& waypoints, Panel& panel, Scene& scene) {
+    if (waypoints.empty()) return;
+    Points marks{.marker = Marker::circle, .color = kPathColor, .size_pt = 4.2, .filled = false};
+    for (const auto& [name, point] : waypoints) marks.points.push_back(point);
+    panel.items.emplace_back(std::move(marks));
+    for (const auto& [name, point] : waypoints)
+      panel.items.emplace_back(Text{.at = point, .text = name, .offset_pt = {2.8, 2.8}, .color = kPathColor});
+    scene.legend.push_back({.text = "waypoints",
+                            .marker = Marker::circle,
+                            .marker_color = kPathColor,
+                            .marker_size_pt = 4.2,
+                            .marker_filled = false});
+  }
+
+  Params params_;
+};
+
+const bool registered = Registry<Figure>::add<Environment>(
+    {.name = "environment", .summary = "walls with labels, trajectory, waypoints and one scan", .reference = ""});
+
+}  // namespace
+}  // namespace scanbench::render

@@ -1,0 +1,62 @@
+// All lines of all frames, placed in the world by the poses that the pipeline had: small multiples.
+#include <fmt/format.h>
+
+#include "core/registry.hpp"
+#include "render/figures/common.hpp"
+
+namespace scanbench::render {
+namespace {
+
+class LinesWorld : public Figure {
+ public:
+  using Params = NoParams;
+  explicit LinesWorld(const Params&) {}
+
+  std::vector<NamedScene> draw(const FigureInput& input) const override {
+    const Recording& recording = input.recording;
+    std::size_t total = 0;
+    for (const auto& [pipeline, result] : input.results)
+      for (const ScanLines& lines : result->lines) total += lines.lines.size();
+    if (recording.observed.frames.empty() || total == 0) return {};
+    const std::size_t stride = (total + kSegmentBudget - 1) / kSegmentBudget;
+
+    Scene scene = small_multiples(input.results.size());
+    scene.title = input.title + ": lines of all scans";
+    const Stroke wall_stroke{kTruthUnderlay, 2.6, Dash::solid}, path_stroke{kGrey, 0.5, Dash::dotted};
+    std::vector<Vec2> ends;
+    for (std::size_t i = 0; i < input.results.size(); ++i) {
+      const auto& [pipeline, result] = input.results[i];
+      const PlacedFrames placed = place_frames(recording, result);
+      Panel panel;
+      if (recording.truth) panel.items.emplace_back(Lines{true_walls(recording, Pose2()), wall_stroke});
+      panel.items.emplace_back(path_of(placed.world_from_sensor, path_stroke));
+      Lines lines{.stroke = {method_style(i).color, 0.45, Dash::solid}};
+      std::size_t found = 0;
+      for (std::size_t f = 0; f < std::min(result->lines.size(), placed.world_from_sensor.size()); ++f) {
+        found += result->lines[f].lines.size();
+        if (f % stride != 0) continue;
+        for (const LineFeature& line : result->lines[f].lines)
+          lines.segments.push_back(placed.world_from_sensor[f] * line.segment);
+      }
+      for (const Segment& s : lines.segments) ends.insert(ends.end(), {s.a, s.b});
+      panel.title = fmt::format("{}: {}, {}", pipeline, counted(found, "line"), to_string(placed.source));
+      panel.items.emplace_back(std::move(lines));
+      scene.panels.push_back(std::move(panel));
+    }
+    if (!recording.truth)
+      for (Panel& panel : scene.panels) set_robust_ranges(panel, ends);
+    if (recording.truth) scene.legend.push_back({.text = "true walls", .stroke = wall_stroke});
+    scene.legend.push_back({.text = "lines found", .stroke = Stroke{method_style(0).color, 0.8, Dash::solid}});
+    scene.legend.push_back({.text = "path of the sensor", .stroke = path_stroke});
+    const std::string thinned = stride > 1 ? fmt::format(" Only one scan in {} is drawn.", stride) : "";
+    return {{"lines_world",
+             input.title + ": the lines found in all scans, placed by the poses of each pipeline." + thinned,
+             std::move(scene)}};
+  }
+};
+
+const bool registered = Registry<Figure>::add<LinesWorld>(
+    {.name = "lines_world", .summary = "the lines of all scans, placed in the world", .reference = ""});
+
+}  // namespace
+}  // namespace scanbench::render

@@ -1,0 +1,63 @@
+// The line map of each pipeline that makes one, over the points it was made from: small multiples.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/registry.hpp"
+#include "render/figures/common.hpp"
+
+namespace scanbench::render {
+namespace {
+
+class Map : public Figure {
+ public:
+  using Params = NoParams;
+  explicit Map(const Params&) {}
+
+  std::vector<NamedScene> draw(const FigureInput& input) const override {
+    const Recording& recording = input.recording;
+    const auto has_map = [](const NamedResult& r) { return !r.result->map.lines.empty(); };
+    const auto maps = static_cast<std::size_t>(std::count_if(input.results.begin(), input.results.end(), has_map));
+    if (maps == 0) return {};
+
+    Scene scene = small_multiples(maps);
+    scene.title = input.title + ": line maps";
+    std::vector<Vec2> ends;
+    Color first_color = kBlack;
+    for (std::size_t i = input.results.size(); i-- > 0;)
+      if (has_map(input.results[i])) first_color = method_style(i).color;
+    for (std::size_t i = 0; i < input.results.size(); ++i) {
+      if (!has_map(input.results[i])) continue;
+      const auto& [pipeline, result] = input.results[i];
+      const PlacedFrames placed = place_frames(recording, result);
+      Panel panel;
+      panel.title = pipeline + ": " + counted(result->map.lines.size(), "line");
+      panel.items.emplace_back(Points{.points = all_points(recording, placed.world_from_sensor, kPointBudget / maps),
+                                      .color = kFaintPoints,
+                                      .size_pt = 0.8});
+      Lines lines{.stroke = {method_style(i).color, 1.2, Dash::solid}};
+      Points tips{.marker = Marker::circle, .color = lines.stroke.color, .size_pt = 2.4};
+      for (const MapLine& line : result->map.lines) {
+        lines.segments.push_back(line.segment);
+        tips.points.insert(tips.points.end(), {line.segment.a, line.segment.b});
+      }
+      ends.insert(ends.end(), tips.points.begin(), tips.points.end());
+      panel.items.emplace_back(std::move(lines));
+      if (tips.points.size() <= 400) panel.items.emplace_back(std::move(tips));  // more would hide the lines
+      panel.items.emplace_back(path_of(placed.world_from_sensor, {kGrey, 0.5, Dash::dotted}));
+      if (!recording.truth) set_robust_ranges(panel, std::get<Points>(panel.items[0]).points);
+      scene.panels.push_back(std::move(panel));
+    }
+    scene.legend.push_back(
+        {.text = "points of all scans", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.0});
+    scene.legend.push_back({.text = "lines of the map", .stroke = Stroke{first_color, 1.2, Dash::solid}});
+    scene.legend.push_back({.text = "path of the sensor", .stroke = Stroke{kGrey, 0.5, Dash::dotted}});
+    return {{"map", input.title + ": the line map of each pipeline over the points of all scans.", std::move(scene)}};
+  }
+};
+
+const bool registered = Registry<Figure>::add<Map>(
+    {.name = "map", .summary = "the line map of each pipeline over the points of all scans", .reference = ""});
+
+}  // namespace
+}  // namespace scanbench::render

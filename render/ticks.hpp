@@ -1,0 +1,26 @@
+// Round numbers for axes and scale bars.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace scanbench::render {
+
+struct Tick {
+  double value = 0.0;
+  std::string label;
+  bool operator==(const Tick&) const = default;
+};
+
+/// The largest of 1, 2, 5 x 10^k that is <= x. x must be positive and finite.
+double round_below(double x);
+
+/// Multiples of 1, 2 or 5 x 10^k inside [low, high], at most about `count` (>= 1), with as many decimals as the step
+/// needs. Empty unless low < high, both finite.
+std::vector<Tick> linear_ticks(double low, double high, int count);
+
+/// Powers of ten inside [low, high], thinned to about `count`; 1, 2, 5 within the decades if there are fewer than two.
+/// Empty unless 0 < low < high, both finite.
+std::vector<Tick> log_ticks(double low, double high, int count);
+
+}  // namespace scanbench::render
