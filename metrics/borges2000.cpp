@@ -1,0 +1,186 @@
+// borges2000: how often each wall is broken up and how well its lines fit it (Borges & Aldon, "A split-and-merge
+// segmentation algorithm for line extraction in 2-D range images", ICPR 2000, section 4).
+//
+// Where the paper is silent: lines are compared in the world frame (its tables cannot be had otherwise), the difference
+// of two lines is taken on the circle and across rho = 0, N and eta are averaged over the scans in which the wall has a
+// line (the tables contain N = 1.00), and the errors are pooled over the valid lines (line 3 of LT allows nothing
+// else).
+#include <cmath>
+#include <map>
+
+#include "core/error.hpp"
+#include "core/registry.hpp"
+#include "metrics/rows.hpp"
+
+namespace scanbench::metrics {
+namespace {
+
+enum class ComparisonFrame { world, sensor };
+
+/// What the scans say about one wall.
+struct WallTally {
+  Mean lines;        ///< N_l over the scans where it is at least 1
+  Mean validity;     ///< eta_l over the same scans
+  Mean rho_error;    ///< over valid lines
+  Mean alpha_error;  ///< over valid lines
+  Mean missed;       ///< over the scans that see the wall: 1 if it has no line there
+};
+
+/// N_l and M_l of one scan.
+struct ScanTally {
+  int points = 0;
+  int lines = 0;
+  int valid = 0;
+};
+
+class Borges2000 : public MetricFamily {
+ public:
+  struct Params {
+    ComparisonFrame frame = ComparisonFrame::world;
+    int min_points = 2;
+    double rho_tolerance_m = 0.5;
+    double alpha_tolerance_deg = 20.0;
+    static auto fields() {
+      return std::tuple{
+          choice("frame", &Params::frame, {{ComparisonFrame::world, "world"}, {ComparisonFrame::sensor, "sensor"}},
+                 "frame in which (rho, alpha) of lines and walls are compared"),
+          field("min_points", &Params::min_points, at_least(1), "", "support points below which a line is passed over"),
+          field("rho_tolerance_m", &Params::rho_tolerance_m, above(0), "m", "largest error in rho of a valid line"),
+          field("alpha_tolerance_deg", &Params::alpha_tolerance_deg, between(0.001, 90), "deg",
+                "largest error in alpha of a valid line")};
+    }
+  };
+
+  explicit Borges2000(const Params& params) : params_(params) {}
+
+  std::vector<MetricDescription> describe() const override {
+    using enum Direction;
+    return {{"n_lines", "", lower_is_better, 0.05,
+             "lines that a wall is broken into, mean over the scans where it has one; subject: the wall, or mean over "
+             "walls"},
+            {"eta", "", higher_is_better, 0.02, "share of valid lines among a wall's lines, mean over the same scans"},
+            {"eps_rho", "m", lower_is_better, 0.005, "mean absolute error in rho of a wall's valid lines"},
+            {"eps_alpha", "deg", lower_is_better, 0.2, "mean absolute error in alpha of a wall's valid lines"},
+            {"missed", "", lower_is_better, 0.02,
+             "share of the scans with enough points on a wall in which it has no line"},
+            {"spurious", "", lower_is_better, 0.0, "lines none of whose support points comes from a wall"}};
+  }
+
+  bool applies(const MetricInput& input) const override { return has_beam_truth(input); }
+
+  std::vector<MetricRow> evaluate(const MetricInput& input) const override {
+    SCANBENCH_ASSERT(applies(input));
+    const std::vector<Wall>& walls = input.truth->walls;
+    std::vector<WallTally> tallies(walls.size());
+    std::int64_t considered = 0;
+    std::int64_t spurious = 0;
+    for (std::size_t f = 0; f < input.observed.frames.size(); ++f) add_scan(input, f, tallies, considered, spurious);
+
+    Rows rows(describe());
+    const std::vector<std::string> subjects = wall_subjects(walls);
+    const auto add_metric = [&](std::string_view metric, Mean WallTally::*member) {
+      Mean over_walls;
+      for (std::size_t w = 0; w < walls.size(); ++w) {
+        const Mean& mean = tallies[w].*member;
+        rows.add(metric, subjects[w], mean);
+        if (mean.count() > 0) over_walls.add(mean.value());
+      }
+      rows.add(metric, "mean", over_walls);
+    };
+    add_metric("n_lines", &WallTally::lines);
+    add_metric("eta", &WallTally::validity);
+    add_metric("eps_rho", &WallTally::rho_error);
+    add_metric("eps_alpha", &WallTally::alpha_error);
+    add_metric("missed", &WallTally::missed);
+    rows.add("spurious", kAll, static_cast<double>(spurious), considered);
+    return rows.take();
+  }
+
+ private:
+  void add_scan(const MetricInput& input, std::size_t f, std::vector<WallTally>& tallies, std::int64_t& considered,
+                std::int64_t& spurious) const {
+    const Truth& truth = *input.truth;
+    const ScanLines& found = input.result.lines[f];
+    const Scan scan = input.observed.scan(f);
+    const std::size_t beams = static_cast<std::size_t>(scan.beams());
+    SCANBENCH_ASSERT(found.labels.size() == beams);
+
+    std::vector<ScanTally> scan_tally(truth.walls.size());
+    std::vector<std::map<int, int>> origins(found.lines.size());  // per line: wall -> support points from it
+    std::vector<int> support(found.lines.size(), 0);
+    for (std::size_t i = 0; i < beams; ++i) {
+      const int wall = truth.wall_ids[f * beams + i];
+      const int line = found.labels[i];
+      if (wall >= 0 && scan.valid(static_cast<int>(i))) ++scan_tally[static_cast<std::size_t>(wall)].points;
+      if (line < 0) continue;
+      ++support[static_cast<std::size_t>(line)];
+      if (wall >= 0) ++origins[static_cast<std::size_t>(line)][wall];
+    }
+
+    for (std::size_t k = 0; k < found.lines.size(); ++k) {
+      // Extractors that give a break point to both of its lines label it once: their own count is the larger one.
+      if (std::max(support[k], found.lines[k].points) < params_.min_points) continue;
+      ++considered;
+      if (origins[k].empty()) {
+        ++spurious;
+        continue;
+      }
+      const auto [wall, error] = most_similar_wall(truth, f, found.lines[k].line, origins[k]);
+      ScanTally& tally = scan_tally[wall];
+      ++tally.lines;
+      if (error.rho <= params_.rho_tolerance_m && error.alpha <= radians(params_.alpha_tolerance_deg)) {
+        ++tally.valid;
+        tallies[wall].rho_error.add(error.rho);
+        tallies[wall].alpha_error.add(degrees(error.alpha));
+      }
+    }
+
+    for (std::size_t w = 0; w < scan_tally.size(); ++w) {
+      const ScanTally& tally = scan_tally[w];
+      if (tally.lines > 0) {
+        tallies[w].lines.add(tally.lines);
+        tallies[w].validity.add(static_cast<double>(tally.valid) / tally.lines);
+      }
+      if (tally.points >= params_.min_points) tallies[w].missed.add(tally.lines == 0 ? 1.0 : 0.0);
+    }
+  }
+
+  /// The wall that the line belongs to, of those its points come from: nearest in (rho, alpha), each scaled by its
+  /// tolerance; of equals the one with more points, then the lower index.
+  std::pair<std::size_t, LineDifference> most_similar_wall(const Truth& truth, std::size_t f, const PolarLine& line,
+                                                           const std::map<int, int>& origins) const {
+    const Pose2& world_from_sensor = truth.world_from_sensor[f];
+    const bool in_world = params_.frame == ComparisonFrame::world;
+    const PolarLine seen = in_world ? transform(world_from_sensor, line) : line;
+    std::size_t best_wall = 0;
+    LineDifference best_error{};
+    double best = std::numeric_limits<double>::infinity();
+    int best_points = 0;
+    for (const auto& [wall, points] : origins) {
+      const Segment& s = truth.walls[static_cast<std::size_t>(wall)].segment;
+      const PolarLine in_world_frame = line_through(s.a, s.b);
+      const LineDifference error =
+          line_difference(seen, in_world ? in_world_frame : transform(world_from_sensor.inverse(), in_world_frame));
+      const double rho = error.rho / params_.rho_tolerance_m;
+      const double alpha = error.alpha / radians(params_.alpha_tolerance_deg);
+      const double dissimilarity = rho * rho + alpha * alpha;
+      if (best_points == 0 || dissimilarity < best || (dissimilarity == best && points > best_points)) {
+        best_wall = static_cast<std::size_t>(wall);
+        best_error = error;
+        best = dissimilarity;
+        best_points = points;
+      }
+    }
+    return {best_wall, best_error};
+  }
+
+  Params params_;
+};
+
+const bool registered = Registry<MetricFamily>::add<Borges2000>(
+    {.name = "borges2000",
+     .summary = "per wall: lines it is broken into, share of valid ones, errors in rho and alpha",
+     .reference = "Borges & Aldon 2000, section 4"});
+
+}  // namespace
+}  // namespace scanbench::metrics

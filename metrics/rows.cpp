@@ -1,0 +1,43 @@
+// Rows of a metric family.
+#include "metrics/rows.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "core/error.hpp"
+
+namespace scanbench::metrics {
+
+MetricRow& Rows::add(std::string_view metric, std::string_view subject, double value, std::int64_t count) {
+  const auto found =
+      std::ranges::find_if(descriptions_, [&](const MetricDescription& d) { return d.metric == metric; });
+  SCANBENCH_ASSERT(found != descriptions_.end());
+  const bool defined = std::isfinite(value);
+  rows_.push_back({.metric = found->metric,
+                   .subject = std::string(subject),
+                   .value = defined ? value : kUndefined,
+                   .unit = found->unit,
+                   .count = defined ? count : 0,
+                   .ci_low = std::nullopt,
+                   .ci_high = std::nullopt});
+  return rows_.back();
+}
+
+std::vector<std::string> wall_subjects(std::span<const Wall> walls) {
+  std::map<std::string_view, int> uses{{"", 2}, {"mean", 2}, {kAll, 2}};  // names that rows use for something else
+  for (const Wall& wall : walls) ++uses[wall.label];
+  std::vector<std::string> subjects;
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    subjects.push_back(uses[walls[i].label] == 1 ? walls[i].label : walls[i].label + "#" + std::to_string(i));
+  return subjects;
+}
+
+bool has_beam_truth(const MetricInput& input) {
+  if (input.truth == nullptr) return false;
+  const std::size_t frames = input.observed.frames.size();
+  const std::size_t beams = frames * static_cast<std::size_t>(input.observed.sensor.geometry.beams());
+  return input.truth->world_from_sensor.size() == frames && input.truth->wall_ids.size() == beams &&
+         input.truth->ranges.size() == beams && input.result.lines.size() == frames;
+}
+
+}  // namespace scanbench::metrics

@@ -1,0 +1,66 @@
+// What the metric families share: averages that know when they are undefined, and the rows of a table.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "metrics/metric.hpp"
+
+namespace scanbench::metrics {
+
+inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+inline constexpr std::string_view kAll = "all";
+
+/// numerator / denominator; NaN when the denominator is 0.
+inline double ratio(double numerator, double denominator) {
+  return denominator != 0 ? numerator / denominator : kUndefined;
+}
+
+/// Arithmetic mean of weighted observations; NaN without any.
+class Mean {
+ public:
+  void add(double value, double weight = 1.0) {
+    sum_ += weight * value;
+    weight_ += weight;
+    ++count_;
+  }
+  double value() const { return ratio(sum_, weight_); }
+  double root() const { return std::sqrt(value()); }
+  std::int64_t count() const { return count_; }
+
+ private:
+  double sum_ = 0.0;
+  double weight_ = 0.0;
+  std::int64_t count_ = 0;
+};
+
+/// Rows in the order they are added, with the units of the family's own description.
+class Rows {
+ public:
+  explicit Rows(std::vector<MetricDescription> descriptions) : descriptions_(std::move(descriptions)) {}
+
+  /// A value that is not finite becomes NaN with count 0. A metric that the family does not describe is a bug.
+  MetricRow& add(std::string_view metric, std::string_view subject, double value, std::int64_t count);
+  MetricRow& add(std::string_view metric, std::string_view subject, const Mean& mean) {
+    return add(metric, subject, mean.value(), mean.count());
+  }
+  std::vector<MetricRow> take() { return std::move(rows_); }
+
+ private:
+  std::vector<MetricDescription> descriptions_;
+  std::vector<MetricRow> rows_;
+};
+
+/// One subject per wall: its label; walls without one or sharing one are told apart by their index ("door#7").
+std::vector<std::string> wall_subjects(std::span<const Wall> walls);
+
+/// True if there is a truth for every beam of the observed scans and one entry of lines per frame.
+bool has_beam_truth(const MetricInput& input);
+
+}  // namespace scanbench::metrics

@@ -1,0 +1,121 @@
+// segments: found lines against true ones, scan by scan: which are true, split, merged, false, missed, and how exact
+// the true ones are. After the region measures of Hoover et al., "An experimental comparison of range image
+// segmentation algorithms", PAMI 1996, carried over to lines of one scan.
+//
+// A merged line is also true for one of its walls, and the other wall counts as missed. What a body in front of a wall
+// cuts in two is two true lines: one found line across both leaves one of them missed.
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/registry.hpp"
+#include "metrics/line_matching.hpp"
+#include "metrics/rows.hpp"
+
+namespace scanbench::metrics {
+namespace {
+
+class Segments : public MetricFamily {
+ public:
+  struct Params {
+    int min_beams = 9;
+    double min_length_m = 0.5;
+    double max_angle_deg = 10.0;
+    double max_offset_m = 0.15;
+    double min_overlap = 0.5;
+    static auto fields() {
+      return std::tuple{
+          field("min_beams", &Params::min_beams, at_least(2), "", "fewest returns of a true line"),
+          field("min_length_m", &Params::min_length_m, at_least(0), "m",
+                "shortest true line; shorter found lines that match nothing are passed over"),
+          field("max_angle_deg", &Params::max_angle_deg, between(0, 90), "deg", "largest angle of a match"),
+          field("max_offset_m", &Params::max_offset_m, at_least(0), "m",
+                "largest distance of a match's midpoint from the true line"),
+          field("min_overlap", &Params::min_overlap, between(0, 1), "", "share of the shorter line that must overlap")};
+    }
+  };
+
+  explicit Segments(const Params& params) : params_(params) {}
+
+  std::vector<MetricDescription> describe() const override {
+    using enum Direction;
+    return {
+        {"precision", "", higher_is_better, 0.005, "true / (true + false + split)"},
+        {"recall", "", higher_is_better, 0.005, "true / (true + missed)"},
+        {"f1", "", higher_is_better, 0.005, "harmonic mean of precision and recall"},
+        {"split", "", lower_is_better, 0.005, "share of lines that repeat a true line: split / (true + false + split)"},
+        {"merged", "", lower_is_better, 0.005,
+         "share of lines over more than half of two true lines of different walls"},
+        {"sigma_offset", "m", lower_is_better, 0.001,
+         "root mean square distance of true ones' midpoints from the true line"},
+        {"sigma_angle", "deg", lower_is_better, 0.05, "root mean square angle between true ones and the true line"},
+        {"overlap", "", higher_is_better, 0.005, "intersection over union of the extents, mean over true ones"},
+        {"n_true", "", neither, 0.0, "found lines matched with a true line"},
+        {"n_false", "", neither, 0.0, "found lines that match no true line"},
+        {"n_missed", "", neither, 0.0, "true lines without a match"},
+        {"n_split", "", neither, 0.0, "further found lines of a matched true line"},
+        {"n_merged", "", neither, 0.0, "found lines over two true lines of different walls"}};
+  }
+
+  bool applies(const MetricInput& input) const override { return has_beam_truth(input); }
+
+  std::vector<MetricRow> evaluate(const MetricInput& input) const override {
+    SCANBENCH_ASSERT(applies(input));
+    const Surfaces surfaces = join_walls(input.truth->walls);
+    const TrueLineRule which{.min_beams = params_.min_beams, .min_length_m = params_.min_length_m};
+    const MatchRule rule{.max_angle_rad = radians(params_.max_angle_deg),
+                         .max_offset_m = params_.max_offset_m,
+                         .min_overlap = params_.min_overlap,
+                         .min_length_m = params_.min_length_m};
+    std::int64_t n_true = 0, n_false = 0, n_split = 0, n_merged = 0, n_truth = 0;
+    Mean offset2, angle2, iou;
+    for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
+      const std::vector<TrueLine> truths = true_lines(input, f, surfaces, which);
+      const std::vector<LineFeature>& found = input.result.lines[f].lines;
+      const LineMatching matching = match_lines(found, truths, rule);
+      n_truth += std::ssize(truths);
+      n_merged += std::ranges::count(matching.merged, true);
+      n_false += std::ranges::count(matching.outcome, Outcome::false_line);
+      n_split += std::ranges::count(matching.outcome, Outcome::split);
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        if (matching.outcome[k] != Outcome::true_line) continue;
+        ++n_true;
+        const Overlap o = overlap(found[k].segment, truths[static_cast<std::size_t>(matching.truth[k])].segment);
+        offset2.add(o.offset_m * o.offset_m);
+        angle2.add(degrees(o.angle_rad) * degrees(o.angle_rad));
+        iou.add(o.length_m / o.union_m);
+      }
+    }
+
+    const auto number = [](std::int64_t n) { return static_cast<double>(n); };
+    const std::int64_t n_found = n_true + n_false + n_split;
+    const std::int64_t n_missed = n_truth - n_true;
+    Rows rows(describe());
+    rows.add("precision", kAll, ratio(number(n_true), number(n_found)), n_found);
+    rows.add("recall", kAll, ratio(number(n_true), number(n_truth)), n_truth);
+    // 2 / (1/precision + 1/recall), which is 0 and not 0/0 where lines exist but none is true.
+    rows.add("f1", kAll, ratio(2.0 * number(n_true), number(n_found + n_truth)), n_found + n_truth);
+    rows.add("split", kAll, ratio(number(n_split), number(n_found)), n_found);
+    rows.add("merged", kAll, ratio(number(n_merged), number(n_found)), n_found);
+    rows.add("sigma_offset", kAll, offset2.root(), n_true);
+    rows.add("sigma_angle", kAll, angle2.root(), n_true);
+    rows.add("overlap", kAll, iou);
+    rows.add("n_true", kAll, number(n_true), n_found);
+    rows.add("n_false", kAll, number(n_false), n_found);
+    rows.add("n_missed", kAll, number(n_missed), n_truth);
+    rows.add("n_split", kAll, number(n_split), n_found);
+    rows.add("n_merged", kAll, number(n_merged), n_found);
+    return rows.take();
+  }
+
+ private:
+  Params params_;
+};
+
+const bool registered = Registry<MetricFamily>::add<Segments>(
+    {.name = "segments",
+     .summary = "found lines against true ones per scan: precision, recall, splits, merges, errors",
+     .reference = "after Hoover et al. 1996, section 4"});
+
+}  // namespace
+}  // namespace scanbench::metrics

@@ -1,0 +1,195 @@
+// segments: perfect lines, and small errors whose price follows by arithmetic.
+#include "made_up.hpp"
+#include "metrics/line_matching.hpp"
+
+namespace scanbench::test {
+namespace {
+
+using metrics::join_walls;
+
+const std::vector<Wall> kRoom{{"south", {{-3, -2}, {3, -2}}},
+                              {"east", {{3, -2}, {3, 2}}},
+                              {"north", {{3, 2}, {-3, 2}}},
+                              {"west", {{-3, 2}, {-3, -2}}}};
+
+/// 360 beams all around, starting in the corner of south and west, so that no wall is cut by the first beam.
+const ScanGeometry kAllAround(std::atan2(-2.0, -3.0) + 1e-4, radians(1.0), 360);
+
+MadeUpRun room_from_the_middle() {
+  MadeUpRun run = make_run(kAllAround, kRoom);
+  cast_frame(run, {});
+  return run;
+}
+
+std::vector<int> beams_of(const MadeUpRun& run, int wall) {
+  std::vector<int> beams;
+  for (std::size_t i = 0; i < run.truth.wall_ids.size(); ++i)
+    if (run.truth.wall_ids[i] == wall) beams.push_back(static_cast<int>(i));
+  return beams;
+}
+
+Vec2 true_point(const MadeUpRun& run, int beam) {
+  return run.truth.ranges[static_cast<std::size_t>(beam)] * run.observed.sensor.geometry.direction(beam);
+}
+
+TEST(Segments, PerfectLinesScorePerfectly) {
+  MadeUpRun run = make_run(kAllAround, kRoom);
+  cast_frame(run, {});
+  cast_frame(run, Pose2(1.0, 0.5, 0.3));
+  find_all_lines(run, 0);
+  find_all_lines(run, 1);
+  const auto rows = evaluate("segments", run);
+  const auto found = static_cast<std::int64_t>(run.result.lines[0].lines.size() + run.result.lines[1].lines.size());
+  EXPECT_GE(found, 8);
+  for (const char* metric : {"precision", "recall", "overlap"}) expect_value(rows, metric, "all", 1.0, found);
+  expect_value(rows, "f1", "all", 1.0, 2 * found);
+  for (const char* metric : {"split", "merged", "sigma_offset", "sigma_angle"})
+    expect_value(rows, metric, "all", 0.0, found);
+}
+
+TEST(Segments, CountsOneOfEachKind) {
+  MadeUpRun run = room_from_the_middle();
+  const auto south = beams_of(run, 0);
+  const auto east = beams_of(run, 1);
+  const auto at = [&](const std::vector<int>& beams, double share) {
+    const Vec2 a = true_point(run, beams.front());
+    return Vec2(a + share * (true_point(run, beams.back()) - a));
+  };
+  // South in two pieces of 60 % and 40 %, east as a whole, a line through the room, a short stub, north and west not.
+  add_line(run, 0, line_between(at(south, 0.0), at(south, 0.6)), {});
+  add_line(run, 0, line_between(at(south, 0.6), at(south, 1.0)), {});
+  add_line(run, 0, line_between(at(east, 0.0), at(east, 1.0)), {});
+  add_line(run, 0, line_between({-1, 0}, {1, 0.5}), {});
+  add_line(run, 0, line_between({0, 0}, {0.3, 0.3}), {});
+  const auto rows = evaluate("segments", run);
+  expect_value(rows, "n_true", "all", 2, 4);
+  expect_value(rows, "n_split", "all", 1, 4);
+  expect_value(rows, "n_false", "all", 1, 4);
+  expect_value(rows, "n_missed", "all", 2, 4);
+  expect_value(rows, "precision", "all", 2.0 / 4, 4);
+  expect_value(rows, "recall", "all", 2.0 / 4, 4);
+  expect_value(rows, "f1", "all", 0.5, 8);
+  expect_value(rows, "split", "all", 1.0 / 4, 4);
+  expect_value(rows, "overlap", "all", (0.6 + 1.0) / 2, 2);
+}
+
+TEST(Segments, ErrorsAreRootMeanSquaresAtTheFoundLinesMidpoint) {
+  MadeUpRun run = room_from_the_middle();
+  const auto south = beams_of(run, 0);
+  const auto north = beams_of(run, 2);
+  const Vec2 up(0, 0.03);
+  add_line(run, 0, line_between(true_point(run, south.front()) + up, true_point(run, south.back()) + up), {});
+  // North turned by 2 deg about its midpoint and moved by 4 cm.
+  const Vec2 middle = 0.5 * (true_point(run, north.front()) + true_point(run, north.back())) + Vec2(0, 0.04);
+  const Vec2 half = Pose2(0, 0, radians(2)).rotate({-2.5, 0});
+  add_line(run, 0, line_between(middle - half, middle + half), {});
+  const auto rows = evaluate("segments", run);
+  expect_value(rows, "sigma_offset", "all", std::sqrt((0.03 * 0.03 + 0.04 * 0.04) / 2), 2);
+  expect_value(rows, "sigma_angle", "all", std::sqrt((0.0 + 2.0 * 2.0) / 2), 2);
+}
+
+TEST(Segments, EachConditionOfAMatchCanFailAlone) {
+  const auto score = [](const Vec2& a, const Vec2& b) {
+    MadeUpRun run = room_from_the_middle();
+    add_line(run, 0, line_between(a, b), {});
+    return row(evaluate("segments", run), "n_true").value;
+  };
+  const Vec2 half_9deg = Pose2(0, 0, radians(9)).rotate({1, 0});
+  const Vec2 half_11deg = Pose2(0, 0, radians(11)).rotate({1, 0});
+  const Vec2 on_south(0, -2);
+  EXPECT_EQ(score(on_south - half_9deg, on_south + half_9deg), 1);
+  EXPECT_EQ(score(on_south + half_9deg, on_south - half_9deg), 1);  // direction does not matter
+  EXPECT_EQ(score(on_south - half_11deg, on_south + half_11deg), 0);
+  EXPECT_EQ(score({-1, -2.14}, {1, -2.14}), 1);
+  EXPECT_EQ(score({-1, -2.16}, {1, -2.16}), 0);
+  EXPECT_EQ(score({1.9, -2}, {3.9, -2}), 1);  // more than half of its 2 m on south, which ends within 4 cm of 3
+  EXPECT_EQ(score({2.1, -2}, {4.1, -2}), 0);
+}
+
+TEST(Segments, OneLineOverTwoWallsIsMergedTrueForTheLongerOverlapAndMissesTheOther) {
+  // Two collinear walls with a gap of 0.4 m, 2 m and 1.2 m long, in front of a sensor 1.5 m away.
+  MadeUpRun run = make_run(ScanGeometry(radians(10), radians(0.5), 320),
+                           {{"left", {{0.2, 1.5}, {-1.0, 1.5}}}, {"right", {{2.6, 1.5}, {0.6, 1.5}}}});
+  cast_frame(run, {});
+  add_line(run, 0, line_between({2.6, 1.5}, {-1.0, 1.5}), {});
+  const auto rows = evaluate("segments", run);
+  expect_value(rows, "n_true", "all", 1, 1);
+  expect_value(rows, "n_merged", "all", 1, 1);
+  expect_value(rows, "merged", "all", 1.0, 1);
+  expect_value(rows, "n_missed", "all", 1, 2);
+  expect_value(rows, "precision", "all", 1.0, 1);
+  EXPECT_NEAR(row(rows, "overlap").value, 2.0 / 3.6, 0.02);  // the ends of the true line lie up to a beam inside
+}
+
+TEST(Segments, WallsThatContinueEachOtherAreOneTrueLine) {
+  MadeUpRun run = make_run(ScanGeometry(radians(10), radians(0.5), 320),
+                           {{"left", {{0.6, 1.5}, {-1.0, 1.5}}}, {"right", {{2.6, 1.5}, {0.6, 1.5}}}});
+  cast_frame(run, {});
+  add_line(run, 0, line_between(true_point(run, beams_of(run, 1).front()), true_point(run, beams_of(run, 0).back())),
+           {});
+  const auto rows = evaluate("segments", run);
+  for (const char* metric : {"precision", "recall", "overlap"}) expect_value(rows, metric, "all", 1.0, 1);
+  expect_value(rows, "n_merged", "all", 0, 1);
+}
+
+TEST(Segments, LostReturnsDoNotCutATrueLineButABodyInFrontDoes) {
+  MadeUpRun run = make_run(ScanGeometry(radians(45), radians(1), 91), {{"north", {{5, 2}, {-5, 2}}}});
+  cast_frame(run, {});
+  for (std::size_t i = 0; i < 91; i += 4) run.observed.frames[0].ranges[i] = std::numeric_limits<double>::infinity();
+  expect_value(evaluate("segments", run), "n_missed", "all", 1, 1);
+  for (std::size_t i = 40; i < 50; ++i) run.truth.wall_ids[i] = -1;
+  expect_value(evaluate("segments", run), "n_missed", "all", 2, 2);
+}
+
+TEST(Segments, TrueLinesHaveAtLeastNineReturnsAndHalfAMetre) {
+  // Beams 1 deg apart on a wall 4 m away: neighbours about 7 cm apart; 9 beams reach 0.56 m, 8 only 0.49 m.
+  const auto truths = [](int beams, const ParamSet& params) {
+    MadeUpRun run =
+        make_run(ScanGeometry(radians(90 - 0.5 * (beams - 1)), radians(1), beams), {{"n", {{5, 4}, {-5, 4}}}});
+    cast_frame(run, {});
+    return row(evaluate("segments", run, params), "n_missed").value;
+  };
+  EXPECT_EQ(truths(9, {}), 1);
+  EXPECT_EQ(truths(8, {{"min_length_m", 0.4}}), 0);
+  EXPECT_EQ(truths(8, {{"min_length_m", 0.4}, {"min_beams", std::int64_t{8}}}), 1);
+  EXPECT_EQ(truths(8, {{"min_beams", std::int64_t{8}}}), 0);
+}
+
+TEST(Segments, WithoutLinesRecallIsZeroAndPrecisionUndefined) {
+  const MadeUpRun run = room_from_the_middle();
+  const auto rows = evaluate("segments", run);
+  expect_value(rows, "recall", "all", 0.0, 4);
+  expect_value(rows, "f1", "all", 0.0, 4);
+  for (const char* metric : {"precision", "split", "merged", "sigma_offset", "sigma_angle", "overlap"})
+    expect_undefined(rows, metric);
+}
+
+TEST(Segments, AnEmptyRunHasAllRowsAndTruthIsNeeded) {
+  const MadeUpRun run = make_run(kAllAround, kRoom);
+  const auto rows = evaluate("segments", run);
+  EXPECT_EQ(rows.size(), family("segments")->describe().size());
+  for (const char* metric : {"precision", "recall", "f1", "sigma_offset"}) expect_undefined(rows, metric);
+  EXPECT_FALSE(family("segments")->applies(run.input_without_truth()));
+}
+
+TEST(Surfaces, JoinTouchingAndOverlappingCollinearWallsOnly) {
+  const auto surfaces = join_walls(std::vector<Wall>{{"long", {{0, 0}, {4, 0}}},
+                                                     {"inside", {{2, 0}, {1, 0}}},
+                                                     {"across the corner", {{4, 0}, {4, 1}}},
+                                                     {"beyond", {{6, 0}, {4, 0}}},
+                                                     {"after a gap", {{6.1, 0}, {7, 0}}},
+                                                     {"parallel", {{0, 0.01}, {4, 0.01}}}});
+  EXPECT_EQ(surfaces.of_wall, (std::vector<int>{0, 0, 1, 0, 2, 3}));
+  EXPECT_EQ(surfaces.segments[0], (Segment{{0, 0}, {6, 0}}));
+}
+
+TEST(Surfaces, ThePiecesOfACurveStayApart) {
+  std::vector<Wall> arc;
+  for (int i = 0; i < 90; ++i)
+    arc.push_back(
+        {"", {{std::cos(radians(i)), std::sin(radians(i))}, {std::cos(radians(i + 1)), std::sin(radians(i + 1))}}});
+  EXPECT_EQ(join_walls(arc).segments.size(), 90u);
+}
+
+}  // namespace
+}  // namespace scanbench::test
