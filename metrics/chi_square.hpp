@@ -1,0 +1,12 @@
+// Quantiles of the chi-square distribution with an even number of degrees of freedom.
+#pragma once
+
+#include <cstdint>
+
+namespace scanbench::metrics {
+
+/// x such that a sum of squares of 2 * pairs standard normals stays below it with probability p; pairs >= 1,
+/// 0 < p < 1, relative error below 1e-9.
+double chi_square_quantile(double p, std::int64_t pairs);
+
+}  // namespace scanbench::metrics

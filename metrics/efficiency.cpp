@@ -1,0 +1,137 @@
+// efficiency: how near the lines come to the best that their beams allow, and whether an extractor knows how good it
+// is. Cramer-Rao bound of the range readings; normalised estimation error squared as in Bar-Shalom, Li & Kirubarajan,
+// "Estimation with Applications to Tracking and Navigation", 2001, section 5.4.
+//
+// Errors for the efficiency are taken at the midpoint of the true line, where the bound is; errors for nees at the
+// midpoint of the found line, where its covariance is. Matches are those of `segments` with its defaults. Lost returns
+// give no information; spurious ones are counted as if they were good, so their harm is part of the ratio. A ratio
+// below 1 beyond its interval means that an extractor saw the truth or used the beams of two runs of a wall for one
+// line.
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "core/error.hpp"
+#include "core/registry.hpp"
+#include "metrics/chi_square.hpp"
+#include "metrics/line_bound.hpp"
+#include "metrics/rows.hpp"
+
+namespace scanbench::metrics {
+namespace {
+
+/// (offset along the normal of `found`, angle) of `found` against the true line, where the offset is that at `point`,
+/// which must lie near both.
+Eigen::Vector2d line_error(const PolarLine& found, const PolarLine& truth, const Vec2& point) {
+  const Vec2 n = found.normal();
+  const Vec2 m = truth.normal();
+  const double side = n.dot(m) < 0 ? -1.0 : 1.0;  // near rho = 0 the two normals may point to opposite sides
+  return {found.signed_distance(point) - side * truth.signed_distance(point),
+          std::atan2(side * cross(m, n), side * m.dot(n))};
+}
+
+/// Squared errors and bounds of one parameter.
+struct Ratio {
+  Mean squared_error;
+  Mean fourth_power;
+  Mean bound;
+
+  void add(double error, double variance) {
+    squared_error.add(error * error);
+    fourth_power.add(error * error * error * error);
+    bound.add(variance);
+  }
+  double value() const { return squared_error.value() / bound.value(); }
+  /// Half the width of the 95 % interval of the mean squared error, over the mean bound.
+  double half_width() const {
+    const auto n = static_cast<double>(bound.count());
+    const double mean = squared_error.value();
+    const double variance = fourth_power.value() - mean * mean;
+    return 1.96 * std::sqrt(std::max(variance, 0.0) / (n - 1)) / bound.value();
+  }
+};
+
+class Efficiency : public MetricFamily {
+ public:
+  struct Params {
+    int min_beams = 20;
+    static auto fields() {
+      return std::tuple{field("min_beams", &Params::min_beams, at_least(9), "", "fewest returns of a true line")};
+    }
+  };
+
+  explicit Efficiency(const Params& params) : params_(params) {}
+
+  std::vector<MetricDescription> describe() const override {
+    using enum Direction;
+    return {
+        {"efficiency_offset", "", lower_is_better, 0.05,
+         "mean squared error of the offset at the true line's midpoint over its mean Cramer-Rao bound; 1 is the best"},
+        {"efficiency_angle", "", lower_is_better, 0.05,
+         "mean squared error of the angle over its mean Cramer-Rao bound; 1 is the best"},
+        {"bound_offset", "m", neither, 0.0, "root of the mean bound of the offset"},
+        {"bound_angle", "deg", neither, 0.0, "root of the mean bound of the angle"},
+        {"nees", "", neither, 0.1,
+         "mean of e' C^-1 e over lines with a covariance C; honest covariances give 2, overconfident ones more; "
+         "ci: the band in which it lies with probability 95 % if they are honest"}};
+  }
+
+  bool applies(const MetricInput& input) const override { return has_beam_truth(input); }
+
+  std::vector<MetricRow> evaluate(const MetricInput& input) const override {
+    SCANBENCH_ASSERT(applies(input));
+    const Surfaces surfaces = join_walls(input.truth->walls);
+    Ratio offset, angle;
+    Mean nees;
+    for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
+      const Scan scan = input.observed.scan(f);
+      const std::vector<TrueLine> truths = true_lines(input, f, surfaces, TrueLineRule{});
+      const std::vector<LineFeature>& found = input.result.lines[f].lines;
+      const LineMatching matching = match_lines(found, truths, MatchRule{});
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        if (matching.outcome[k] != Outcome::true_line) continue;
+        const TrueLine& t = truths[static_cast<std::size_t>(matching.truth[k])];
+        if (t.beams < params_.min_beams) continue;
+        const PolarLine true_line = line_through(t.segment.a, t.segment.b);
+        if (const auto bound = line_bound(scan, t)) {
+          const Eigen::Vector2d e = line_error(found[k].line, true_line, t.segment.midpoint());
+          offset.add(e[0], (*bound)(0, 0));
+          angle.add(e[1], (*bound)(1, 1));
+        }
+        if (!found[k].covariance) continue;
+        const Eigen::Matrix2d& c = *found[k].covariance;
+        if (!(c(0, 0) > 0 && c.determinant() > 0)) continue;
+        const Eigen::Vector2d e = line_error(found[k].line, true_line, found[k].segment.midpoint());
+        nees.add(e.dot(c.inverse() * e));
+      }
+    }
+
+    Rows rows(describe());
+    for (const auto& [metric, r] : {std::pair("efficiency_offset", &offset), std::pair("efficiency_angle", &angle)}) {
+      MetricRow& row = rows.add(metric, kAll, r->value(), r->bound.count());
+      if (row.count < 2) continue;
+      row.ci_low = r->value() - r->half_width();
+      row.ci_high = r->value() + r->half_width();
+    }
+    rows.add("bound_offset", kAll, offset.bound.root(), offset.bound.count());
+    rows.add("bound_angle", kAll, degrees(angle.bound.root()), angle.bound.count());
+    MetricRow& row = rows.add("nees", kAll, nees);
+    if (row.count > 0) {
+      const auto n = static_cast<double>(row.count);
+      row.ci_low = chi_square_quantile(0.025, row.count) / n;
+      row.ci_high = chi_square_quantile(0.975, row.count) / n;
+    }
+    return rows.take();
+  }
+
+ private:
+  Params params_;
+};
+
+const bool registered = Registry<MetricFamily>::add<Efficiency>(
+    {.name = "efficiency",
+     .summary = "errors of lines against the Cramer-Rao bound of their beams, and honesty of their covariances",
+     .reference = "Cramer-Rao inequality; Bar-Shalom et al. 2001, section 5.4"});
+
+}  // namespace
+}  // namespace scanbench::metrics

@@ -1,0 +1,272 @@
+// map_truth: a merged map against the true walls: what of them it covers, what it adds, how often it repeats, breaks or
+// fuses them, and how exact its lines are.
+//
+// What counts is the visible part of a wall: where at least 3 returns per 10 cm came from over the whole run. Walls
+// that lie on one line and touch are one surface throughout: a map is right to join them, and no scan shows the seam.
+// Collinear walls with a gap between them (a corridor with doors) stay separate for lines_per_wall and fragments, and
+// one line over both of them is no over-merging, which asks for walls on different lines; the gap that it wrongly fills
+// lowers true_share. The map is compared where it stands: its frame is that of the truth.
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/registry.hpp"
+#include "metrics/intervals.hpp"
+#include "metrics/line_matching.hpp"
+#include "metrics/rows.hpp"
+
+namespace scanbench::metrics {
+namespace {
+
+constexpr double kNear = 0.05;
+constexpr double kFar = 0.10;
+constexpr double kVisibilityBin = 0.10;
+constexpr double kOneView = 0.30;  // visible parts with a smaller gap between them ask for one line, not two
+
+/// Visible parts of every surface, in metres from its first end.
+std::vector<std::vector<Interval>> visible_parts(const MetricInput& input, const Surfaces& surfaces,
+                                                 double hits_per_m) {
+  const Truth& truth = *input.truth;
+  const std::size_t count = surfaces.segments.size();
+  std::vector<std::vector<Interval>> visible(count);
+  if (truth.wall_ids.empty()) {  // lines without scans: nothing says that a part was not seen
+    for (std::size_t s = 0; s < count; ++s) visible[s] = {{0.0, surfaces.segments[s].length()}};
+    return visible;
+  }
+  std::vector<std::vector<int>> hits(count);
+  for (std::size_t s = 0; s < count; ++s)
+    hits[s].resize(std::max<std::size_t>(
+        1, static_cast<std::size_t>(std::ceil(surfaces.segments[s].length() / kVisibilityBin - 1e-9))));
+  for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
+    const Scan scan = input.observed.scan(f);
+    const auto beams = static_cast<std::size_t>(scan.beams());
+    for (std::size_t i = 0; i < beams; ++i) {
+      const std::int32_t wall = truth.wall_ids[f * beams + i];
+      if (wall < 0 || !scan.valid(static_cast<int>(i))) continue;
+      const auto s = static_cast<std::size_t>(surfaces.of_wall[static_cast<std::size_t>(wall)]);
+      const Segment& segment = surfaces.segments[s];
+      const Vec2 p = truth.world_from_sensor[f] *
+                     Vec2(truth.ranges[f * beams + i] * scan.sensor.geometry.direction(static_cast<int>(i)));
+      if (!(segment.length() > 0)) continue;
+      const double share = segment.direction().dot(p - segment.a) / segment.length();
+      const double bins = static_cast<double>(hits[s].size());
+      ++hits[s][static_cast<std::size_t>(std::clamp(share * bins, 0.0, bins - 1))];
+    }
+  }
+  for (std::size_t s = 0; s < count; ++s) {
+    const double width = surfaces.segments[s].length() / static_cast<double>(hits[s].size());
+    for (std::size_t b = 0; b < hits[s].size(); ++b)
+      if (hits[s][b] > 0 && hits[s][b] >= hits_per_m * width - 1e-9)
+        visible[s].push_back({static_cast<double>(b) * width, static_cast<double>(b + 1) * width});
+    visible[s] = unite(std::move(visible[s]), 1e-9);
+  }
+  return visible;
+}
+
+double angle_between(const Segment& a, const Segment& b) {
+  const Vec2 u = a.direction();
+  const Vec2 v = b.direction();
+  return std::atan2(std::fabs(cross(u, v)), std::fabs(u.dot(v)));
+}
+
+/// Distance of p from the infinite line of s.
+double line_distance(const Vec2& p, const Segment& s) {
+  return std::fabs(cross(s.direction(), p - s.a));
+}
+
+/// The part of a surface that a map line represents: near it, and between the line's ends in projection. Empty: absent.
+std::optional<Interval> represented_part(const Segment& surface, const Segment& line) {
+  const auto near = part_near(surface, line, kFar);
+  if (!near) return std::nullopt;
+  const Vec2 u = surface.direction();
+  const auto [low, high] = std::minmax(u.dot(line.a - surface.a), u.dot(line.b - surface.a));
+  const Interval part{std::max(near->low, low), std::min(near->high, high)};
+  if (!(part.high > part.low)) return std::nullopt;
+  return part;
+}
+
+/// One map line and the surface that it overlaps most.
+struct Assigned {
+  std::size_t line = 0;
+  Interval part;
+};
+
+class MapTruth : public MetricFamily {
+ public:
+  struct Params {
+    double max_angle_deg = 10.0;
+    double min_hits_per_m = 30.0;
+    double over_merge_m = 0.15;
+    static auto fields() {
+      return std::tuple{field("max_angle_deg", &Params::max_angle_deg, between(0, 90), "deg",
+                              "largest angle between a map line and the wall that it stands for"),
+                        field("min_hits_per_m", &Params::min_hits_per_m, at_least(0), "1/m",
+                              "returns over the run that make a part of a wall visible"),
+                        field("over_merge_m", &Params::over_merge_m, at_least(0), "m",
+                              "walls further apart than this must not share a map line")};
+    }
+  };
+
+  explicit MapTruth(const Params& params) : params_(params) {}
+
+  std::vector<MetricDescription> describe() const override {
+    using enum Direction;
+    return {{"covered_5cm", "", higher_is_better, 0.005,
+             "share of the visible wall length within 5 cm of a map line like it"},
+            {"covered_10cm", "", higher_is_better, 0.005, "the same within 10 cm"},
+            {"true_share_5cm", "", higher_is_better, 0.005, "share of the map's length within 5 cm of a wall"},
+            {"true_share_10cm", "", higher_is_better, 0.005, "the same within 10 cm"},
+            {"lines_per_wall", "", lower_is_better, 0.02, "map lines that stand for a visible wall, per visible wall"},
+            {"duplicates", "", lower_is_better, 0.0,
+             "map lines of which more than half repeats longer lines of the same wall"},
+            {"fragments", "", lower_is_better, 0.0, "further lines of a wall beyond one for each visible part of it"},
+            {"over_merged", "", lower_is_better, 0.0,
+             "map lines over more than half of each of two walls on different lines"},
+            {"unassigned", "", lower_is_better, 0.0, "map lines that stand for no wall"},
+            {"map_offset", "m", lower_is_better, 0.001,
+             "distance of map lines' midpoints from their wall's line, mean weighted by the lines' lengths"},
+            {"map_angle", "deg", lower_is_better, 0.05,
+             "angle between map lines and their walls, mean weighted by the lines' lengths"},
+            {"visible_m", "m", neither, 0.0, "visible length of all walls"}};
+  }
+
+  bool applies(const MetricInput& input) const override {
+    const bool has_map = !input.result.map.lines.empty() || !input.result.merge_labels.empty();
+    return has_map && consistent(input);
+  }
+
+  std::vector<MetricRow> evaluate(const MetricInput& input) const override {
+    SCANBENCH_ASSERT(consistent(input));
+    const Surfaces surfaces = join_walls(input.truth->walls);
+    const std::vector<std::vector<Interval>> visible = visible_parts(input, surfaces, params_.min_hits_per_m);
+    std::vector<Segment> map;
+    for (const MapLine& line : input.result.map.lines)
+      if (line.segment.length() > 0) map.push_back(line.segment);
+
+    const auto n_visible = std::ranges::count_if(visible, [](const auto& parts) { return !parts.empty(); });
+    double visible_m = 0.0;
+    for (const auto& parts : visible) visible_m += total_length(parts);
+
+    Rows rows(describe());
+    rows.add("covered_5cm", kAll, ratio(covered(map, surfaces, visible, kNear), visible_m), n_visible);
+    rows.add("covered_10cm", kAll, ratio(covered(map, surfaces, visible, kFar), visible_m), n_visible);
+    rows.add("true_share_5cm", kAll, true_share(map, surfaces, kNear), std::ssize(map));
+    rows.add("true_share_10cm", kAll, true_share(map, surfaces, kFar), std::ssize(map));
+    add_assignment(rows, map, surfaces, visible, n_visible);
+    rows.add("visible_m", kAll, visible_m, n_visible);
+    return rows.take();
+  }
+
+ private:
+  /// Truth about walls, and about beams unless the run has lines only.
+  static bool consistent(const MetricInput& input) {
+    if (input.truth == nullptr || input.truth->walls.empty()) return false;
+    return input.truth->wall_ids.empty() || has_beam_truth(input);
+  }
+
+  bool alike(const Segment& a, const Segment& b) const { return angle_between(a, b) <= radians(params_.max_angle_deg); }
+
+  double covered(const std::vector<Segment>& map, const Surfaces& surfaces,
+                 const std::vector<std::vector<Interval>>& visible, double distance) const {
+    double sum = 0.0;
+    for (std::size_t s = 0; s < surfaces.segments.size(); ++s) {
+      std::vector<Interval> parts;
+      for (const Segment& line : map)
+        if (alike(line, surfaces.segments[s]))
+          if (const auto part = part_near(surfaces.segments[s], line, distance)) parts.push_back(*part);
+      sum += common_length(unite(std::move(parts)), visible[s]);
+    }
+    return sum;
+  }
+
+  static double true_share(const std::vector<Segment>& map, const Surfaces& surfaces, double distance) {
+    double near = 0.0;
+    double all = 0.0;
+    for (const Segment& line : map) {
+      std::vector<Interval> parts;
+      for (const Segment& surface : surfaces.segments)
+        if (const auto part = part_near(line, surface, distance)) parts.push_back(*part);
+      near += total_length(unite(std::move(parts)));
+      all += line.length();
+    }
+    return ratio(near, all);
+  }
+
+  void add_assignment(Rows& rows, const std::vector<Segment>& map, const Surfaces& surfaces,
+                      const std::vector<std::vector<Interval>>& visible, std::int64_t n_visible) const {
+    const std::size_t n_surfaces = surfaces.segments.size();
+    std::vector<std::vector<Assigned>> assigned(n_surfaces);
+    Mean offset, angle;
+    std::int64_t over_merged = 0;
+    for (std::size_t k = 0; k < map.size(); ++k) {
+      std::size_t best = n_surfaces;
+      Interval best_part;
+      std::vector<std::size_t> mostly_covered;
+      for (std::size_t s = 0; s < n_surfaces; ++s) {
+        const Segment& surface = surfaces.segments[s];
+        if (!alike(map[k], surface)) continue;
+        const auto part = represented_part(surface, map[k]);
+        if (!part) continue;
+        if (part->length() > 0.5 * surface.length()) mostly_covered.push_back(s);
+        if (best < n_surfaces && part->length() <= best_part.length()) continue;
+        best = s;
+        best_part = *part;
+      }
+      over_merged += fuses(mostly_covered, surfaces) ? 1 : 0;
+      if (best == n_surfaces) continue;
+      assigned[best].push_back({k, best_part});
+      offset.add(line_distance(map[k].midpoint(), surfaces.segments[best]), map[k].length());
+      angle.add(degrees(angle_between(map[k], surfaces.segments[best])), map[k].length());
+    }
+
+    std::int64_t duplicates = 0, fragments = 0, on_visible = 0;
+    for (std::size_t s = 0; s < n_surfaces; ++s) {
+      std::ranges::stable_sort(assigned[s], std::ranges::greater{}, [](const Assigned& a) { return a.part.length(); });
+      std::vector<Interval> kept;
+      std::int64_t originals = 0;
+      for (const Assigned& a : assigned[s]) {
+        if (common_length({a.part}, unite(kept)) > 0.5 * a.part.length()) {
+          ++duplicates;
+          continue;
+        }
+        ++originals;
+        kept.push_back(a.part);
+      }
+      const auto views = std::max(std::ssize(unite(visible[s], kOneView)), std::ptrdiff_t{1});
+      fragments += std::max(originals - views, std::int64_t{0});
+      if (!visible[s].empty()) on_visible += std::ssize(assigned[s]);
+    }
+
+    const auto number = [](std::int64_t n) { return static_cast<double>(n); };
+    const std::int64_t n_assigned = offset.count();
+    rows.add("lines_per_wall", kAll, ratio(number(on_visible), number(n_visible)), n_visible);
+    rows.add("duplicates", kAll, number(duplicates), n_assigned);
+    rows.add("fragments", kAll, number(fragments), n_assigned);
+    rows.add("over_merged", kAll, number(over_merged), std::ssize(map));
+    rows.add("unassigned", kAll, number(std::ssize(map) - n_assigned), std::ssize(map));
+    rows.add("map_offset", kAll, offset);
+    rows.add("map_angle", kAll, angle);
+  }
+
+  /// True if two of the surfaces lie on lines too far apart for one map line.
+  bool fuses(const std::vector<std::size_t>& covered, const Surfaces& surfaces) const {
+    for (std::size_t i = 0; i < covered.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const Segment& a = surfaces.segments[covered[i]];
+        const Segment& b = surfaces.segments[covered[j]];
+        if (std::max(line_distance(a.midpoint(), b), line_distance(b.midpoint(), a)) > params_.over_merge_m)
+          return true;
+      }
+    return false;
+  }
+
+  Params params_;
+};
+
+const bool registered = Registry<MetricFamily>::add<MapTruth>(
+    {.name = "map_truth",
+     .summary = "a map against the true walls: coverage, false length, repeats, fragments, over-merging, errors",
+     .reference = "this project"});
+
+}  // namespace
+}  // namespace scanbench::metrics

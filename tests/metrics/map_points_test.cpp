@@ -1,0 +1,109 @@
+// map_points by hand, and its grid against brute force.
+#include "core/rng.hpp"
+#include "made_up.hpp"
+#include "metrics/segment_grid.hpp"
+
+namespace scanbench::test {
+namespace {
+
+using metrics::SegmentGrid;
+
+MapLine map_line(const Vec2& a, const Vec2& b) {
+  MapLine line;
+  line.segment = {a, b};
+  return line;
+}
+
+/// Four beams along the axes, all at 1 m; world_from_sensor as given.
+MadeUpRun cross_run(const Pose2& pose) {
+  MadeUpRun run = make_run(ScanGeometry(0.0, kPi / 2, 4), {});
+  add_frame(run, Pose2(), std::vector<double>(4, 1.0), std::vector<std::int32_t>(4, -1));
+  run.result.world_from_sensor = {pose};
+  return run;
+}
+
+TEST(MapPoints, DistancesAreMeansOverTheInliersOfTheScansLines) {
+  // Points (1, 0), (0, 1), (-1, 0), (0, -1); the scan's line x = 1 is 0, 1, 2, 1 away: mean 1, deviation sqrt(1/2).
+  MadeUpRun run = cross_run({});
+  add_line(run, 0, line_between({1, -1}, {1, 1}), {});
+  run.result.map.lines = {map_line({1.1, -1}, {1.1, 1})};
+  const auto all = evaluate("map_points", run);
+  expect_value(all, "D_S", "all", (0 + 1 + 2 + 1) / 4.0, 4);
+  expect_value(all, "D_M", "all", (0.1 + 1.1 + 2.1 + 1.1) / 4.0, 4);
+  const auto near = evaluate("map_points", run, {{"inlier_sigmas", 1.0}});  // 2 > 1 + 0.707
+  expect_value(near, "D_S", "all", (0 + 1 + 1) / 3.0, 3);
+  expect_value(near, "D_M", "all", (0.1 + 1.1 + 1.1) / 3.0, 3);
+  expect_value(near, "inliers", "all", 3.0 / 4.0, 4);
+}
+
+TEST(MapPoints, PointsAndLinesArePlacedByTheEstimatedPoses) {
+  MadeUpRun run = cross_run(Pose2(10, 5, kPi / 2));
+  add_line(run, 0, line_between({1, -1}, {1, 1}), {});
+  run.result.map.lines = {map_line({11, 6}, {9, 6})};  // the same line in the world
+  const auto rows = evaluate("map_points", run);
+  expect_value(rows, "D_S", "all", 1.0, 4);
+  expect_value(rows, "D_M", "all", 1.0, 4);
+}
+
+TEST(MapPoints, CompressionCountsNumbersAndBytes) {
+  MadeUpRun run = cross_run({});
+  run.observed.frames[0].ranges[3] = std::numeric_limits<double>::infinity();
+  run.result.map.lines = {map_line({1, -1}, {1, 1}), map_line({0, 0}, {1, 0})};
+  const auto rows = evaluate("map_points", run);
+  expect_value(rows, "compression", "all", 3.0 * 2 / (2.0 * 4), 2);
+  expect_value(rows, "compression_bytes", "all", (4.0 + 3.0) / (2.0 * 4), 2);  // 4 ranges and a pose
+  expect_value(rows, "scan_points", "all", 3, 1);
+  expect_value(rows, "map_lines", "all", 2, 1);
+}
+
+TEST(MapPoints, WithoutAMapOrLinesTheDistancesAreUndefined) {
+  MadeUpRun run = cross_run({});
+  auto rows = evaluate("map_points", run);
+  for (const char* metric : {"D_S", "D_M", "inliers", "compression", "compression_bytes"})
+    expect_undefined(rows, metric);
+  add_line(run, 0, line_between({1, -1}, {1, 1}), {});
+  rows = evaluate("map_points", run);
+  expect_value(rows, "D_S", "all", 1.0, 4);
+  expect_undefined(rows, "D_M");
+}
+
+TEST(MapPoints, NeedsPosesButNoTruth) {
+  MadeUpRun run = cross_run({});
+  EXPECT_TRUE(family("map_points")->applies(run.input_without_truth()));
+  run.result.world_from_sensor.clear();
+  EXPECT_FALSE(family("map_points")->applies(run.input_without_truth()));
+}
+
+TEST(SegmentGrid, AgreesWithBruteForceInsideAndOutside) {
+  CounterRng rng(3, RngStream::resampling);
+  const auto uniform = [&](double low, double high) { return low + (high - low) * rng.uniform(); };
+  for (const int count : {1, 2, 30, 400}) {
+    std::vector<Segment> segments;
+    for (int i = 0; i < count; ++i) {
+      const Vec2 a(uniform(-20, 30), uniform(5, 15));
+      const double length = i % 3 == 0 ? uniform(0, 25) : uniform(0, 1);
+      // Every third one level, upright or a point: the borders of cells.
+      const double yaw = i % 5 == 0 ? 0.0 : i % 5 == 1 ? kPi / 2 : uniform(-3, 3);
+      segments.push_back({a, i % 7 == 6 ? a : Vec2(a + length * Vec2(std::cos(yaw), std::sin(yaw)))});
+    }
+    segments.push_back({{0, 5}, {20, 5 + 1e-15}});
+    const SegmentGrid grid(segments);
+    for (int i = 0; i < 500; ++i) {
+      const Vec2 p = i % 4 == 0 ? Vec2(uniform(-200, 200), uniform(-200, 200)) : Vec2(uniform(-25, 35), uniform(0, 20));
+      double expected = std::numeric_limits<double>::infinity();
+      for (const Segment& s : segments) expected = std::min(expected, distance(p, s));
+      EXPECT_EQ(grid.distance(p), expected) << count << " segments, point " << p.transpose();
+    }
+  }
+}
+
+TEST(SegmentGrid, HasAnswersForNothingAndForNonsense) {
+  EXPECT_EQ(SegmentGrid(std::vector<Segment>{}).distance({0, 0}), std::numeric_limits<double>::infinity());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const SegmentGrid grid(std::vector<Segment>{{{0, 0}, {nan, 1}}, {{1, 0}, {1, 0}}});
+  EXPECT_EQ(grid.distance({4, 4}), 5.0);
+  EXPECT_TRUE(std::isnan(grid.distance({nan, 0})));
+}
+
+}  // namespace
+}  // namespace scanbench::test

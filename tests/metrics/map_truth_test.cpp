@@ -1,0 +1,187 @@
+// map_truth by hand, and its geometry against sampling.
+#include "core/rng.hpp"
+#include "made_up.hpp"
+#include "metrics/intervals.hpp"
+
+namespace scanbench::test {
+namespace {
+
+using metrics::Interval;
+using metrics::part_near;
+
+/// Walls without scans, all of them visible, and a map.
+MadeUpRun map_of(std::vector<Wall> walls, const std::vector<Segment>& lines) {
+  MadeUpRun run = make_run(ScanGeometry(), std::move(walls));
+  for (const Segment& s : lines) {
+    run.result.map.lines.emplace_back();
+    run.result.map.lines.back().segment = s;
+  }
+  return run;
+}
+
+const std::vector<Wall> kCorner{{"a", {{0, 0}, {4, 0}}}, {"b", {{4, 0}, {4, 3}}}};
+
+TEST(MapTruth, APerfectMapIsPerfect) {
+  const auto rows = evaluate("map_truth", map_of(kCorner, {{{4, 0}, {0, 0}}, {{4, 0}, {4, 3}}}));
+  for (const char* metric : {"covered_5cm", "covered_10cm", "true_share_5cm", "true_share_10cm", "lines_per_wall"})
+    expect_value(rows, metric, "all", 1.0, 2);
+  for (const char* metric : {"duplicates", "fragments", "over_merged", "unassigned", "map_offset", "map_angle"})
+    expect_value(rows, metric, "all", 0.0, 2);
+  expect_value(rows, "visible_m", "all", 7.0, 2);
+}
+
+TEST(MapTruth, CoverageReachesPastTheEndsByWhatTheDistanceLeaves) {
+  // A line 3 cm beside a, from x = 1 to 3: within 5 cm of it lies the wall from 1 - 0.04 to 3 + 0.04.
+  const auto rows = evaluate("map_truth", map_of(kCorner, {{{1, 0.03}, {3, 0.03}}}));
+  expect_value(rows, "covered_5cm", "all", 2.08 / 7, 2);
+  expect_value(rows, "covered_10cm", "all", (2 + 2 * std::sqrt(0.01 - 0.0009)) / 7, 2);
+  expect_value(rows, "true_share_5cm", "all", 1.0, 1);
+  expect_value(rows, "lines_per_wall", "all", 0.5, 2);
+  expect_value(rows, "map_offset", "all", 0.03, 1);
+}
+
+TEST(MapTruth, ALineAcrossAWallCoversNothingAndIsTrueOnlyWhereTheyCross) {
+  const auto rows = evaluate("map_truth", map_of(kCorner, {{{2, -1}, {2, 1}}}));
+  expect_value(rows, "covered_10cm", "all", 0.0, 2);
+  expect_value(rows, "true_share_5cm", "all", 0.1 / 2, 1);
+  expect_value(rows, "true_share_10cm", "all", 0.2 / 2, 1);
+  expect_value(rows, "unassigned", "all", 1.0, 1);
+  expect_undefined(rows, "map_offset");
+}
+
+TEST(MapTruth, TellsDuplicatesFromFragments) {
+  // Wall a as [0, 2.5] and [2.5, 4], and once more [0.5, 1.5]; b as a whole.
+  const auto rows = evaluate(
+      "map_truth",
+      map_of(kCorner, {{{0, 0}, {2.5, 0}}, {{2.5, 0.02}, {4, 0.02}}, {{0.5, 0.04}, {1.5, 0.04}}, {{4, 0}, {4, 3}}}));
+  expect_value(rows, "duplicates", "all", 1.0, 4);
+  expect_value(rows, "fragments", "all", 1.0, 4);
+  expect_value(rows, "lines_per_wall", "all", 4.0 / 2, 2);
+  expect_value(rows, "map_offset", "all", (0.02 * 1.5 + 0.04 * 1.0) / (2.5 + 1.5 + 1.0 + 3.0), 4);
+}
+
+TEST(MapTruth, AnglesAreWeightedByLength) {
+  const Vec2 half = 0.5 * Vec2(std::cos(radians(3)), std::sin(radians(3)));
+  const auto rows = evaluate("map_truth", map_of(kCorner, {{Vec2(2, 0) + half, Vec2(2, 0) - half}, {{4, 0}, {4, 3}}}));
+  expect_value(rows, "map_angle", "all", 3.0 * 1.0 / (1.0 + 3.0), 2);
+}
+
+TEST(MapTruth, WallsThatContinueEachOtherMayShareALine) {
+  const std::vector<Wall> walls{{"left", {{0, 0}, {2, 0}}}, {"right", {{2, 0}, {4, 0}}}};
+  const auto joined = evaluate("map_truth", map_of(walls, {{{0, 0}, {4, 0}}}));
+  expect_value(joined, "lines_per_wall", "all", 1.0, 1);
+  expect_value(joined, "over_merged", "all", 0.0, 1);
+  expect_value(joined, "covered_5cm", "all", 1.0, 1);
+  const auto apart = evaluate("map_truth", map_of(walls, {{{0, 0}, {2, 0}}, {{2, 0}, {4, 0}}}));
+  expect_value(apart, "fragments", "all", 1.0, 2);
+}
+
+TEST(MapTruth, OverMergingIsOneLineForTwoWallsOnDifferentLines) {
+  const auto over_merged = [](double distance) {
+    const std::vector<Wall> walls{{"near", {{0, 0}, {4, 0}}}, {"far", {{0, distance}, {4, distance}}}};
+    return row(evaluate("map_truth", map_of(walls, {{{0, distance / 2}, {4, distance / 2}}})), "over_merged").value;
+  };
+  EXPECT_EQ(over_merged(0.18), 1);
+  EXPECT_EQ(over_merged(0.14), 0);
+  // Collinear with a gap: no over-merging, but 1 m of the map is false where a door stands.
+  const std::vector<Wall> corridor{{"left", {{0, 0}, {2, 0}}}, {"right", {{3, 0}, {5, 0}}}};
+  const auto rows = evaluate("map_truth", map_of(corridor, {{{0, 0}, {5, 0}}}));
+  expect_value(rows, "over_merged", "all", 0.0, 1);
+  expect_value(rows, "true_share_5cm", "all", (5 - (1 - 2 * 0.05)) / 5, 1);
+}
+
+/// The wall y = 0 from x = -5 to 5, seen from 1 m above (0.5, 0) over 90 deg: x = -0.5 .. 1.5.
+MadeUpRun seen_from_above(double step_deg) {
+  MadeUpRun run =
+      make_run(ScanGeometry(radians(-135 + 1e-6), radians(step_deg), 1 + static_cast<int>(90 / step_deg - 1e-3)),
+               {{"floor", {{-5, 0}, {5, 0}}}});
+  cast_frame(run, Pose2(0.5, 1.0, 0.0));
+  run.result.map.lines.emplace_back();
+  run.result.map.lines.back().segment = {{0, 0}, {1, 0}};
+  return run;
+}
+
+TEST(MapTruth, OnlyWhatWasSeenOftenEnoughCounts) {
+  const auto rows = evaluate("map_truth", seen_from_above(0.1));
+  expect_value(rows, "visible_m", "all", 2.0, 1);
+  expect_value(rows, "covered_5cm", "all", 1.1 / 2.0, 1);
+  // At 4 deg the nearest returns are 7 cm apart: nowhere 3 in 10 cm, unless the scan is repeated.
+  MadeUpRun sparse = seen_from_above(4.0);
+  const auto unseen = evaluate("map_truth", sparse);
+  expect_value(unseen, "visible_m", "all", 0.0, 0);
+  expect_undefined(unseen, "covered_5cm");
+  expect_undefined(unseen, "lines_per_wall");
+  expect_value(unseen, "true_share_5cm", "all", 1.0, 1);
+  for (int i = 0; i < 2; ++i) cast_frame(sparse, Pose2(0.5, 1.0, 0.0));
+  EXPECT_GT(row(evaluate("map_truth", sparse), "visible_m").value, 1.0);
+}
+
+TEST(MapTruth, OneLineForEachVisiblePartIsNoFragment) {
+  MadeUpRun run = seen_from_above(0.1);
+  cast_frame(run, Pose2(-3.5, 1.0, 0.0));  // sees x = -4.5 .. -2.5, 2 m apart from the other part
+  run.result.map.lines.emplace_back();
+  run.result.map.lines.back().segment = {{-4, 0}, {-3, 0}};
+  expect_value(evaluate("map_truth", run), "fragments", "all", 0.0, 2);
+  run.result.map.lines.back().segment = {{1.1, 0}, {1.4, 0}};
+  run.truth.wall_ids.resize(run.truth.wall_ids.size() / 2);
+  run.truth.ranges.resize(run.truth.wall_ids.size());
+  run.truth.world_from_sensor.pop_back();
+  run.observed.frames.pop_back();
+  run.result.lines.pop_back();
+  expect_value(evaluate("map_truth", run), "fragments", "all", 1.0, 2);
+}
+
+TEST(MapTruth, AnEmptyMapCoversNothing) {
+  const auto rows = evaluate("map_truth", map_of(kCorner, {}));
+  EXPECT_EQ(rows.size(), family("map_truth")->describe().size());
+  expect_value(rows, "covered_5cm", "all", 0.0, 2);
+  for (const char* metric : {"true_share_5cm", "map_offset", "map_angle"}) expect_undefined(rows, metric);
+}
+
+TEST(MapTruth, NeedsTruthAndAMap) {
+  const MadeUpRun run = map_of(kCorner, {{{0, 0}, {4, 0}}});
+  EXPECT_TRUE(family("map_truth")->applies(run.input()));
+  EXPECT_FALSE(family("map_truth")->applies(run.input_without_truth()));
+  EXPECT_FALSE(family("map_truth")->applies(map_of(kCorner, {}).input()));
+}
+
+TEST(PartNear, IsTheIntervalThatSamplingFinds) {
+  CounterRng rng(5, RngStream::resampling);
+  const auto point = [&] { return Vec2(3 * rng.uniform(), 3 * rng.uniform()); };
+  int found = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Segment probe{point(), point()};
+    const Segment target{point(), trial % 3 == 0 ? point() : Vec2(probe.b + 0.1 * point())};
+    const double d = 0.5 * rng.uniform();
+    constexpr int kSamples = 2000;
+    Interval sampled{1e9, -1e9};
+    for (int i = 0; i <= kSamples; ++i) {
+      const double t = probe.length() * i / kSamples;
+      if (distance(probe.a + t * probe.direction(), target) > d) continue;
+      sampled.low = std::min(sampled.low, t);
+      sampled.high = std::max(sampled.high, t);
+    }
+    const auto part = part_near(probe, target, d);
+    const double step = probe.length() / kSamples;
+    if (sampled.high < sampled.low) {
+      EXPECT_LE(part ? part->length() : 0.0, 1.001 * step);
+      continue;
+    }
+    ++found;
+    ASSERT_TRUE(part.has_value());
+    EXPECT_NEAR(part->low, sampled.low, 1.001 * step);
+    EXPECT_NEAR(part->high, sampled.high, 1.001 * step);
+  }
+  EXPECT_GT(found, 100);
+}
+
+TEST(Intervals, UniteAndIntersect) {
+  const auto united = metrics::unite({{3, 4}, {0, 1}, {0.5, 2}, {2, 2}, {4, 5}});
+  ASSERT_EQ(united.size(), 2u);
+  EXPECT_EQ(metrics::total_length(united), 2.0 + 2.0);
+  EXPECT_EQ(metrics::unite({{0, 1}, {1.2, 2}}, 0.3).size(), 1u);
+  EXPECT_DOUBLE_EQ(metrics::common_length(united, {{1.5, 3.5}, {4.5, 9}}), 0.5 + 0.5 + 0.5);
+}
+
+}  // namespace
+}  // namespace scanbench::test
