@@ -15,8 +15,8 @@ std::string join(const std::vector<std::string>& names) {
   return text;
 }
 
-[[noreturn]] void refuse(const ParamSpec& spec, const std::string& found, const std::string& allowed) {
-  throw ParamError(spec.name, spec.name + " is " + found + "; allowed: " + allowed);
+[[noreturn]] void refuse(const ParamSpec& spec, const std::string& found) {
+  throw ParamError(spec.name, spec.name + " is " + found + "; allowed: " + allowed_text(spec));
 }
 
 std::string allowed_numbers(const ParamSpec& spec) {
@@ -27,7 +27,7 @@ std::string allowed_numbers(const ParamSpec& spec) {
 }
 
 void check_number(const ParamSpec& spec, double v) {
-  if (!std::isfinite(v) || !spec.bounds.contains(v)) refuse(spec, number_text(v), allowed_numbers(spec));
+  if (!std::isfinite(v) || !spec.bounds.contains(v)) refuse(spec, number_text(v));
 }
 
 std::string kind_of(const ParamValue& value) {
@@ -97,13 +97,34 @@ std::string to_text(const ParamValue& value) {
   return std::visit(Visitor{}, value);
 }
 
+std::string allowed_text(const ParamSpec& spec) {
+  switch (spec.type) {
+    case ParamType::boolean:
+      return "true, false";
+    case ParamType::integer:
+    case ParamType::number:
+      return allowed_numbers(spec);
+    case ParamType::text:
+      return "text";
+    case ParamType::choice:
+      return join(spec.choices);
+    case ParamType::number_list:
+      return "a list of numbers";
+    case ParamType::number_rows:
+      return "a list of rows of numbers";
+    case ParamType::named_points:
+      return "points by name, {A: [x, y], ...}";
+  }
+  throw InternalError("a parameter type without a description");
+}
+
 ParamValue checked(const ParamSpec& spec, const ParamValue& value) {
   switch (spec.type) {
     case ParamType::boolean:
       if (std::holds_alternative<bool>(value)) return value;
-      refuse(spec, kind_of(value), "true, false");
+      refuse(spec, kind_of(value));
     case ParamType::integer:
-      if (!std::holds_alternative<std::int64_t>(value)) refuse(spec, kind_of(value), allowed_numbers(spec));
+      if (!std::holds_alternative<std::int64_t>(value)) refuse(spec, kind_of(value));
       check_number(spec, static_cast<double>(std::get<std::int64_t>(value)));
       return value;
     case ParamType::number: {
@@ -113,35 +134,35 @@ ParamValue checked(const ParamSpec& spec, const ParamValue& value) {
       else if (const auto* d = std::get_if<double>(&value))
         number = *d;
       else
-        refuse(spec, kind_of(value), allowed_numbers(spec));
+        refuse(spec, kind_of(value));
       check_number(spec, number);
       return number;
     }
     case ParamType::text:
       if (std::holds_alternative<std::string>(value)) return value;
-      refuse(spec, kind_of(value), "text");
+      refuse(spec, kind_of(value));
     case ParamType::choice: {
       const auto* text = std::get_if<std::string>(&value);
       if (text == nullptr || std::ranges::find(spec.choices, *text) == spec.choices.end())
-        refuse(spec, text ? "'" + *text + "'" : kind_of(value), join(spec.choices));
+        refuse(spec, text ? "'" + *text + "'" : kind_of(value));
       return value;
     }
     case ParamType::number_list: {
       const auto* list = std::get_if<std::vector<double>>(&value);
-      if (list == nullptr) refuse(spec, kind_of(value), "a list of numbers");
+      if (list == nullptr) refuse(spec, kind_of(value));
       for (const double v : *list) check_number(spec, v);
       return value;
     }
     case ParamType::number_rows: {
       const auto* rows = std::get_if<NumberRows>(&value);
-      if (rows == nullptr) refuse(spec, kind_of(value), "a list of rows of numbers");
+      if (rows == nullptr) refuse(spec, kind_of(value));
       for (const auto& row : *rows)
         for (const double v : row) check_number(spec, v);
       return value;
     }
     case ParamType::named_points: {
       const auto* points = std::get_if<NamedPoints>(&value);
-      if (points == nullptr) refuse(spec, kind_of(value), "points by name, {A: [x, y], ...}");
+      if (points == nullptr) refuse(spec, kind_of(value));
       for (const auto& [name, p] : *points) {
         check_number(spec, p.x());
         check_number(spec, p.y());

@@ -75,6 +75,9 @@ struct ParamSpec {
 /// A value as it stands in documents: shortest form that reads back to the same number.
 std::string to_text(const ParamValue& value);
 
+/// What a parameter accepts, as errors and documents say it: "a number > 0 m", "end_points, tls", "text".
+std::string allowed_text(const ParamSpec& spec);
+
 /// The value in the spec's type (an integer is accepted where a number is asked for). Throws ParamError for a wrong
 /// type, a number out of bounds or not finite, an unknown choice.
 ParamValue checked(const ParamSpec& spec, const ParamValue& value);

@@ -1,9 +1,31 @@
 // A scenario as its file says it, checked and with every default filled in.
+//
+//   schema: 1
+//   name: rooms                                  # optional, default: the file's name without ending
+//   about: what is shown                         # optional
+//   world: {file: worlds/rooms.yaml}             # relative to the scenario; or the keys of a world file themselves
+//   sensor: {preset: ladar_2d30, sigma_m: 0.02}  # any field may be overridden
+//   trajectory:                                  # kind, its parameters, odometry errors
+//     {kind: waypoints, points_m: {A: [1, 1], B: [4, 1]}, scans: 200, odometry: {translation_per_m: 0.02}, sweep:
+//     false}
+//   seed: 1                                      # or seeds: [1, 2], or seeds: {first: 1, count: 20}; default: seed: 1
+//   pipelines:                                   # slots: extract, then align or match, then map or merge
+//     - {name: iepf, extract: {module: iepf, params: {threshold_m: 0.10}}}
+//   metrics: [borges2000, {name: segments, params: {}}]
+//   figures: [environment]
+//   published: published/rooms.csv               # optional: figures that a paper prints
+//   limits: {seconds: 600, memory_mib: 4096}     # of a cell; memory also of a recording before it starts
+//
+// A log takes the place of world, sensor and trajectory: `recording: {log: FILE, format: carmen, ...}` with the options
+// of its format (harness/log.hpp); `sensor` beside it gives noise and timing, which algorithms may ask for. In paths of
+// worlds and logs, ${SCANBENCH_DATA} stands for that environment variable.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -28,13 +50,14 @@ struct PipelineSpec {
 
 /// Scans come from a simulated world ...
 struct SimulatedInput {
-  std::string world_file;  ///< as written in the scenario
-  std::string world_text;  ///< bytes of that file: part of the scenario's identity
+  std::string world_file;  ///< as written in the scenario; empty: the world is written into the scenario
+  std::string world_text;  ///< bytes of that file, unpacked
   sim::World world;
   std::string sensor_preset;
   ParamSet sensor_params;  ///< effective
   SensorModel sensor;
   ModuleChoice trajectory;
+  ParamSet odometry_params;  ///< effective, in the units of the file
   sim::OdometryNoise odometry;
   bool sweep = false;
 };
@@ -42,8 +65,12 @@ struct SimulatedInput {
 /// ... or from a recorded log.
 struct RecordedInput {
   std::filesystem::path log;
-  std::string format;  ///< carmen, csv, dpslam
-  ParamSet params;     ///< of the reader: no-return value, first angle, pose triple, ...; effective
+  std::string log_as_written;  ///< in the scenario, with ${SCANBENCH_DATA}
+  std::string format;          ///< carmen, csv, dpslam
+  ParamSet params;             ///< of the reader: no-return value, first angle, pose triple, ...; effective
+  std::string sensor_preset;
+  ParamSet sensor_params;  ///< effective; beam angles and range limits of it are not used: the log has its own
+  SensorModel sensor;
 };
 
 struct Limits {
@@ -52,7 +79,7 @@ struct Limits {
 };
 
 struct Scenario {
-  std::string name;  ///< the file's name without ending
+  std::string name;  ///< key `name`, or the file's name without ending
   std::filesystem::path path;
   std::string text;  ///< the file's bytes
   std::string about;
@@ -61,8 +88,11 @@ struct Scenario {
   std::vector<PipelineSpec> pipelines;
   std::vector<ModuleChoice> metrics;
   std::vector<ModuleChoice> figures;
-  std::filesystem::path published_file;  ///< values that a paper prints, shown beside ours; empty: none (key `published`)
+  std::filesystem::path
+      published_file;  ///< values that a paper prints, shown beside ours; empty: none (key `published`)
   Limits limits;
+  std::vector<std::string>
+      notes;  ///< for the user: what reading passed over, like walls without length in a vector map
 };
 
 /// Reads and checks a scenario file. `sets` are "key=value" overrides with dotted keys
@@ -70,9 +100,20 @@ struct Scenario {
 /// allowed.
 Scenario load_scenario(const std::filesystem::path& path, const std::vector<std::string>& sets = {});
 
-/// The scenario with every default written out; loading it again gives the same scenario and the same bytes of every
-/// artefact.
+/// The same from memory; files that it names are found relative to `path`.
+Scenario parse_scenario(std::string_view text, const std::filesystem::path& path,
+                        const std::vector<std::string>& sets = {});
+
+/// The scenario with every default written out, the world in it, in one canonical form; loading it again, from any
+/// folder, gives the same scenario, the same bytes of this text and of every artefact.
 std::string effective_yaml(const Scenario& scenario);
+
+/// What simulate() gets; its trajectory has the waypoints that figures show. Only for scenarios with a simulated world.
+sim::SimulationInput simulation_input(const Scenario& scenario, std::uint64_t seed);
+
+/// Checks what loading leaves until a run: that the path is clear of walls, and that the memory suffices. Throws
+/// ConfigError.
+void check_scenario(const Scenario& scenario);
 
 /// The recording of a scenario for one seed: simulates, or reads the log (the seed is then unused).
 /// Throws ConfigError if it would need more memory than the limit, with the arithmetic.

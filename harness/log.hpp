@@ -1,0 +1,43 @@
+// Recorded logs: scans that a real sensor took, in the formats that logs come in. Gzip is unpacked on the way.
+//
+// carmen   FLASER and ROBOTLASER1 lines; all other messages are passed over. FLASER states no beam angles, and public
+//          readers disagree by up to 17 cm at 10 m; the rule here: -90 deg + i * 180/n for n = 180 and 360 beams,
+//          -90 deg + i * 180/(n-1) for 181 and 361; any other n needs first_angle_deg and step_deg. ROBOTLASER1 states
+//          its angles. A log that holds both gives the scans of the message that comes first.
+//          Poses: `reference` is the first pose triple of a line (the laser's), `odometry` the second (the robot's),
+//          `vertex` the VERTEX2 line before the scan in a graph log.
+// dpslam   "Odometry x y theta" and "Laser n r1 .. rn" in turns; angles by the same rule.
+// csv      one scan per row, fields separated by commas or blanks, # begins a comment; `columns` says what they are:
+//          t_s t_ms t_us  x_m x_cm x_mm  y_m y_cm y_mm  yaw_rad yaw_deg  skip skip:20  ranges
+//          "inf", "-inf" and "nan" are allowed among the ranges.
+//
+// What a reading means (REP-117): 0, negative and NaN: no reading (NaN); below range_min_m: too close (-inf); from
+// no_return_m on (if that is > 0): nothing in range (+inf).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/params.hpp"
+#include "core/recording.hpp"
+
+namespace scanbench::harness {
+
+std::vector<std::string> log_formats();
+
+/// The options of a format, with units, bounds and docs. Throws ConfigError for an unknown format.
+std::vector<ParamSpec> log_param_specs(std::string_view format);
+
+/// The scans of a log. `sensor` gives name, noise and timing; beam angles and range limits come from the log and its
+/// options. Stamps are the log's, or the sensor's scan period apart if it has none. No truth. Throws ConfigError with
+/// file:line:col for a line that is cut short, fields that are no numbers, beam counts that change, no scan at all.
+Recording read_log(const std::filesystem::path& path, std::string_view format, const ParamSet& params,
+                   const SensorModel& sensor, double max_bytes);
+
+/// The same from memory; `file` is for messages.
+Recording parse_log(std::string_view text, const std::string& file, std::string_view format, const ParamSet& params,
+                    const SensorModel& sensor);
+
+}  // namespace scanbench::harness

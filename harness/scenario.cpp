@@ -1,0 +1,195 @@
+// Reading a scenario: the sections in the order of the file.
+#include "harness/scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "harness/log.hpp"
+#include "harness/scenario_modules.hpp"
+#include "harness/scenario_reader.hpp"
+#include "harness/scenario_sections.hpp"
+#include "harness/text_file.hpp"
+#include "harness/world_file.hpp"
+#include "sim/sensors.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+class ScenarioReader {
+ public:
+  ScenarioReader(const YamlNode& root, Scenario& scenario)
+      : root_(root), map_(root, "the scenario"), scenario_(scenario) {}
+
+  void read() {
+    read_schema(map_);
+    scenario_.name = map_.text_or("name", scenario_.path.stem().string());
+    const YamlNode* name = map_.find("name");
+    check_name(scenario_.name, name != nullptr ? name->mark : root_.mark, "the scenario's name");
+    scenario_.about = map_.text_or("about", "");
+    read_limits();
+    scenario_.seeds = read_seeds(map_);
+    if (const YamlNode* recording = map_.find("recording"))
+      read_recorded(*recording);
+    else
+      read_simulated();
+    if (scenario_.seeds.empty()) scenario_.seeds = {1};
+    if (const YamlNode* node = map_.find("pipelines")) scenario_.pipelines = read_pipelines(*node);
+    if (const YamlNode* node = map_.find("metrics")) scenario_.metrics = read_choices(*node, "metrics");
+    if (const YamlNode* node = map_.find("figures")) scenario_.figures = read_choices(*node, "figure");
+    if (const YamlNode* node = map_.find("published"))
+      scenario_.published_file = resolve_path(*node, map_.text("published", "a file's path"), scenario_.path);
+    map_.done();
+  }
+
+ private:
+  void read_limits() {
+    const YamlNode* node = map_.find("limits");
+    LimitParams params;
+    if (node != nullptr) {
+      YamlMap limits(*node, "limits");
+      params = make_params<LimitParams>(limits.params(param_specs<LimitParams>()));
+      limits.done();
+    }
+    scenario_.limits = {params.seconds, params.memory_mib * 1024.0 * 1024.0};
+  }
+
+  void read_simulated() {
+    SimulatedInput input;
+    read_world_section(input);
+    const YamlNode& sensor = map_.require("sensor", "{preset: NAME}, with any of its fields beside it");
+    read_sensor(sensor, sim::sensor_param_specs(), input.sensor_preset, input.sensor_params, input.sensor);
+    read_trajectory(map_.require("trajectory", "{kind: NAME, ...}"), input);
+    scenario_.input = std::move(input);
+  }
+
+  void read_world_section(SimulatedInput& input) {
+    const YamlNode& node = map_.require("world", "{file: PATH}, or the keys of a world file; or a recording");
+    YamlMap world(node, "world");
+    if (const YamlNode* file = world.find("file")) {
+      input.world_file = world.text("file", "a path");
+      world.done();
+      LoadedWorld loaded = load_world(resolve_path(*file, input.world_file, scenario_.path));
+      input.world = std::move(loaded.world);
+      input.world_text = std::move(loaded.text);
+      if (loaded.dropped > 0)
+        scenario_.notes.push_back(
+            fmt::format("{}: {} segments without length were passed over", input.world_file, loaded.dropped));
+    } else {
+      input.world = read_world(world, scenario_.name);
+      world.done();
+      at_param(node, [&] { sim::validate(input.world); });
+    }
+  }
+
+  static void read_sensor(const YamlNode& node, const std::vector<ParamSpec>& specs, std::string& preset,
+                          ParamSet& effective, SensorModel& sensor) {
+    YamlMap map(node, "sensor");
+    preset = map.text_or("preset", "custom");
+    const ParamSet overrides = map.params(specs);
+    map.done();
+    const bool known = sim::sensor_presets().contains(preset);
+    const YamlNode* preset_node = node.find("preset");
+    at_param(known || preset_node == nullptr ? node : *preset_node,
+             [&] { sensor = sim::make_sensor(preset, overrides, &effective); });
+  }
+
+  void read_trajectory(const YamlNode& node, SimulatedInput& input) {
+    YamlMap map(node, "trajectory");
+    const YamlNode& kind_node =
+        map.require("kind", fmt::format("one of {}", fmt::join(module_names("trajectory"), ", ")));
+    const std::string kind = map.text("kind", "a name");
+    const auto entry = at_param(kind_node, [&] { return find_module("trajectory", kind); });
+    OdometryParams odometry;
+    if (const YamlNode* odometry_node = map.find("odometry")) {
+      YamlMap odometry_map(*odometry_node, "odometry");
+      odometry = make_params<OdometryParams>(odometry_map.params(param_specs<OdometryParams>()));
+      odometry_map.done();
+    }
+    input.odometry_params = to_param_set(odometry);
+    input.odometry = odometry.noise();
+    ParamSpec sweep;
+    sweep.name = "sweep";
+    sweep.type = ParamType::boolean;
+    if (const YamlNode* sweep_node = map.find("sweep")) {
+      input.sweep = std::get<bool>(read_param(*sweep_node, sweep));
+      if (input.sweep && !(input.sensor.time_per_beam_s > 0))
+        throw PlacedError(sweep_node->mark,
+                          "sweep is true, but the sensor's time_per_beam_s is 0; allowed: a sensor that takes time");
+    }
+    input.trajectory = {"trajectory", kind, map.params(entry.params)};
+    map.done();
+    input.trajectory.params = resolve(entry.params, input.trajectory.params);
+    at_param(node, [&] {
+      Registry<sim::TrajectoryKind>::make(kind, input.trajectory.params)->generate(input.sensor.scan_period_s);
+    });
+  }
+
+  void read_recorded(const YamlNode& node) {
+    for (const char* key : {"world", "trajectory"})
+      if (const YamlNode* other = map_.find(key))
+        throw PlacedError(
+            other->mark,
+            fmt::format("both recording and {}; allowed: a recording, or world, sensor and trajectory", key));
+    RecordedInput input;
+    YamlMap map(node, "recording");
+    const YamlNode& log = map.require("log", "a file's path");
+    input.log_as_written = map.text("log", "a file's path");
+    const YamlNode& format_node = map.require("format", fmt::format("one of {}", fmt::join(log_formats(), ", ")));
+    input.format = map.text("format", "a name");
+    const auto specs = at_param(format_node, [&] { return log_param_specs(input.format); });
+    if (input.format != "csv")
+      map.require("no_return_m",
+                  "the range in m from which on a reading means that nothing was in range, or 0 if none does");
+    input.params = resolve(specs, map.params(specs));
+    map.done();
+    input.log = resolve_path(log, input.log_as_written, scenario_.path);
+    if (const YamlNode* sensor = map_.find("sensor")) {
+      read_sensor(*sensor, recorded_sensor_specs(), input.sensor_preset, input.sensor_params, input.sensor);
+    } else {
+      input.sensor_preset = "custom";
+      input.sensor = sim::make_sensor("custom", {}, &input.sensor_params);
+    }
+    if (scenario_.seeds.size() > 1)
+      throw PlacedError(map_.find("seeds")->mark,
+                        fmt::format("seeds has {} values, but a recorded log has no chance in it; allowed: one seed",
+                                    scenario_.seeds.size()));
+    scenario_.input = std::move(input);
+  }
+
+  const YamlNode& root_;
+  YamlMap map_;
+  Scenario& scenario_;
+};
+
+}  // namespace
+
+std::vector<ParamSpec> recorded_sensor_specs() {
+  static constexpr std::array<std::string_view, 5> kOfTheLog = {"angle_min_deg", "angle_step_deg", "beams",
+                                                                "range_min_m", "range_max_m"};
+  std::vector<ParamSpec> specs = sim::sensor_param_specs();
+  std::erase_if(specs,
+                [](const ParamSpec& spec) { return std::ranges::find(kOfTheLog, spec.name) != kOfTheLog.end(); });
+  return specs;
+}
+
+Scenario parse_scenario(std::string_view text, const std::filesystem::path& path,
+                        const std::vector<std::string>& sets) {
+  Scenario scenario;
+  scenario.path = path;
+  scenario.text = text;
+  in_file(path.string(), sets, [&] {
+    // A scenario may hold its world: the larger limit.
+    YamlNode root = parse_yaml(text, kMaxWorldBytes);
+    apply_sets(root, sets);
+    ScenarioReader(root, scenario).read();
+  });
+  return scenario;
+}
+
+Scenario load_scenario(const std::filesystem::path& path, const std::vector<std::string>& sets) {
+  return parse_scenario(read_text_file(path, kMaxWorldBytes), path, sets);
+}
+
+}  // namespace scanbench::harness
