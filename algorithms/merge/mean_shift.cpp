@@ -1,0 +1,348 @@
+// Simultaneous multi-line-segment merging with mean-shift clustering (R. Lakaemper, "Simultaneous multi-line-segment
+// merging for robot mapping using mean shift clustering", IROS 2009). docs/algorithms/mean_shift.md tells where and
+// why this departs from the text.
+//
+// Answers for difficult input: no lines give an empty map, converged; lines that are not finite, have no length or lie
+// beyond 1e9 m are dropped (label -1), and if none is left the status is degenerate; a sigma that would cut the lines
+// into more than 4 million pieces, or of which a coordinate holds more than 1e8, is a ParamError. The map does not
+// depend on the order of the lines, nor on which end of a line is called a: every line of it points along (cos t, sin
+// t), t in [0, pi). Its covariances are zero: mean shift estimates none.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "algorithms/merge/interval_merge.hpp"
+#include "algorithms/merge/joint_space.hpp"
+#include "algorithms/merge/map_cleanup.hpp"
+#include "algorithms/merge/mean_shift_modes.hpp"
+#include "algorithms/merge/mean_shift_phases.hpp"
+#include "core/modules.hpp"
+#include "core/number_text.hpp"
+#include "core/registry.hpp"
+
+namespace scanbench {
+namespace {
+
+using merge::Clustering;
+using merge::DraftLine;
+using merge::Kernels;
+using merge::Piece;
+
+enum class Phases { two, single };
+enum class Labelling { linked, strict };
+
+class MeanShift final : public SegmentMerger {
+ public:
+  struct Params {
+    double sigma_m = 0.20;
+    double h_deg_per_m = 0.0;
+    Phases phases = Phases::two;
+    double split_length_sigma = 2.0;
+    Labelling labelling = Labelling::linked;
+    double epsilon_sigma = 0.0;
+    double epsilon2 = 0.0;
+    double ridge_dip = 0.2;
+    double sigma_x_sigma = 2.0;
+    double sigma_y_sigma = 0.1;
+    double kernel2_factor = 1.0;
+    merge::Kernel2 kernel2 = merge::Kernel2::rotated;
+    double cutoff = 4.0;
+    bool capture = true;
+    double merge_gap_m = 0.0;
+    bool join = false;
+    double join_angle_deg = 5.0;
+    double join_deviation_sigma = 0.25;
+    double join_gap_sigma = 0.5;
+    bool trim = false;
+    double trim_sigma = 1.0;
+    bool erase_unsupported = true;
+    double min_length_sigma = 2.5;
+    double min_points_per_m = 25.0;
+    double support_distance_sigma = 0.25;
+
+    static auto fields() {
+      return std::tuple{
+          field("sigma_m", &Params::sigma_m, above(0), "m",
+                "size of the smallest significant detail; all other lengths follow from it"),
+          field("h_deg_per_m", &Params::h_deg_per_m, at_least(0), "deg/m",
+                "bandwidth: a difference of direction that counts as one metre; 0: 10 deg for sigma_m"),
+          choice("phases", &Params::phases, {{Phases::two, "two"}, {Phases::single, "single"}},
+                 "direction, then collinearity; or both at once (less robust)"),
+          field("split_length_sigma", &Params::split_length_sigma, above(0), "sigma_m",
+                "longer lines are cut into equal pieces first"),
+          choice("labelling", &Params::labelling, {{Labelling::linked, "linked"}, {Labelling::strict, "strict"}},
+                 "linked: modes as near as the pieces of one wall are one cluster; strict: only modes that coincide"),
+          field("epsilon_sigma", &Params::epsilon_sigma, at_least(0), "sigma_m",
+                "largest distance of linked modes in phase 1; 0: split_length_sigma (linked), 0.25 (strict)"),
+          field("epsilon2", &Params::epsilon2, at_least(0), "",
+                "the same in phase 2, in sigma_x along and sigma_y across; 0: 1 (linked), 0.25 (strict)"),
+          field("ridge_dip", &Params::ridge_dip, between(0, 1), "",
+                "linked labelling: modes of one ridge are one cluster when the density between them falls by no more "
+                "than this share; 0: distance alone decides"),
+          field("sigma_x_sigma", &Params::sigma_x_sigma, above(0), "sigma_m",
+                "phase 2 kernel along the cluster's direction"),
+          field("sigma_y_sigma", &Params::sigma_y_sigma, above(0), "sigma_m", "phase 2 kernel across it"),
+          field("kernel2_factor", &Params::kernel2_factor, above(0), "",
+                "of both variances in phase 2: 1 as the text defines them, 2 as eqs 5 and 6 print them"),
+          choice("kernel2", &Params::kernel2,
+                 {{merge::Kernel2::rotated, "rotated"}, {merge::Kernel2::printed, "printed"}},
+                 "rotated: long along the cluster's direction; printed: with the sign of b as in eq. 6, long along "
+                 "the mirrored direction (to show the difference)"),
+          field("cutoff", &Params::cutoff, between(3, 6), "",
+                "standard deviations at which kernels are cut off while climbing; modes are polished with 6.5"),
+          field("capture", &Params::capture, "end a climb early next to a known mode"),
+          field("merge_gap_m", &Params::merge_gap_m, at_least(0), "m",
+                "projected segments of one cluster are united across gaps up to this"),
+          field("join", &Params::join, "unite abutting lines of the merged map"),
+          field("join_angle_deg", &Params::join_angle_deg, between(0, 45), "deg", "largest difference of direction"),
+          field("join_deviation_sigma", &Params::join_deviation_sigma, at_least(0), "sigma_m",
+                "largest distance of end points from the joined line"),
+          field("join_gap_sigma", &Params::join_gap_sigma, at_least(0), "sigma_m", "largest gap that a join closes"),
+          field("trim", &Params::trim, "cut back what overshoots an intersection"),
+          field("trim_sigma", &Params::trim_sigma, at_least(0), "sigma_m", "longest overshoot that is cut"),
+          field("erase_unsupported", &Params::erase_unsupported,
+                "erase short lines with few scan points near them (only where points are given)"),
+          field("min_length_sigma", &Params::min_length_sigma, at_least(0), "sigma_m",
+                "lines this long stay whatever their support"),
+          field("min_points_per_m", &Params::min_points_per_m, at_least(0), "1/m", "support that a short line needs"),
+          field("support_distance_sigma", &Params::support_distance_sigma, at_least(0), "sigma_m",
+                "scan points this near to a line support it"),
+      };
+    }
+  };
+
+  explicit MeanShift(const Params& params) : p_(params), kernels_(kernels_of(params)) {}
+
+  MergeResult merge(const MergeInput& input, Trace& trace) const override;
+
+ private:
+  static Kernels kernels_of(const Params& p);
+  std::vector<DraftLine> merge_clusters(std::span<const Piece> pieces, const Clustering& last,
+                                        std::span<const double> directions, Trace& trace) const;
+
+  Params p_;
+  Kernels kernels_;
+};
+
+Kernels MeanShift::kernels_of(const Params& p) {
+  const bool strict = p.labelling == Labelling::strict;
+  const auto set_or = [](double value, double derived) { return value > 0 ? value : derived; };
+  const Kernels k{
+      .sigma_m = p.sigma_m,
+      .h_rad_per_m = p.h_deg_per_m > 0 ? radians(p.h_deg_per_m) : radians(10.0) / p.sigma_m,
+      .sigma_x_m = p.sigma_x_sigma * p.sigma_m,
+      .sigma_y_m = p.sigma_y_sigma * p.sigma_m,
+      .factor = p.kernel2_factor,
+      .form = p.kernel2,
+      .epsilon1_m = set_or(p.epsilon_sigma, strict ? 0.25 : p.split_length_sigma) * p.sigma_m,
+      .epsilon2 = set_or(p.epsilon2, strict ? 0.25 : 1.0),
+      .ridge_dip = strict ? 0.0 : p.ridge_dip,
+      .cutoff = p.cutoff,
+      .capture = p.capture,
+  };
+  const double widest_deg = degrees(kPi / merge::min_period(p.cutoff));
+  if (degrees(k.h_rad_per_m * k.sigma_m) > widest_deg)
+    throw ParamError("h_deg_per_m", "h_deg_per_m * sigma_m = " + number_text(degrees(k.h_rad_per_m * k.sigma_m)) +
+                                        " deg is more than " + number_text(widest_deg) +
+                                        " deg: so wide a kernel reaches perpendicular directions, where the distance "
+                                        "of eq. 4 has a kink and there is nothing to climb");
+  return k;
+}
+
+/// Per cluster the mean direction of where its members converged (section IV.C).
+std::vector<double> cluster_directions_of(const Clustering& clustering) {
+  std::vector<std::vector<double>> of_members(static_cast<std::size_t>(clustering.clusters));
+  for (std::size_t i = 0; i < clustering.cluster.size(); ++i)
+    of_members[static_cast<std::size_t>(clustering.cluster[i])].push_back(clustering.end[i].z());
+  std::vector<double> result;
+  for (const auto& directions : of_members) result.push_back(merge::mean_direction(directions));
+  return result;
+}
+
+std::vector<DraftLine> MeanShift::merge_clusters(std::span<const Piece> pieces, const Clustering& last,
+                                                 std::span<const double> directions, Trace& trace) const {
+  std::vector<DraftLine> drafts;
+  const auto members = merge::members_of(last.cluster, last.clusters);
+  for (std::size_t c = 0; c < members.size(); ++c) {
+    std::vector<Segment> segments;
+    Vec2 mean = Vec2::Zero();  // the mode M, relative to the first member's end
+    const Vec2 origin = last.end[static_cast<std::size_t>(members[c].front())].head<2>();
+    for (const int k : members[c]) {
+      segments.push_back(pieces[static_cast<std::size_t>(k)].segment);
+      mean += last.end[static_cast<std::size_t>(k)].head<2>() - origin;
+    }
+    const Vec2 mode = origin + mean / static_cast<double>(members[c].size());
+    const double theta = directions[c];
+    for (merge::MergedSegment& merged : merge::merge_on_line(segments, mode, theta, p_.merge_gap_m)) {
+      DraftLine draft{merged.segment, {}, static_cast<int>(c)};
+      for (const int k : merged.contributors) draft.pieces.push_back(members[c][static_cast<std::size_t>(k)]);
+      drafts.push_back(std::move(draft));
+    }
+    if (!trace.recording()) continue;
+    const Vec2 axis = merge::kernel2_axis(kernels_.form, theta);
+    const double width = std::sqrt(kernels_.factor);
+    trace.row("mode2", {static_cast<double>(c), mode.x(), mode.y(), theta});
+    trace.row("kernel2", {static_cast<double>(c), mode.x(), mode.y(), std::atan2(axis.y(), axis.x()),
+                          width * kernels_.sigma_x_m, width * kernels_.sigma_y_m});
+    const Vec2 along(std::cos(theta), std::sin(theta));
+    for (const int k : members[c]) {
+      const Segment& s = pieces[static_cast<std::size_t>(k)].segment;
+      const double u0 = along.dot(s.a - mode);
+      const double u1 = along.dot(s.b - mode);
+      const Vec2 start = mode + std::min(u0, u1) * along;
+      const Vec2 end = mode + std::max(u0, u1) * along;
+      trace.row("projection", {static_cast<double>(c), static_cast<double>(k), start.x(), start.y(), end.x(), end.y()});
+    }
+  }
+  return drafts;
+}
+
+void trace_clustering(const Clustering& clustering, std::string_view trajectory, Trace& trace) {
+  for (std::size_t k = 0; k < clustering.paths.size(); ++k) {
+    double step = 0.0;
+    for (const auto& p : clustering.paths[k])
+      trace.row(trajectory, {static_cast<double>(k), step++, p.x(), p.y(), p.z()});
+  }
+}
+
+/// The index that holds the largest share of a line's length, the lowest of equals; -1 if none.
+class LargestShare {
+ public:
+  explicit LargestShare(std::size_t lines) : shares_(lines) {}
+  void add(std::size_t line, int index, double length) {
+    if (index < 0) return;
+    for (auto& [known, sum] : shares_[line]) {
+      if (known != index) continue;
+      sum += length;
+      return;
+    }
+    shares_[line].emplace_back(index, length);
+  }
+  std::vector<int> winners() const {
+    std::vector<int> result;
+    for (const auto& line : shares_) {
+      const auto best = std::max_element(line.begin(), line.end(), [](const auto& a, const auto& b) {
+        const double slack = 1e-9 * std::max(a.second, b.second);  // equal pieces are equal only to rounding
+        return std::abs(a.second - b.second) > slack ? a.second < b.second : a.first > b.first;
+      });
+      result.push_back(best == line.end() ? -1 : best->first);
+    }
+    return result;
+  }
+
+ private:
+  std::vector<std::vector<std::pair<int, double>>> shares_;
+};
+
+MergeResult MeanShift::merge(const MergeInput& input, Trace& trace) const {
+  MergeResult result;
+  const std::size_t n = input.lines.size();
+  result.labels.assign(n, -1);
+  result.cluster1.assign(n, -1);
+  result.cluster2.assign(n, -1);
+
+  trace.stage("split");
+  const merge::JointSpace space = merge::split_lines(input.lines, p_.sigma_m, p_.split_length_sigma * p_.sigma_m);
+  const std::vector<Piece>& pieces = space.pieces;
+  if (pieces.empty()) {
+    if (n > 0) result.status = Status::degenerate;
+    return result;
+  }
+  const bool recording = trace.recording();
+  if (recording)
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const Vec2 c = pieces[k].segment.midpoint();
+      trace.row("joint_space",
+                {static_cast<double>(k), static_cast<double>(pieces[k].line), c.x(), c.y(), pieces[k].alpha});
+    }
+
+  trace.stage("phase1");
+  const Clustering first = p_.phases == Phases::two ? merge::cluster_directions(pieces, kernels_, recording)
+                                                    : merge::cluster_in_one_phase(pieces, kernels_, recording);
+  const std::vector<double> directions1 = cluster_directions_of(first);
+  trace_clustering(first, "trajectory1", trace);
+  if (recording)
+    for (std::size_t k = 0; k < pieces.size(); ++k)
+      trace.row("mode1", {static_cast<double>(k), first.end[k].x(), first.end[k].y(), first.end[k].z()});
+
+  trace.stage("phase2");
+  Clustering second;
+  if (p_.phases == Phases::two) {
+    second = merge::cluster_collinear(pieces, first.cluster, directions1, kernels_, recording);
+    trace_clustering(second, "trajectory2", trace);
+  }
+  const Clustering& last = p_.phases == Phases::two ? second : first;
+  if (!first.converged || !last.converged) result.status = Status::max_iterations;
+
+  trace.stage("merge");
+  std::vector<DraftLine> drafts = merge_clusters(pieces, last, cluster_directions_of(last), trace);
+  const std::size_t merged = drafts.size();
+
+  trace.stage("post");
+  if (p_.join)
+    drafts = merge::join_neighbours(std::move(drafts), {.angle_rad = radians(p_.join_angle_deg),
+                                                        .deviation_m = p_.join_deviation_sigma * p_.sigma_m,
+                                                        .gap_m = p_.join_gap_sigma * p_.sigma_m});
+  if (p_.trim) merge::trim_overshoots(drafts, p_.trim_sigma * p_.sigma_m);
+  if (p_.erase_unsupported && !input.points.empty()) {
+    const std::vector<bool> lacking = merge::lacks_support(drafts, input.points,
+                                                           {.distance_m = p_.support_distance_sigma * p_.sigma_m,
+                                                            .min_length_m = p_.min_length_sigma * p_.sigma_m,
+                                                            .min_points_per_m = p_.min_points_per_m});
+    std::size_t i = 0;
+    std::erase_if(drafts, [&](const DraftLine&) { return lacking[i++]; });
+  }
+
+  std::vector<int> map_line_of(pieces.size(), -1);
+  for (std::size_t d = 0; d < drafts.size(); ++d)
+    for (const int k : drafts[d].pieces) map_line_of[static_cast<std::size_t>(k)] = static_cast<int>(d);
+  LargestShare labels(n);
+  LargestShare clusters1(n);
+  LargestShare clusters2(n);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const double length = pieces[k].segment.length();
+    labels.add(pieces[k].line, map_line_of[k], length);
+    clusters1.add(pieces[k].line, first.cluster[k], length);
+    clusters2.add(pieces[k].line, last.cluster[k], length);
+    if (recording)
+      trace.row("cluster", {static_cast<double>(k), static_cast<double>(first.cluster[k]),
+                            static_cast<double>(last.cluster[k]), static_cast<double>(map_line_of[k])});
+  }
+  result.labels = labels.winners();
+  result.cluster1 = clusters1.winners();
+  result.cluster2 = clusters2.winners();
+
+  for (const DraftLine& draft : drafts) {
+    MapLine line;
+    line.segment = draft.segment;
+    line.members = 0;
+    double points = 0.0;
+    std::vector<std::size_t> sources;
+    for (const int k : draft.pieces) {
+      const Piece& piece = pieces[static_cast<std::size_t>(k)];
+      const MapLine& source = input.lines[piece.line];
+      points += source.points * piece.segment.length() / source.segment.length();
+      sources.push_back(piece.line);
+    }
+    std::sort(sources.begin(), sources.end());
+    sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+    for (const std::size_t i : sources) line.members += input.lines[i].members;
+    line.points = static_cast<int>(std::lround(points));
+    if (recording) trace.segment("interval", line.segment);
+    result.map.lines.push_back(line);
+  }
+  if (recording)
+    trace.row("counts",
+              {static_cast<double>(n), static_cast<double>(pieces.size()), static_cast<double>(first.clusters),
+               static_cast<double>(last.clusters), static_cast<double>(merged), static_cast<double>(drafts.size())});
+  return result;
+}
+
+[[maybe_unused]] const bool registered = Registry<SegmentMerger>::add<MeanShift>(
+    {.name = "mean_shift",
+     .summary = "clusters segments by direction and place, then by collinearity, with mean shift, and merges clusters",
+     .reference = "Lakaemper, Simultaneous Multi-Line-Segment Merging for Robot Mapping using Mean Shift Clustering, "
+                  "IROS 2009"});
+
+}  // namespace
+}  // namespace scanbench

@@ -1,0 +1,463 @@
+// Mean-shift merging of segments (Lakaemper 2009): what must hold by mathematics or by the paper.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/modules.hpp"
+#include "core/registry.hpp"
+#include "core/rng.hpp"
+#include "tests/algorithms/merge_spiral.hpp"
+
+namespace scanbench {
+namespace {
+
+constexpr double kSigma = 0.20;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+MergeResult merge(const std::vector<MapLine>& lines, const ParamSet& params = {},
+                  const std::vector<Vec2>& points = {}) {
+  Trace trace;
+  return Registry<SegmentMerger>::make("mean_shift", params)->merge({lines, points}, trace);
+}
+
+MapLine line(double x1, double y1, double x2, double y2) {
+  return {.segment = {{x1, y1}, {x2, y2}}};
+}
+
+/// A line by centre, direction and length.
+MapLine centred(const Vec2& centre, double direction_rad, double length = 0.3) {
+  const Vec2 half = 0.5 * length * Vec2(std::cos(direction_rad), std::sin(direction_rad));
+  return {.segment = {centre - half, centre + half}};
+}
+
+/// Largest distance of corresponding ends, whichever way round the segments are.
+double apart(const Segment& s, const Segment& t) {
+  const double same = std::max((s.a - t.a).norm(), (s.b - t.b).norm());
+  const double turned = std::max((s.a - t.b).norm(), (s.b - t.a).norm());
+  return std::min(same, turned);
+}
+
+/// Lines of a room seen several times with noise: walls of many lengths and directions.
+std::vector<MapLine> noisy_walls(std::uint64_t seed) {
+  const std::vector<Segment> walls{{{0, 0}, {4, 0.1}},     {{4, 0.1}, {4.3, 3}},    {{4.3, 3}, {2.5, 3.2}},
+                                   {{2.5, 3.2}, {2.4, 5}}, {{2.4, 5}, {-0.3, 4.8}}, {{-0.3, 4.8}, {0, 0}},
+                                   {{1, 1}, {1.6, 1.4}},   {{2, 1}, {2.5, 2.2}}};
+  CounterRng rng(seed, RngStream::pose);
+  std::vector<MapLine> lines;
+  for (int scan = 0; scan < 6; ++scan)
+    for (const Segment& wall : walls) {
+      const double from = 0.3 * rng.uniform();
+      const double to = 1.0 - 0.3 * rng.uniform();
+      const Pose2 error(0.01 * rng.normal(), 0.01 * rng.normal(), 0.005 * rng.normal());
+      lines.push_back({.segment = error * Segment{wall.a + from * (wall.b - wall.a), wall.a + to * (wall.b - wall.a)}});
+    }
+  return lines;
+}
+
+const ParamSet kStrict{{"labelling", std::string("strict")}, {"split_length_sigma", 1000.0}};
+ParamSet strict_and(const std::string& name, ParamValue value) {
+  ParamSet set = kStrict;
+  set[name] = std::move(value);
+  return set;
+}
+/// Phase 1 alone: every phase-2 cluster of these is whole in cluster1.
+int clusters(const std::vector<int>& labels) {
+  return *std::max_element(labels.begin(), labels.end()) + 1;
+}
+
+TEST(MeanShift, Phase1HasOneModeForTwoParallelSegmentsOnlyWithinTwoSigma) {
+  const ParamSet tight = strict_and("epsilon_sigma", 0.05);
+  for (const double direction : {0.0, 0.7, 2.9}) {
+    const Vec2 across(-std::sin(direction), std::cos(direction));
+    for (const Vec2& way : {across, perpendicular(across)}) {
+      const auto at = [&](double sigmas) {
+        return merge({centred({1, 2}, direction), centred(Vec2(1, 2) + sigmas * kSigma * way, direction)}, tight);
+      };
+      EXPECT_EQ(clusters(at(1.9).cluster1), 1) << direction;
+      EXPECT_EQ(clusters(at(2.1).cluster1), 2) << direction;
+    }
+  }
+}
+
+TEST(MeanShift, Phase1HasOneModeForTwoDirectionsInOnePlaceOnlyWithinTwentyDegrees) {
+  const ParamSet tight = strict_and("epsilon_sigma", 0.05);
+  for (const double first_deg : {0.0, 35.0, 90.0, 161.0, 170.0, 175.0}) {  // the last ones: across the seam at 180
+    const auto at = [&](double difference_deg) {
+      return merge({centred({1, 2}, radians(first_deg)), centred({1, 2}, radians(first_deg + difference_deg))}, tight);
+    };
+    EXPECT_EQ(clusters(at(19).cluster1), 1) << first_deg;
+    EXPECT_EQ(clusters(at(21).cluster1), 2) << first_deg;
+  }
+}
+
+TEST(MeanShift, TheBandwidthFollowsSigmaUnlessItIsSet) {
+  const auto lines = [](double deg) { return std::vector{centred({0, 0}, 0.0), centred({0, 0}, radians(deg))}; };
+  ParamSet half = strict_and("sigma_m", 0.10);
+  EXPECT_EQ(clusters(merge(lines(19), half).cluster1), 1);
+  EXPECT_EQ(clusters(merge(lines(21), half).cluster1), 2);
+  half["h_deg_per_m"] = 50.0;  // now 5 degrees for sigma
+  EXPECT_EQ(clusters(merge(lines(9.5), half).cluster1), 1);
+  EXPECT_EQ(clusters(merge(lines(10.5), half).cluster1), 2);
+}
+
+// K2 has standard deviations 2 sigma along and sigma / 10 across the cluster's direction; two equal Gaussians are one
+// up to twice that. The centres lie at most 2 sigma apart, so phase 1 keeps them together.
+TEST(MeanShift, Phase2MergesAlongTheDirectionOfTheClusterAndNotAcrossIt) {
+  for (const double direction_deg : {0.0, 30.0, 90.0, 120.0, 150.0}) {
+    const double direction = radians(direction_deg);
+    const Vec2 along(std::cos(direction), std::sin(direction));
+    const Vec2 across = perpendicular(along);
+    const auto clusters_at = [&](const Vec2& offset, double factor) {
+      ParamSet params = kStrict;
+      params["kernel2_factor"] = factor;
+      params["epsilon_sigma"] = 100.0;  // phase 1 must not tell them apart
+      return clusters(merge({centred({3, 1}, direction), centred(Vec2(3, 1) + offset, direction)}, params).cluster2);
+    };
+    for (const double f : {1.0, 2.0}) {
+      const double along_limit = 4.0 * kSigma * std::sqrt(f);
+      const double across_limit = 0.2 * kSigma * std::sqrt(f);
+      EXPECT_EQ(clusters_at(0.95 * along_limit * along, f), 1) << direction_deg;
+      EXPECT_EQ(clusters_at(1.05 * along_limit * along, f), 2) << direction_deg;
+      EXPECT_EQ(clusters_at(0.95 * across_limit * across, f), 1) << direction_deg;
+      EXPECT_EQ(clusters_at(1.05 * across_limit * across, f), 2) << direction_deg;
+    }
+  }
+}
+
+TEST(MeanShift, ThePrintedKernelIsLongAlongTheMirroredDirection) {
+  const double direction = radians(30.0);
+  const Vec2 along(std::cos(direction), std::sin(direction));
+  const Vec2 mirrored(std::cos(direction), -std::sin(direction));
+  const auto clusters_at = [&](const Vec2& offset, const char* kernel) {
+    ParamSet params = strict_and("kernel2", std::string(kernel));
+    params["epsilon_sigma"] = 100.0;
+    return clusters(merge({centred({3, 1}, direction), centred(Vec2(3, 1) + offset, direction)}, params).cluster2);
+  };
+  EXPECT_EQ(clusters_at(0.6 * along, "rotated"), 1);
+  EXPECT_EQ(clusters_at(0.6 * along, "printed"), 2);
+  EXPECT_EQ(clusters_at(0.6 * mirrored, "rotated"), 2);
+  EXPECT_EQ(clusters_at(0.6 * mirrored, "printed"), 1);
+}
+
+TEST(MeanShift, IdenticalSegmentsGiveOneEqualToThem) {
+  const MapLine one = line(1.0, -2.0, 2.3, 0.4);
+  for (const std::size_t n : {1U, 2U, 7U, 500U}) {
+    const MergeResult r = merge(std::vector<MapLine>(n, one));
+    EXPECT_EQ(r.status, Status::converged);
+    ASSERT_EQ(r.map.lines.size(), 1U);
+    EXPECT_LT(apart(r.map.lines[0].segment, one.segment), 1e-9);
+    EXPECT_EQ(r.map.lines[0].members, static_cast<int>(n));
+    EXPECT_EQ(r.labels, std::vector<int>(n, 0));
+  }
+}
+
+TEST(MeanShift, ASegmentOfAnyLengthAndDirectionGivesItself) {
+  for (const double length : {1e-6, 0.05, 0.39, 0.4, 0.41, 1.0, 3.7, 40.0, 1000.0})
+    for (const double direction_deg : {0.0, 45.0, 90.0, 137.0, 179.999999}) {
+      const MapLine one = centred({12.0, -7.0}, radians(direction_deg), length);
+      const MergeResult r = merge({one});
+      ASSERT_EQ(r.map.lines.size(), 1U) << length << " at " << direction_deg;
+      EXPECT_LT(apart(r.map.lines[0].segment, one.segment), 1e-9) << length << " at " << direction_deg;
+    }
+}
+
+TEST(MeanShift, TheOutputsOfOneSegmentCoverItForEveryLabelling) {
+  const MapLine one = centred({2.0, 1.0}, 0.6, 7.3);
+  for (const double epsilon : {0.01, 0.25, 1.0, 2.0, 10.0}) {
+    const MergeResult r = merge({one}, {{"epsilon_sigma", epsilon}, {"epsilon2", 0.5 * epsilon}});
+    const Vec2 along = one.segment.direction();
+    std::vector<std::pair<double, double>> intervals;
+    for (const MapLine& l : r.map.lines) {
+      EXPECT_LT(std::abs(cross(along, l.segment.a - one.segment.a)), 1e-9);
+      EXPECT_LT(std::abs(cross(along, l.segment.b - one.segment.a)), 1e-9);
+      intervals.push_back(
+          std::minmax({along.dot(l.segment.a - one.segment.a), along.dot(l.segment.b - one.segment.a)}));
+    }
+    std::sort(intervals.begin(), intervals.end());
+    double reached = 0.0;
+    for (const auto& [from, to] : intervals) {
+      EXPECT_NEAR(from, reached, 1e-9);
+      reached = to;
+    }
+    EXPECT_NEAR(reached, 7.3, 1e-9);
+  }
+}
+
+// Exact modes of a wall seen often lie two to three sigma apart on a flat ridge: distance alone does not link them.
+TEST(MeanShift, AWallSeenOftenIsOneLineBecauseModesOfOneRidgeAreLinked) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    CounterRng rng(seed, RngStream::pose);
+    std::vector<MapLine> lines;
+    for (int scan = 0; scan < 20; ++scan) {
+      const double from = rng.uniform();
+      lines.push_back(centred({5.0 + from, 0.005 * rng.normal()}, radians(0.3 * rng.normal()), 10.0));
+    }
+    EXPECT_EQ(merge(lines).map.lines.size(), 1U);
+    EXPECT_GT(merge(lines, {{"ridge_dip", 0.0}}).map.lines.size(), 4U);
+  }
+}
+
+// A ridge that turns is not followed: a round column stays a polygon.
+TEST(MeanShift, ARoundColumnStaysRound) {
+  CounterRng rng(4, RngStream::pose);
+  std::vector<MapLine> lines;
+  const double radius = 0.5;
+  for (int scan = 0; scan < 200; ++scan) {
+    const double at = kTwoPi * rng.uniform();
+    lines.push_back(centred(radius * Vec2(std::cos(at), std::sin(at)), at + kPi / 2, 0.2));
+  }
+  const MergeResult r = merge(lines);
+  EXPECT_GE(r.map.lines.size(), 6U);
+  for (const MapLine& l : r.map.lines) {
+    EXPECT_LT(l.segment.length(), 1.0);
+    EXPECT_NEAR(l.segment.midpoint().norm(), radius, 0.1);
+  }
+}
+
+TEST(MeanShift, IsEquivariantUnderRigidMotions) {
+  const auto lines = noisy_walls(1);
+  const MergeResult plain = merge(lines);
+  for (const Pose2& motion : {Pose2(0.0, 0.0, kPi / 2), Pose2(13.1, -7.7, 0.4), Pose2(-2.0, 900.0, -2.2)}) {
+    std::vector<MapLine> moved = lines;
+    for (MapLine& l : moved) l.segment = motion * l.segment;
+    const MergeResult r = merge(moved);
+    ASSERT_EQ(r.map.lines.size(), plain.map.lines.size());
+    for (const MapLine& expected : plain.map.lines) {
+      double nearest = kInfinity;
+      for (const MapLine& found : r.map.lines)
+        nearest = std::min(nearest, apart(found.segment, motion * expected.segment));
+      EXPECT_LT(nearest, 1e-6);
+    }
+  }
+}
+
+TEST(MeanShift, IsEquivariantUnderScalingWithSigma) {
+  const auto lines = noisy_walls(2);
+  const MergeResult plain = merge(lines);
+  for (const double scale : {1e-3, 7.0, 1000.0}) {
+    std::vector<MapLine> scaled = lines;
+    for (MapLine& l : scaled) l.segment = {scale * l.segment.a, scale * l.segment.b};
+    const MergeResult r = merge(scaled, {{"sigma_m", scale * kSigma}});
+    ASSERT_EQ(r.map.lines.size(), plain.map.lines.size());
+    for (std::size_t k = 0; k < plain.map.lines.size(); ++k) {
+      const Segment& s = plain.map.lines[k].segment;
+      EXPECT_LT(apart(r.map.lines[k].segment, {scale * s.a, scale * s.b}), 1e-6 * scale);
+    }
+    EXPECT_EQ(r.labels, plain.labels);
+  }
+}
+
+TEST(MeanShift, DependsNeitherOnTheOrderNorOnTheSenseOfTheSegments) {
+  const auto lines = noisy_walls(3);
+  const MergeResult plain = merge(lines);
+  CounterRng rng(9, RngStream::pose);
+  for (int round = 0; round < 3; ++round) {
+    std::vector<std::size_t> order(lines.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[rng.bits() % i]);
+    std::vector<MapLine> shuffled;
+    for (const std::size_t i : order) {
+      shuffled.push_back(lines[i]);
+      if (rng.uniform() < 0.5) std::swap(shuffled.back().segment.a, shuffled.back().segment.b);
+    }
+    const MergeResult r = merge(shuffled);
+    ASSERT_EQ(r.map.lines.size(), plain.map.lines.size());
+    for (std::size_t k = 0; k < r.map.lines.size(); ++k) {
+      EXPECT_LT((r.map.lines[k].segment.a - plain.map.lines[k].segment.a).norm(), 1e-9);
+      EXPECT_LT((r.map.lines[k].segment.b - plain.map.lines[k].segment.b).norm(), 1e-9);
+      EXPECT_EQ(r.map.lines[k].members, plain.map.lines[k].members);
+    }
+    for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(r.labels[i], plain.labels[order[i]]);
+  }
+}
+
+// With merge_gap 0, the lines of a phase-2 cluster cover exactly what their members' projections cover.
+TEST(MeanShift, ReachesAsFarAsTheProjectionsOfItsMembers) {
+  for (const double gap : {0.0, 0.1}) {
+    const std::vector<MapLine> lines{line(0, 0, 1, 0), line(0.8, 0.004, 1.5, 0.004), line(1.5, 0, 1.8, 0),
+                                     line(1.85, 0.002, 2.15, 0.002), line(5.0, 0, 5.5, 0)};
+    const MergeResult r = merge(lines, {{"merge_gap_m", gap}});
+    std::vector<std::pair<double, double>> found;
+    for (const MapLine& l : r.map.lines) {
+      EXPECT_NEAR(l.segment.a.y(), 0.0, 0.005);
+      found.emplace_back(l.segment.a.x(), l.segment.b.x());
+    }
+    std::sort(found.begin(), found.end());
+    const std::vector<std::pair<double, double>> expected =
+        gap == 0.0 ? std::vector<std::pair<double, double>>{{0, 1.8}, {1.85, 2.15}, {5.0, 5.5}}
+                   : std::vector<std::pair<double, double>>{{0, 2.15}, {5.0, 5.5}};
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_NEAR(found[k].first, expected[k].first, 1e-6);
+      EXPECT_NEAR(found[k].second, expected[k].second, 1e-6);
+    }
+  }
+}
+
+TEST(MeanShift, CountsMembersAndSharesPointsByLength) {
+  MapLine a = line(0, 0, 1, 0);
+  a.members = 3;
+  a.points = 30;
+  MapLine b = line(0.5, 0, 1.5, 0);
+  b.points = 12;
+  const MergeResult r = merge({a, b});
+  ASSERT_EQ(r.map.lines.size(), 1U);
+  EXPECT_EQ(r.map.lines[0].members, 4);
+  EXPECT_EQ(r.map.lines[0].points, 42);
+}
+
+TEST(MeanShift, AnswersBadInputWithAStatusAndDropsWhatItCannotUse) {
+  const MergeResult nothing = merge({});
+  EXPECT_EQ(nothing.status, Status::converged);
+  EXPECT_TRUE(nothing.map.lines.empty());
+
+  const MergeResult useless = merge({line(1, 1, 1, 1), line(kNan, 0, 1, 0), line(0, 0, kInfinity, 0),
+                                     line(0, 0, 1e300, 0), line(-1e308, 0, 1e308, 0)},
+                                    {{"split_length_sigma", 1e300}});
+  EXPECT_EQ(useless.status, Status::degenerate);
+  EXPECT_TRUE(useless.map.lines.empty());
+  EXPECT_EQ(useless.labels, std::vector<int>(5, -1));
+
+  const MergeResult mixed = merge({line(1, 1, 1, 1), line(0, 0, 1, 0), line(0, kNan, 1, 0)});
+  EXPECT_EQ(mixed.status, Status::converged);
+  ASSERT_EQ(mixed.map.lines.size(), 1U);
+  EXPECT_EQ(mixed.labels, (std::vector<int>{-1, 0, -1}));
+
+  MapLine strange = line(0, 0, 1, 0);
+  strange.covariance.setConstant(kNan);
+  EXPECT_EQ(merge({strange, strange, line(0, 0, 1, 0)}).map.lines.size(), 1U);
+}
+
+TEST(MeanShift, TreatsDirectionsZeroAndPiAsOne) {
+  const MergeResult r =
+      merge({line(0, 0, 1, 0), line(1, 0, 0, 0), line(0, 1e-12, 1, -1e-12), line(0, -1e-12, 1, 1e-12)});
+  ASSERT_EQ(r.map.lines.size(), 1U);
+  EXPECT_LT(apart(r.map.lines[0].segment, {{0, 0}, {1, 0}}), 1e-9);
+}
+
+TEST(MeanShift, RefusesASigmaThatIsNotPositiveOrCutsTheInputToDust) {
+  EXPECT_THROW(Registry<SegmentMerger>::make("mean_shift", {{"sigma_m", 0.0}}), ParamError);
+  EXPECT_THROW(Registry<SegmentMerger>::make("mean_shift", {{"sigma_m", -1.0}}), ParamError);
+  EXPECT_THROW(Registry<SegmentMerger>::make("mean_shift", {{"h_deg_per_m", 200.0}}), ParamError);
+  EXPECT_THROW(merge({line(0, 0, 1000, 0)}, {{"sigma_m", 1e-9}}), ParamError);
+  EXPECT_THROW(merge({line(0, 0, 9e8, 0)}), ParamError);
+  EXPECT_THROW(merge({line(5e7, 0, 5e7 + 0.3, 0)}), ParamError);
+  try {
+    merge({line(0, 0, 1000, 0)}, {{"sigma_m", 1e-9}});
+  } catch (const ParamError& e) {
+    EXPECT_EQ(e.param(), "sigma_m");
+    EXPECT_NE(std::string(e.what()).find("1000 m"), std::string::npos) << e.what();
+  }
+  const MergeResult coarse = merge({line(0, 0, 1, 0), line(7, 3, 8, 3.1)}, {{"sigma_m", 1e6}});
+  EXPECT_EQ(coarse.status, Status::converged);
+  EXPECT_EQ(clusters(coarse.cluster2), 1);
+  EXPECT_EQ(coarse.map.lines.size(), 2U);  // one cluster, but their projections do not overlap
+}
+
+TEST(MeanShift, InOnePhaseMergesSimpleDataAlike) {
+  const ParamSet single{{"phases", std::string("single")}};
+  const MapLine wall = centred({1.0, 2.0}, 0.9, 3.0);
+  const MergeResult one = merge(std::vector<MapLine>(9, wall), single);
+  ASSERT_EQ(one.map.lines.size(), 1U);
+  EXPECT_LT(apart(one.map.lines[0].segment, wall.segment), 1e-9);
+  // Parallel walls nearer than sigma but farther than sigma_y stay apart, crossing ones too.
+  EXPECT_EQ(merge({line(0, 0, 0.4, 0), line(0, 0.1, 0.4, 0.1)}, single).map.lines.size(), 2U);
+  EXPECT_EQ(merge({line(-0.2, 0, 0.2, 0), line(0, -0.2, 0, 0.2)}, single).map.lines.size(), 2U);
+  EXPECT_EQ(merge({line(0, 0, 0.4, 0), line(0.3, 0.01, 0.7, 0.01)}, single).map.lines.size(), 1U);
+}
+
+TEST(MeanShift, ErasesOnlyShortLinesThatPointsDoNotSupport) {
+  const std::vector<MapLine> lines{line(0, 0, 2, 0), line(0, 5, 0.4, 5), line(0, 9, 0.4, 9)};
+  std::vector<Vec2> points{{kNan, 0}, {kInfinity, 1e300}};
+  for (int k = 0; k < 12; ++k) points.emplace_back(0.4 * (k + 0.5) / 12, 5.01);  // 30 per metre
+  for (int k = 0; k < 9; ++k) points.emplace_back(0.4 * (k + 0.5) / 9, 9.01);    // 22.5 per metre
+  for (int k = 0; k < 9; ++k) points.emplace_back(0.4 * (k + 0.5) / 9, 9.06);    // too far away
+  for (int k = 0; k < 9; ++k) points.emplace_back(0.41 + 0.01 * k, 9.0);         // past the end
+  EXPECT_EQ(merge(lines).map.lines.size(), 3U);
+  const MergeResult r = merge(lines, {}, points);
+  ASSERT_EQ(r.map.lines.size(), 2U);
+  EXPECT_EQ(std::count(r.labels.begin(), r.labels.end(), -1), 1);
+  EXPECT_EQ(r.labels[2], -1);
+  EXPECT_EQ(merge(lines, {{"erase_unsupported", false}}, points).map.lines.size(), 3U);
+}
+
+TEST(MeanShift, JoinsAbuttingPiecesOnlyWhenAsked) {
+  // A wall that turns by 3 degrees: too far apart along for one cluster, a gap of 5 cm.
+  const double turn = radians(3.0);
+  const std::vector<MapLine> lines{line(0, 0, 1, 0), line(1.05, 0, 1.05 + std::cos(turn), std::sin(turn))};
+  const ParamSet strict = kStrict;
+  ASSERT_EQ(merge(lines, strict).map.lines.size(), 2U);
+  ParamSet join = strict;
+  join["join"] = true;
+  const MergeResult r = merge(lines, join);
+  ASSERT_EQ(r.map.lines.size(), 1U);
+  EXPECT_NEAR(r.map.lines[0].segment.length(), 2.05, 0.01);
+  EXPECT_EQ(r.map.lines[0].members, 2);
+  join["join_angle_deg"] = 2.0;
+  EXPECT_EQ(merge(lines, join).map.lines.size(), 2U);
+}
+
+TEST(MeanShift, TrimsShortOvershootsAtIntersections) {
+  const std::vector<MapLine> corner{line(0, 0, 2.1, 0), line(2, -0.15, 2, 3), line(1, -1, 1, 1)};
+  const MergeResult plain = merge(corner);
+  ASSERT_EQ(plain.map.lines.size(), 3U);
+  const MergeResult r = merge(corner, {{"trim", true}});
+  ASSERT_EQ(r.map.lines.size(), 3U);
+  const auto nearest = [&](const Segment& s) {
+    double d = kInfinity;
+    for (const MapLine& l : r.map.lines) d = std::min(d, apart(l.segment, s));
+    return d;
+  };
+  EXPECT_LT(nearest({{0, 0}, {2, 0}}), 1e-6);
+  EXPECT_LT(nearest({{2, 0}, {2, 3}}), 1e-6);
+  EXPECT_LT(nearest({{1, -1}, {1, 1}}), 1e-6);  // no overshoot: a crossing
+}
+
+class Recorder : public Trace {
+ public:
+  bool recording() const override { return true; }
+  void write(std::string_view name, std::span<const double> row) override {
+    rows[std::string(name)].emplace_back(row.begin(), row.end());
+  }
+  std::map<std::string, std::vector<std::vector<double>>> rows;
+};
+
+TEST(MeanShift, LeavesATraceThatFiguresCanBeDrawnFrom) {
+  const auto lines = testing::spiral();
+  Recorder recorder;
+  const auto merger = Registry<SegmentMerger>::make("mean_shift", {{"split_length_sigma", 10.0}});
+  const MergeResult traced = merger->merge({lines, {}}, recorder);
+  Trace silent;
+  const MergeResult plain = merger->merge({lines, {}}, silent);
+  ASSERT_EQ(traced.map.lines.size(), plain.map.lines.size());
+  for (std::size_t k = 0; k < plain.map.lines.size(); ++k)
+    EXPECT_EQ(traced.map.lines[k].segment, plain.map.lines[k].segment);
+
+  auto& rows = recorder.rows;
+  EXPECT_EQ(rows["joint_space"].size(), 300U);  // figure 1: 300 points for 300 segments
+  EXPECT_EQ(rows["cluster"].size(), 300U);
+  EXPECT_EQ(rows["projection"].size(), 300U);
+  EXPECT_EQ(rows["mode1"].size(), 300U);
+  EXPECT_EQ(rows["mode2"].size(), rows["kernel2"].size());
+  EXPECT_EQ(rows["interval"].size(), plain.map.lines.size());
+  ASSERT_EQ(rows["counts"].size(), 1U);
+  EXPECT_EQ(rows["counts"][0][0], 300.0);
+  EXPECT_EQ(rows["counts"][0][5], static_cast<double>(plain.map.lines.size()));
+  for (const char* name : {"trajectory1", "trajectory2"}) {
+    std::map<int, std::vector<std::vector<double>>> paths;
+    for (const auto& row : rows[name]) paths[static_cast<int>(row[0])].push_back(row);
+    ASSERT_EQ(paths.size(), 300U) << name;
+    for (const auto& [piece, path] : paths) {
+      const auto& start = rows["joint_space"][static_cast<std::size_t>(piece)];
+      EXPECT_NEAR(path.front()[2], start[2], 1e-12) << name;
+      EXPECT_NEAR(path.front()[3], start[3], 1e-12) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace scanbench
