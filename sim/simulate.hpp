@@ -5,20 +5,11 @@
 #include <functional>
 
 #include "core/recording.hpp"
+#include "sim/odometry.hpp"
 #include "sim/trajectory.hpp"
 #include "sim/world.hpp"
 
 namespace scanbench::sim {
-
-/// Odometry as wheels give it (errors grow with the way) and as somebody who places a sensor gives it (independent per
-/// pose).
-struct OdometryNoise {
-  double translation_per_m = 0.0;      ///< standard deviation [m] per metre driven
-  double rotation_per_m_rad = 0.0;     ///< standard deviation [rad] per metre driven
-  double rotation_per_rad = 0.0;       ///< standard deviation [rad] per radian turned
-  double pose_position_sigma_m = 0.0;  ///< independent per pose, each axis
-  double pose_heading_sigma_rad = 0.0;
-};
 
 struct SimulationInput {
   World world;
@@ -32,7 +23,12 @@ struct SimulationInput {
 /// Bytes that simulate() will hold at once, for the check against the memory limit before it starts.
 std::uint64_t memory_estimate(const SimulationInput& input);
 
-/// Calls check_clear() first. `threads` >= 1; `progress` gets the share done, from one thread at a time.
+/// The scans of a trajectory and the truth behind them. Calls validate() and check_clear() first and throws what they
+/// throw; ConfigError for a sweep with a sensor whose time_per_beam_s is 0. `threads` >= 1, else InternalError;
+/// `progress` gets the share done, from one thread at a time; what it throws ends the simulation.
+///
+/// Truth ranges and wall ids are those of the nominal beams, each from the pose it was fired from. The first odometry
+/// pose is the true pose (sim/odometry.hpp).
 Recording simulate(const SimulationInput& input, int threads = 1, const std::function<void(double)>& progress = {});
 
 }  // namespace scanbench::sim

@@ -1,6 +1,7 @@
 // Scripted trajectories: where the sensor is when each scan begins.
 #pragma once
 
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct Trajectory {
   std::vector<TimedPose> poses;  ///< one per scan, stamps increasing
   NamedPoints waypoints;         ///< for figures; may be empty
   bool continuous = true;        ///< the sensor moves from pose to pose (false: it is placed)
+  bool stops = false;            ///< continuous, but it stands still while it scans: no motion distortion
+  std::vector<Vec2> path;        ///< the way driven, where it is known better than by the poses; may be empty
 };
 
 /// A kind of trajectory: waypoints, spiral, step_and_shoot, poses, robots. Registered in Registry<TrajectoryKind>.
@@ -31,8 +34,15 @@ class TrajectoryKind {
   virtual Trajectory generate(double scan_period_s) const = 0;
 };
 
-/// Throws ConfigError, naming the wall and the place, if a continuous path crosses a wall, or a pose lies on a wall,
-/// inside a round body, or outside any free space (every beam direction from it is open to infinity).
-void check_clear(const World& world, const Trajectory& trajectory);
+/// The pose `time_s` after the scan `frame` began: SE(2) interpolation (constant twist) to the next pose, beyond the
+/// last pose the last twist again. The pose of the frame itself where the sensor is placed or stops.
+Pose2 pose_during_scan(const Trajectory& trajectory, std::size_t frame, double time_s);
+
+/// Throws ConfigError, naming the wall or body and the place in metres, if a continuous path crosses a wall or a round
+/// body, or a pose is not finite, lies on a wall (closer than 1 mm), inside a round body (moving ones at the pose's
+/// stamp), or so far from everything that no beam can return within `range_max_m`. A world of a few walls in free air
+/// is fine.
+void check_clear(const World& world, const Trajectory& trajectory,
+                 double range_max_m = std::numeric_limits<double>::infinity());
 
 }  // namespace scanbench::sim

@@ -24,7 +24,7 @@ struct MovingBody {
   double speed_mps = 0.0;
   bool loop = false;  ///< back and forth along the path, else it stays at the end
 
-  /// Centre at a time, by arc length along the path.
+  /// Centre at a time, by arc length along the path; at the path's start before time 0.
   Vec2 position(double time_s) const;
 };
 
@@ -37,8 +37,14 @@ struct World {
   std::vector<MovingBody> moving;
 };
 
+/// The largest distance of anything from the centre of the world: ray casting is exact within it.
+inline constexpr double kMaxWorldExtentM = 1e5;
+
 /// Throws ConfigError for a world without walls, a wall or path without length, a radius or speed that is not positive,
-/// a number that is not finite. Names the wall.
+/// a number that is not finite, a label given to two walls, a world larger than kMaxWorldExtentM. Names the wall.
 void validate(const World& world);
+
+/// The middle of the bounding box of all that the world holds; the origin for an empty world.
+Vec2 center(const World& world);
 
 }  // namespace scanbench::sim

@@ -1,0 +1,28 @@
+// Odometry errors: those that grow with the way, and those of somebody who places a sensor by hand.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/pose2.hpp"
+
+namespace scanbench::sim {
+
+/// Odometry as wheels give it (errors grow with the way) and as somebody who places a sensor gives it (independent per
+/// pose). Errors of the way accumulate as a random walk: their variance is proportional to the way, so it does not
+/// depend on how many scans were taken on it; the figures are standard deviations after one metre or one radian.
+struct OdometryNoise {
+  double translation_per_m = 0.0;      ///< standard deviation [m] per metre driven, along the motion
+  double rotation_per_m_rad = 0.0;     ///< standard deviation [rad] per metre driven
+  double rotation_per_rad = 0.0;       ///< standard deviation [rad] per radian turned
+  double pose_position_sigma_m = 0.0;  ///< independent per pose, each axis
+  double pose_heading_sigma_rad = 0.0;
+};
+
+/// Odometry poses for true ones, same length. The first is the true pose: odometry has no error before it moves, and
+/// the odometry frame is the world frame. Without noise all are the true poses, bit for bit.
+std::vector<Pose2> odometry_poses(std::span<const Pose2> world_from_sensor, const OdometryNoise& noise,
+                                  std::uint64_t seed);
+
+}  // namespace scanbench::sim

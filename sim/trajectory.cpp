@@ -1,0 +1,127 @@
+// Motion between poses, and whether the way is clear.
+#include "sim/trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
+#include "sim/place_text.hpp"
+
+namespace scanbench::sim {
+namespace {
+
+// A sensor closer to a wall than this stands on it.
+constexpr double kOnWallM = 1e-3;
+
+std::string pose_text(const Trajectory& trajectory, std::size_t frame) {
+  return "scan " + std::to_string(frame) + ": the sensor at " +
+         place_text(trajectory.poses[frame].world_from_sensor.translation());
+}
+
+// Where the way from p to q meets a wall, its ends included; for a way along the wall the first common place.
+std::optional<Vec2> crossing(const Vec2& p, const Vec2& q, const Segment& wall) {
+  const Vec2 way = q - p;
+  const Vec2 along = wall.b - wall.a;
+  const double side_a = cross(way, Vec2(wall.a - p));
+  const double side_b = cross(way, Vec2(wall.b - p));
+  const double side_p = cross(along, Vec2(p - wall.a));
+  const double side_q = cross(along, Vec2(q - wall.a));
+  if (side_a * side_b > 0 || side_p * side_q > 0) return std::nullopt;
+  if (side_p != side_q) return Vec2(p + (side_p / (side_p - side_q)) * way);
+  // Way and wall on one line.
+  const double n2 = way.squaredNorm();
+  if (n2 == 0) return std::nullopt;
+  const double ta = way.dot(wall.a - p) / n2;
+  const double tb = way.dot(wall.b - p) / n2;
+  if (std::max(ta, tb) < 0 || std::min(ta, tb) > 1) return std::nullopt;
+  return Vec2(p + std::clamp(std::min(ta, tb), 0.0, 1.0) * way);
+}
+
+void check_way(const World& world, const Vec2& p, const Vec2& q) {
+  for (const Wall& wall : world.walls)
+    if (const auto place = crossing(p, q, wall.segment))
+      throw ConfigError("the path from " + place_text(p) + " to " + place_text(q) + " crosses wall '" + wall.label +
+                        "' at " + place_text(*place) + "; paths must keep clear of walls");
+  for (const Circle& circle : world.circles)
+    if (distance(circle.center, Segment{p, q}) < circle.radius_m)
+      throw ConfigError("the path from " + place_text(p) + " to " + place_text(q) + " runs through circle '" +
+                        circle.label + "', radius " + metres_text(circle.radius_m) + " m about " +
+                        place_text(circle.center) + "; paths must keep clear of round bodies");
+}
+
+void check_body(const std::string& who, const Vec2& p, const std::string& body, const Vec2& body_center,
+                double radius) {
+  if ((p - body_center).norm() <= radius)
+    throw ConfigError(who + " is inside " + body + ", radius " + metres_text(radius) + " m about " +
+                      place_text(body_center));
+}
+
+void check_pose(const World& world, const Trajectory& trajectory, std::size_t frame, double range_max_m) {
+  const TimedPose& pose = trajectory.poses[frame];
+  const Vec2& p = pose.world_from_sensor.translation();
+  if (!p.allFinite() || !std::isfinite(pose.world_from_sensor.cos()) || !std::isfinite(pose.world_from_sensor.sin()) ||
+      !std::isfinite(pose.stamp_s))
+    throw ConfigError("scan " + std::to_string(frame) + ": the pose or its time is not a finite number");
+  const std::string who = pose_text(trajectory, frame);
+  double nearest = std::numeric_limits<double>::infinity();
+  std::string nearest_name = "nothing";
+  const auto consider = [&](double d, const std::string& name) {
+    if (d >= nearest) return;
+    nearest = d;
+    nearest_name = name;
+  };
+  for (const Wall& wall : world.walls) {
+    const double d = distance(p, wall.segment);
+    if (d < kOnWallM)
+      throw ConfigError(who + " is on wall '" + wall.label + "' (" + number_text(d) + " m from it; allowed: at least " +
+                        number_text(kOnWallM) + " m)");
+    if (d < nearest) consider(d, "wall '" + wall.label + "'");
+  }
+  for (const Circle& circle : world.circles) {
+    check_body(who, p, "circle '" + circle.label + "'", circle.center, circle.radius_m);
+    consider((p - circle.center).norm() - circle.radius_m, "circle '" + circle.label + "'");
+  }
+  for (const MovingBody& body : world.moving) {
+    const Vec2 at = body.position(pose.stamp_s);
+    check_body(who, p, "moving body '" + body.label + "' at " + number_text(pose.stamp_s) + " s", at, body.radius_m);
+    consider((p - at).norm() - body.radius_m, "moving body '" + body.label + "'");
+  }
+  if (nearest > range_max_m)
+    throw ConfigError(who + " is outside any free space: the nearest thing, " + nearest_name + ", is " +
+                      metres_text(nearest) + " m away, and the sensor's range is " + metres_text(range_max_m) + " m");
+}
+
+}  // namespace
+
+Pose2 pose_during_scan(const Trajectory& trajectory, std::size_t frame, double time_s) {
+  const auto& poses = trajectory.poses;
+  SCANBENCH_ASSERT(frame < poses.size());
+  const Pose2& pose = poses[frame].world_from_sensor;
+  if (!trajectory.continuous || trajectory.stops || poses.size() < 2 || time_s == 0) return pose;
+  const std::size_t from = std::min(frame, poses.size() - 2);
+  const double period = poses[from + 1].stamp_s - poses[from].stamp_s;
+  SCANBENCH_ASSERT(period > 0);
+  const Eigen::Vector3d twist = (poses[from].world_from_sensor.inverse() * poses[from + 1].world_from_sensor).log();
+  return pose * Pose2::exp((time_s / period) * twist);
+}
+
+void check_clear(const World& world, const Trajectory& trajectory, double range_max_m) {
+  for (std::size_t frame = 0; frame < trajectory.poses.size(); ++frame) {
+    check_pose(world, trajectory, frame, range_max_m);
+    if (frame > 0 && !(trajectory.poses[frame].stamp_s > trajectory.poses[frame - 1].stamp_s))
+      throw ConfigError("scan " + std::to_string(frame) + ": its time is not after that of the scan before it");
+  }
+  if (!trajectory.continuous) return;
+  if (!trajectory.path.empty()) {
+    for (std::size_t i = 1; i < trajectory.path.size(); ++i)
+      check_way(world, trajectory.path[i - 1], trajectory.path[i]);
+    return;
+  }
+  for (std::size_t k = 1; k < trajectory.poses.size(); ++k)
+    check_way(world, trajectory.poses[k - 1].world_from_sensor.translation(),
+              trajectory.poses[k].world_from_sensor.translation());
+}
+
+}  // namespace scanbench::sim

@@ -1,0 +1,101 @@
+// What makes a world a world, and where a moving body is.
+#include "sim/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "core/error.hpp"
+#include "sim/path.hpp"
+#include "sim/place_text.hpp"
+
+namespace scanbench::sim {
+namespace {
+
+void check_finite(const Vec2& p, const std::string& what) {
+  if (!p.allFinite()) throw ConfigError(what + " has a coordinate that is not a finite number");
+}
+
+void check_positive(double value, const std::string& what, const std::string& quantity) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw ConfigError(what + " has " + quantity + " " + number_text(value) + "; allowed: finite and > 0");
+}
+
+struct Box {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
+
+  void add(const Vec2& p, double margin = 0.0) {
+    low = low.cwiseMin(p - Vec2::Constant(margin));
+    high = high.cwiseMax(p + Vec2::Constant(margin));
+  }
+};
+
+Box bounding_box(const World& world) {
+  Box box;
+  for (const Wall& wall : world.walls) {
+    box.add(wall.segment.a);
+    box.add(wall.segment.b);
+  }
+  for (const Circle& circle : world.circles) box.add(circle.center, circle.radius_m);
+  for (const MovingBody& body : world.moving)
+    for (const Vec2& p : body.path) box.add(p, body.radius_m);
+  return box;
+}
+
+}  // namespace
+
+Vec2 MovingBody::position(double time_s) const {
+  if (path.empty()) return Vec2::Zero();
+  double way = std::max(time_s, 0.0) * speed_mps;
+  if (loop) {
+    const double length = path_length(path);
+    if (length > 0) {
+      way = std::fmod(way, 2.0 * length);
+      if (way > length) way = 2.0 * length - way;
+    }
+  }
+  return point_on_path(path, way).position;
+}
+
+Vec2 center(const World& world) {
+  const Box box = bounding_box(world);
+  if (!(box.low.x() <= box.high.x())) return Vec2::Zero();
+  return 0.5 * (box.low + box.high);
+}
+
+void validate(const World& world) {
+  if (world.walls.empty()) throw ConfigError("the world '" + world.name + "' has no walls; it needs at least one");
+  std::set<std::string> labels;
+  for (std::size_t i = 0; i < world.walls.size(); ++i) {
+    const Wall& wall = world.walls[i];
+    const std::string what = "wall '" + wall.label + "' (number " + std::to_string(i + 1) + ")";
+    check_finite(wall.segment.a, what);
+    check_finite(wall.segment.b, what);
+    if (wall.segment.a == wall.segment.b)
+      throw ConfigError(what + " has no length: both ends are at " + place_text(wall.segment.a));
+    if (!wall.label.empty() && !labels.insert(wall.label).second)
+      throw ConfigError(what + " has the label of another wall; metrics name walls by their labels");
+  }
+  for (const Circle& circle : world.circles) {
+    const std::string what = "circle '" + circle.label + "'";
+    check_finite(circle.center, what);
+    check_positive(circle.radius_m, what, "radius_m");
+  }
+  for (const MovingBody& body : world.moving) {
+    const std::string what = "moving body '" + body.label + "'";
+    for (const Vec2& p : body.path) check_finite(p, what);
+    check_positive(body.radius_m, what, "radius_m");
+    check_positive(body.speed_mps, what, "speed_mps");
+    if (!(path_length(body.path) > 0))
+      throw ConfigError(what + " has a path without length; it needs at least two different points");
+  }
+  const Box box = bounding_box(world);
+  const double extent = 0.5 * (box.high - box.low).norm();
+  if (!(extent <= kMaxWorldExtentM))
+    throw ConfigError("the world '" + world.name + "' reaches " + number_text(extent) +
+                      " m from its centre; allowed: up to " + number_text(kMaxWorldExtentM) + " m");
+}
+
+}  // namespace scanbench::sim
