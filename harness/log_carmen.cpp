@@ -64,6 +64,17 @@ class CarmenReader {
     return static_cast<std::size_t>(*n);
   }
 
+  // Lines of one log end alike; one that does not was cut or mixed in.
+  void check_tail(std::size_t tail) {
+    if (tail_line_ == 0) {
+      tail_ = tail;
+      tail_line_ = lines_.number();
+    } else if (tail != tail_) {
+      lines_.refuse(words_.back(),
+                    fmt::format("{} words after the ranges, but the scan in line {} has {}", tail, tail_line_, tail_));
+    }
+  }
+
   void flaser() {
     message_ = "FLASER";
     const std::size_t n = count(1, "the number of ranges");
@@ -74,6 +85,7 @@ class CarmenReader {
           fmt::format("FLASER states {} ranges and has {} words after its name; allowed: {} (ranges, two poses, "
                       "stamp, host, stamp), or {} and {} without the last ones",
                       n, words_.size() - 1, n + 10, n + 8, n + 7));
+    check_tail(tail);
     builder_.check_beams(lines_, n);
     builder_.check_angles(lines_, builder_.angles_by_rule(lines_, n));
     scan(2, n, 2 + n, tail > 6 ? std::optional(2 + n + 6) : std::nullopt);
@@ -91,6 +103,7 @@ class CarmenReader {
           fmt::format(
               "ROBOTLASER1 states {} ranges and {} remissions and has {} words after its name; allowed: {} or {}", n, m,
               words_.size() - 1, 21 + n + m, 23 + n + m));
+    check_tail(tail);
     builder_.check_beams(lines_, n);
     BeamAngles angles{degrees(number(2, "the start angle")), degrees(number(4, "the resolution"))};
     if (options_.step_deg != 0) angles = {options_.first_angle_deg, options_.step_deg};
@@ -136,6 +149,8 @@ class CarmenReader {
   std::vector<std::string_view> words_;
   std::string_view message_;  // the one that scans are taken from
   std::optional<Pose2> vertex_;
+  std::size_t tail_ = 0;  // words after the ranges
+  int tail_line_ = 0;
   bool has_stamps_ = true;
 };
 

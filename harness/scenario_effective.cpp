@@ -69,6 +69,7 @@ std::string effective_yaml(const Scenario& scenario) {
   for (const auto& pipeline : scenario.pipelines) {
     YamlNode node = yaml_map();
     yaml_add(node, "name", yaml_text(pipeline.name));
+    if (!pipeline.published.empty()) yaml_add(node, "published", yaml_text(pipeline.published));
     for (const auto& slot : pipeline.slots) yaml_add(node, slot.kind, choice_node(slot, "module"));
     pipelines.items.push_back(std::move(node));
   }

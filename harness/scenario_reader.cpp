@@ -54,6 +54,7 @@ PipelineSpec read_pipeline(const YamlNode& node) {
   PipelineSpec pipeline;
   pipeline.name = map.text("name", "a name for tables and figures");
   check_name(pipeline.name, map.find("name")->mark, "the pipeline's name");
+  pipeline.published = map.text_or("published", "");
   const YamlNode* nodes[5] = {};
   for (std::size_t i = 0; i < slot_kinds().size(); ++i) {
     const std::string& kind = slot_kinds()[i];

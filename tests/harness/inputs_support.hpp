@@ -1,0 +1,67 @@
+// What the tests of the input files share: places, temporary files, messages of refusals.
+#pragma once
+
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace scanbench::harness {
+
+inline std::filesystem::path source_dir() {
+  return SCANBENCH_SOURCE_DIR;
+}
+
+/// Where recorded logs may be: the environment's SCANBENCH_DATA, or beside the source tree.
+inline std::filesystem::path data_dir() {
+  const char* data = std::getenv("SCANBENCH_DATA");
+  return data != nullptr ? std::filesystem::path(data) : source_dir() / "../shared/data";
+}
+
+/// The message of the ConfigError that the work throws, "" if it throws none.
+template <class Work>
+std::string config_refusal(Work&& work) {
+  try {
+    work();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "scanbench-test-XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string gzip(const std::string& bytes) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "x.gz").string();
+  gzFile out = gzopen(file.c_str(), "wb");
+  gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size()));
+  gzclose(out);
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace scanbench::harness
