@@ -10,21 +10,37 @@ namespace scanbench {
 PointMoments PointMoments::of(std::span<const Vec2> points) {
   PointMoments m;
   if (points.empty()) return m;
+  const std::size_t n = points.size();
+  const std::size_t paired = n - n % 2;
   const Vec2 origin = points.front();  // so that equal points have moments of exactly zero
-  double sx = 0.0, sy = 0.0;
-  for (const Vec2& p : points) {
-    sx += p.x() - origin.x();
-    sy += p.y() - origin.y();
+  // Two sums each, of the even and of the odd points: an addition need not wait for the one before it.
+  Vec2 even = Vec2::Zero(), odd = Vec2::Zero();
+  for (std::size_t i = 0; i < paired; i += 2) {
+    even += points[i] - origin;
+    odd += points[i + 1] - origin;
   }
-  m.weight_ = static_cast<double>(points.size());
-  m.centroid_ = {origin.x() + sx / m.weight_, origin.y() + sy / m.weight_};
-  for (const Vec2& p : points) {
-    const double x = p.x() - m.centroid_.x();
-    const double y = p.y() - m.centroid_.y();
-    m.sxx_ += x * x;
-    m.sxy_ += x * y;
-    m.syy_ += y * y;
+  if (paired < n) even += points[paired] - origin;
+  m.weight_ = static_cast<double>(n);
+  m.centroid_ = origin + (even + odd) / m.weight_;
+  Vec2 squares_even = Vec2::Zero(), squares_odd = Vec2::Zero();
+  double product_even = 0.0, product_odd = 0.0;
+  for (std::size_t i = 0; i < paired; i += 2) {
+    const Vec2 p = points[i] - m.centroid_;
+    const Vec2 q = points[i + 1] - m.centroid_;
+    squares_even += p.cwiseProduct(p);
+    squares_odd += q.cwiseProduct(q);
+    product_even += p.x() * p.y();
+    product_odd += q.x() * q.y();
   }
+  if (paired < n) {
+    const Vec2 p = points[paired] - m.centroid_;
+    squares_even += p.cwiseProduct(p);
+    product_even += p.x() * p.y();
+  }
+  const Vec2 squares = squares_even + squares_odd;
+  m.sxx_ = squares.x();
+  m.syy_ = squares.y();
+  m.sxy_ = product_even + product_odd;
   return m;
 }
 

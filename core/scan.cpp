@@ -5,14 +5,19 @@ namespace scanbench {
 
 ScanPoints valid_points(const Scan& scan) {
   ScanPoints result;
-  const int n = scan.beams();
-  result.beams.reserve(static_cast<std::size_t>(n));
-  result.points.reserve(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i) {
-    if (!scan.valid(i)) continue;
-    result.beams.push_back(i);
-    result.points.push_back(scan.point(i));
+  const auto n = static_cast<std::size_t>(scan.beams());
+  result.beams.resize(n);
+  result.points.resize(n);
+  // Written first and counted after: no branch per beam, no check for growth.
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const int beam = static_cast<int>(i);
+    result.beams[count] = beam;
+    result.points[count] = scan.point(beam);
+    count += scan.valid(beam) ? 1 : 0;
   }
+  result.beams.resize(count);
+  result.points.resize(count);
   return result;
 }
 

@@ -1,6 +1,7 @@
 // One pass of cross products: no trigonometry, no division.
 #include "algorithms/extract/chord.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -28,8 +29,20 @@ Farthest farthest_from_chord(std::span<const Vec2> points, const PointRun& run) 
   std::size_t index = first + 1;
   double best = -1.0;
   if (length2 > kCoincident_m * kCoincident_m) {
-    for (std::size_t k = first + 1; k < last; ++k) {
-      const double d = std::fabs(chord.x() * (points[k].y() - a.y()) - chord.y() * (points[k].x() - a.x()));
+    const auto across = [&](std::size_t k) {
+      return std::fabs(chord.x() * (points[k].y() - a.y()) - chord.y() * (points[k].x() - a.x()));
+    };
+    std::size_t k = first + 1;
+    for (; k + 4 <= last; k += 4) {  // four at a time: one comparison with the best so far
+      const double d0 = across(k), d1 = across(k + 1), d2 = across(k + 2), d3 = across(k + 3);
+      const double most = std::max(std::max(d0, d1), std::max(d2, d3));
+      if (most > best) {
+        best = most;
+        index = k + (d0 == most ? 0 : d1 == most ? 1 : d2 == most ? 2 : 3);  // the lowest wins ties
+      }
+    }
+    for (; k < last; ++k) {
+      const double d = across(k);
       if (d > best) {
         best = d;
         index = k;

@@ -72,27 +72,41 @@ class Sef final : public LineExtractor {
 
  private:
   std::vector<PointRun> group(const Scan& scan, const ScanPoints& points) const {
-    const GapRules gaps{params_.max_gap_m, params_.max_missing_beams};
     std::vector<PointRun> runs;
     runs.reserve(64);
-    for (const PointRun& whole : runs_between_gaps(points, gaps)) {
-      int first = whole.first;
-      for (int i = whole.first; i < whole.last; ++i) {
-        if (!ends_after(scan, points, static_cast<std::size_t>(i))) continue;
-        runs.push_back({first, i});
-        first = i + 1;
+    for (const PointRun& whole : runs_between_gaps(points, {params_.max_gap_m, params_.max_missing_beams})) {
+      if (params_.variant == Variant::ranges && params_.threshold == Threshold::constant) {
+        const double t = params_.threshold_m;
+        cut(scan, points, whole, runs, [t](std::size_t, double r, double r_next) { return std::fabs(r_next - r) > t; });
+      } else {
+        cut(scan, points, whole, runs,
+            [&](std::size_t i, double r, double r_next) { return ends_after(scan, points, i, r, r_next); });
       }
-      runs.push_back({first, whole.last});
     }
     return runs;
   }
 
-  bool ends_after(const Scan& scan, const ScanPoints& points, std::size_t i) const {
-    const int beam = points.beams[i];
-    const int next = points.beams[i + 1];
-    const double r = scan.ranges[static_cast<std::size_t>(beam)];
-    const double r_next = scan.ranges[static_cast<std::size_t>(next)];
-    const double t = threshold(scan, beam, next, r < r_next ? r : r_next);
+  template <class EndsAfter>
+  static void cut(const Scan& scan, const ScanPoints& points, const PointRun& whole, std::vector<PointRun>& runs,
+                  EndsAfter&& ends_after) {
+    const auto range = [&](int i) {
+      return scan.ranges[static_cast<std::size_t>(points.beams[static_cast<std::size_t>(i)])];
+    };
+    int first = whole.first;
+    double r = range(first);
+    for (int i = whole.first; i < whole.last; ++i) {
+      const double r_next = range(i + 1);
+      if (ends_after(static_cast<std::size_t>(i), r, r_next)) {
+        runs.push_back({first, i});
+        first = i + 1;
+      }
+      r = r_next;
+    }
+    runs.push_back({first, whole.last});
+  }
+
+  bool ends_after(const Scan& scan, const ScanPoints& points, std::size_t i, double r, double r_next) const {
+    const double t = threshold(scan, points.beams[i], points.beams[i + 1], r < r_next ? r : r_next);
     if (params_.variant == Variant::ranges) return std::fabs(r_next - r) > t;
     return (points.points[i + 1] - points.points[i]).squaredNorm() > t * t;
   }
