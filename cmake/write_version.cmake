@@ -17,6 +17,7 @@ inline constexpr const char* kCommit = \"${commit}\";
 inline constexpr const char* kCompiler = \"${COMPILER}\";
 inline constexpr const char* kBuildType = \"${BUILD_TYPE}\";
 inline constexpr const char* kFlags = \"${FLAGS}\";
+inline constexpr const char* kLibraries = \"${LIBRARIES}\";
 }  // namespace scanbench::version
 ")
 set(old "")

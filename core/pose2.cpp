@@ -19,6 +19,13 @@ Pose2 Pose2::facing(const Vec2& translation, const Vec2& direction) {
   return pose;
 }
 
+Pose2 Pose2::from_unit(const Vec2& translation, const Vec2& rotation) {
+  Pose2 pose;
+  pose.rotation_ = rotation;
+  pose.translation_ = translation;
+  return pose;
+}
+
 double Pose2::yaw() const {
   return portable::atan2(rotation_.y(), rotation_.x());
 }

@@ -13,6 +13,8 @@ class Pose2 {
   Pose2(double x_m, double y_m, double yaw_rad) : Pose2(Vec2(x_m, y_m), yaw_rad) {}
   /// With the heading along `direction`, which must not be zero: exact, without an angle in between.
   static Pose2 facing(const Vec2& translation, const Vec2& direction);
+  /// With (cos, sin) of the heading as they are: for reading back what cos() and sin() gave, bit for bit.
+  static Pose2 from_unit(const Vec2& translation, const Vec2& rotation);
 
   const Vec2& translation() const { return translation_; }
   double x() const { return translation_.x(); }

@@ -1,0 +1,49 @@
+// Files and folders that appear whole or not at all: temporary name beside the target, flush to disk, rename.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace scanbench::harness {
+
+/// The bytes of a file. Throws ConfigError with the file's name and the reason.
+std::string read_file(const std::filesystem::path& path);
+
+/// Writes a file whole: after a failure (disk full, no permission) the target is as it was and the temporary is gone.
+/// Throws ConfigError with the file's name and the reason.
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// Writes a file inside a StagedFolder, which is flushed and renamed as a whole later. Throws ConfigError.
+void write_staged_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Makes a folder and its parents. Throws ConfigError.
+void make_folders(const std::filesystem::path& path);
+
+/// Exchanges two existing folders of one file system, in one step where the file system can.
+void exchange_folders(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// True for the names that StagedFolder and write_file_atomically give to what is not finished.
+bool is_temporary_name(std::string_view name);
+
+/// A folder under construction beside its target: `.<name>.tmp-<pid>`. commit() flushes it and puts it in the target's
+/// place; what stood there before is removed only after the new one is in place. Without commit() it is removed.
+class StagedFolder {
+ public:
+  explicit StagedFolder(std::filesystem::path target);
+  StagedFolder(StagedFolder&& other) noexcept;
+  StagedFolder& operator=(StagedFolder&&) = delete;
+  ~StagedFolder();
+
+  const std::filesystem::path& path() const { return staging_; }
+  const std::filesystem::path& target() const { return target_; }
+  /// Removes what has been written so far (of a worker that crashed).
+  void clear();
+  void commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path staging_;
+};
+
+}  // namespace scanbench::harness

@@ -1,0 +1,61 @@
+// Comma-separated tables (RFC 4180 quoting, lines end with \n), numbers in the shortest form that reads back to the
+// same bits.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scanbench::harness {
+
+/// A field as it stands in a file: quoted only where a comma, quote or line end makes it necessary.
+std::string csv_field(std::string_view text);
+
+/// Builds a table. Every row must have as many fields as there are columns.
+class CsvWriter {
+ public:
+  explicit CsvWriter(const std::vector<std::string>& columns);
+  CsvWriter& text(std::string_view value);
+  CsvWriter& number(double value);  ///< NaN: an empty field; infinities: inf, -inf
+  CsvWriter& integer(long long value);
+  CsvWriter& seed(unsigned long long value);
+  CsvWriter& empty();
+  void end_row();
+  const std::string& str() const { return text_; }
+
+ private:
+  void separate();
+
+  std::size_t columns_;
+  std::size_t filled_ = 0;
+  std::string text_;
+};
+
+/// A table that was read. Errors are ConfigErrors that name file and line.
+class CsvTable {
+ public:
+  /// The first line names the columns; `required` ones must be there, in any order.
+  CsvTable(std::string_view bytes, std::filesystem::path file, const std::vector<std::string>& required = {});
+
+  std::size_t rows() const { return rows_.size(); }
+  const std::vector<std::string>& columns() const { return columns_; }
+  bool has(std::string_view column) const;
+  const std::string& text(std::size_t row, std::string_view column) const;
+  double number(std::size_t row, std::string_view column) const;                          ///< an empty field is NaN
+  std::optional<double> optional_number(std::size_t row, std::string_view column) const;  ///< an empty field is nothing
+  long long integer(std::size_t row, std::string_view column) const;
+  int index(std::size_t row, std::string_view column) const;  ///< an integer that fits an int
+  [[noreturn]] void refuse(std::size_t row, const std::string& message) const;
+
+ private:
+  std::size_t column(std::string_view name) const;
+
+  std::filesystem::path file_;
+  std::vector<std::string> columns_;
+  std::vector<std::vector<std::string>> rows_;
+  std::vector<std::size_t> lines_;  ///< where each row begins
+};
+
+}  // namespace scanbench::harness

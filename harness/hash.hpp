@@ -1,0 +1,38 @@
+// SHA-256 of bytes, files and of the running program.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+struct evp_md_ctx_st;
+
+namespace scanbench::harness {
+
+/// Bytes in, 64 lower-case hex digits out.
+class Sha256 {
+ public:
+  Sha256();
+  Sha256& add(std::string_view bytes);
+  /// A named part of an address: names and lengths go in too, so that no two lists of parts look alike.
+  Sha256& part(std::string_view name, std::string_view bytes);
+  /// Ends the digest; the object is then used up.
+  std::string hex();
+
+ private:
+  struct Free {
+    void operator()(evp_md_ctx_st* context) const;
+  };
+  std::unique_ptr<evp_md_ctx_st, Free> context_;
+};
+
+std::string sha256_hex(std::string_view bytes);
+
+/// Throws ConfigError if the file cannot be read.
+std::string sha256_of_file(const std::filesystem::path& path);
+
+/// Hash of the running executable's bytes, computed once: the version of the code that made a result.
+const std::string& code_version();
+
+}  // namespace scanbench::harness

@@ -1,0 +1,35 @@
+// A recording on disk: recordings/<scenario>/<seed>/, read back bit for bit.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/recording.hpp"
+
+namespace scanbench::harness {
+
+/// The files of a recording: name and bytes, in the order in which they enter the content hash. Walls, true ranges and
+/// wall ids are absent without truth. `rotations.npy` (frames x 4: cos and sin of the true and of the odometry yaw; NaN
+/// without truth) holds the exact unit vectors that the yaw columns of frames.csv round.
+/// Throws ConfigError if frames have different numbers of beams.
+std::vector<std::pair<std::string, std::string>> recording_files(const Recording& recording);
+
+/// SHA-256 over name, length and bytes of every file but scan.json, which enters without its own `content_hash`.
+std::string recording_hash(const Recording& recording);
+
+/// Writes the files into an existing, empty folder (a StagedFolder's). Returns the content hash.
+std::string write_recording(const std::filesystem::path& folder, const Recording& recording);
+
+/// The folder appears whole; what stood there before is replaced. Returns the content hash. Throws ConfigError.
+std::string save_recording(const std::filesystem::path& folder, const Recording& recording);
+
+/// Throws ConfigError, naming the file, if one is missing or malformed or the bytes do not have the content hash of
+/// scan.json (which may be absent there).
+Recording load_recording(const std::filesystem::path& folder);
+
+/// The content hash that scan.json states.
+std::string stated_recording_hash(const std::filesystem::path& folder);
+
+}  // namespace scanbench::harness

@@ -1,0 +1,84 @@
+// Metric families on recordings and results; the tidy table of a whole run.
+#include "harness/score.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "core/error.hpp"
+#include "core/registry.hpp"
+#include "harness/atomic_file.hpp"
+#include "harness/cell_files.hpp"
+#include "harness/csv.hpp"
+#include "harness/recording_folder.hpp"
+
+namespace scanbench::harness {
+namespace fs = std::filesystem;
+
+std::vector<metrics::MetricRow> evaluate_metrics(const std::vector<ModuleChoice>& families, const Recording& recording,
+                                                 const PipelineResult& result) {
+  const metrics::MetricInput input{recording.observed, recording.truth ? &*recording.truth : nullptr, result};
+  std::vector<metrics::MetricRow> rows;
+  for (const auto& choice : families) {
+    const auto family = Registry<metrics::MetricFamily>::make(choice.module, choice.params);
+    if (!family->applies(input)) continue;
+    const auto more = family->evaluate(input);
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
+  return rows;
+}
+
+std::vector<metrics::MetricRow> score_cell(const std::vector<ModuleChoice>& families, const Recording& recording,
+                                           const fs::path& cell) {
+  const PipelineResult result = load_result(cell);
+  if (result.lines.size() != recording.observed.frames.size())
+    throw ConfigError(cell.string() + ": " + std::to_string(result.lines.size()) + " frames; the recording has " +
+                      std::to_string(recording.observed.frames.size()));
+  return evaluate_metrics(families, recording, result);
+}
+
+std::string summary_header() {
+  return "scenario,pipeline,seed,metric,subject,value,unit,count\n";
+}
+
+std::string summary_lines(const CellKey& key, const std::vector<metrics::MetricRow>& rows) {
+  CsvWriter csv({"scenario", "pipeline", "seed", "metric", "subject", "value", "unit", "count"});
+  for (const auto& row : rows)
+    csv.text(key.scenario)
+        .text(key.pipeline)
+        .seed(key.seed)
+        .text(row.metric)
+        .text(row.subject)
+        .number(row.value)
+        .text(row.unit)
+        .integer(row.count)
+        .end_row();
+  return csv.str().substr(summary_header().size());
+}
+
+std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenarios) {
+  const Manifest manifest = load_manifest(run);
+  std::string summary = summary_header();
+  std::size_t scored = 0;
+  std::map<std::pair<std::string, std::uint64_t>, Recording> recordings;  // at most one at a time
+  for (const CellKey& key : manifest.cells) {
+    const fs::path cell = cell_path(run, key);
+    if (!fs::exists(cell / "status.json") || load_status(cell).outcome.status != CellStatus::ok) continue;
+    const auto scenario = std::ranges::find(scenarios, key.scenario, &Scenario::name);
+    if (scenario == scenarios.end())
+      throw ConfigError(run.string() + ": the scenario '" + key.scenario + "' of a cell is not at hand");
+    const std::pair source{key.scenario, key.seed};
+    if (!recordings.contains(source)) {
+      recordings.clear();
+      recordings.emplace(source, load_recording(recording_path(run, key.scenario, key.seed)));
+    }
+    const auto rows = score_cell(scenario->metrics, recordings.at(source), cell);
+    write_file_atomically(cell / "metrics.csv", metrics_csv(rows));
+    summary += summary_lines(key, rows);
+    ++scored;
+  }
+  write_file_atomically(run / "summary.csv", summary);
+  refresh_manifest(run);
+  return scored;
+}
+
+}  // namespace scanbench::harness

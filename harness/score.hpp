@@ -1,0 +1,34 @@
+// Scores from files: a recording's folder and a cell's folder in, metrics.csv and summary.csv out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/recording.hpp"
+#include "harness/run_folder.hpp"
+#include "harness/scenario.hpp"
+#include "metrics/metric.hpp"
+
+namespace scanbench::harness {
+
+/// Rows of all chosen families that apply, in the order of choice; a family that does not apply is absent. Throws
+/// ConfigError for an unknown family.
+std::vector<metrics::MetricRow> evaluate_metrics(const std::vector<ModuleChoice>& families, const Recording& recording,
+                                                 const PipelineResult& result);
+
+/// The same, the result read from the cell's folder. `recording` is what load_recording() gives: bit for bit what was
+/// saved.
+std::vector<metrics::MetricRow> score_cell(const std::vector<ModuleChoice>& families, const Recording& recording,
+                                           const std::filesystem::path& cell);
+
+/// First line of summary.csv, and the lines of one cell.
+std::string summary_header();
+std::string summary_lines(const CellKey& key, const std::vector<metrics::MetricRow>& rows);
+
+/// Scores the finished cells of a run again, with the metrics of the given scenarios, and rewrites metrics.csv,
+/// summary.csv and the manifest's list. Returns how many cells were scored. Throws ConfigError if a cell's scenario is
+/// not among them or a file is missing.
+std::size_t score_run(const std::filesystem::path& run, const std::vector<Scenario>& scenarios);
+
+}  // namespace scanbench::harness

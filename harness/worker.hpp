@@ -1,0 +1,72 @@
+// Child processes with limits: a crash, a hang or a memory blow-up is an outcome, not a lost run.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scanbench::harness {
+
+enum class CellStatus {
+  ok,
+  skipped,        ///< not started, because what it needs could not be made
+  invalid,        ///< a module's result breaks its interface's contract
+  failed,         ///< an exception, or an outcome of the module that leaves nothing to score
+  crashed,        ///< ended by a signal, or without a result
+  timeout,        ///< took longer than the limit
+  out_of_memory,  ///< needed more memory than the limit
+};
+std::string_view to_string(CellStatus status);
+/// Throws ConfigError for an unknown name.
+CellStatus cell_status_from(std::string_view name);
+
+struct WorkerLimits {
+  double seconds = 600.0;     ///< wall time
+  double memory_bytes = 4e9;  ///< address space beyond what the parent uses at the fork; not held under sanitizers
+  int threads = 1;            ///< the task starts up to this many
+};
+
+/// How a task ended. On success `message` is what the task returned, else the exception's text, the signal, and the
+/// last lines that the child wrote to stdout or stderr.
+struct WorkerOutcome {
+  CellStatus status = CellStatus::failed;
+  std::string message;
+  double wall_seconds = 0.0;
+  double cpu_seconds = 0.0;
+  double peak_memory_bytes = 0.0;
+  bool bad_input = false;  ///< failed with a ConfigError: something that a user can mend
+};
+
+/// Runs tasks in forked children. The parent must have one thread only when start() is called. While a pool lives,
+/// SIGINT and SIGTERM are held back and seen only by wait(); the children are process groups of their own, so that an
+/// interrupt at the terminal reaches the parent alone, and die with it.
+class WorkerPool {
+ public:
+  WorkerPool();
+  ~WorkerPool();  ///< kills what still runs
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  struct Finished {
+    std::size_t id;
+    WorkerOutcome outcome;
+  };
+
+  /// Forks. In the child the task runs, its result goes through a pipe, and the process ends without destructors of the
+  /// parent's objects. Throws ConfigError if the system refuses another process.
+  void start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits);
+  std::size_t running() const;
+  /// Blocks until a child has ended, or somebody interrupts: then interrupted() is true and the list may be empty.
+  std::vector<Finished> wait();
+  bool interrupted() const;
+  void kill_all();
+
+ private:
+  struct Worker;
+  std::vector<Worker> workers_;
+};
+
+}  // namespace scanbench::harness

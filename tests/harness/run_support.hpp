@@ -1,0 +1,53 @@
+// What the tests of runs share: folders that vanish, recordings without a simulator, tiny modules that behave and
+// misbehave (registered in run_support.cpp under names that begin with "test_").
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/recording.hpp"
+#include "harness/runner.hpp"
+
+namespace scanbench::harness::testing {
+
+/// A new folder, removed with all that is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Random scans with every kind of reading (+inf, -inf, NaN, -0.0), random poses, and random truth unless it is a log.
+Recording random_recording(std::uint64_t seed, int frames, int beams, bool with_truth);
+
+/// Values of doubles as their bits: equal only if nothing was lost, NaN included.
+std::vector<std::uint64_t> bits(const std::vector<double>& values);
+
+/// A pipeline of one slot.
+PipelineSpec extract_with(const std::string& name, const std::string& module, const ParamSet& params = {});
+
+/// A scenario whose recordings are random_recording(seed, 5, 16, true), scored with test_metrics.
+Scenario scenario_with(const std::string& name, std::vector<PipelineSpec> pipelines,
+                       std::vector<std::uint64_t> seeds = {1});
+RunServices services();
+RunResult run_here(const std::vector<Scenario>& scenarios, const RunOptions& options);
+
+/// Every file below a run with its bytes: without the manifest and timing.csv, and status.json without its times.
+std::map<std::string, std::string> artefacts(const std::filesystem::path& run);
+
+/// The status of a cell, by "scenario/pipeline/seed"; throws if the run has no such cell.
+const CellResult& cell_of(const RunResult& result, const std::string& key);
+
+/// Files and folders below a folder, temporary ones included.
+std::vector<std::string> listing(const std::filesystem::path& folder);
+
+}  // namespace scanbench::harness::testing
