@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "render/tessellate.hpp"
 
 namespace scanbench::render {
 namespace {
@@ -107,6 +108,7 @@ struct Font::Impl {
     g.advance_em = static_cast<double>(outlines->glyph->advance.x) / flattener.em;
     const FT_Outline_Funcs funcs{on_move, on_line, on_conic, on_cubic, 0, 0};
     FT_Outline_Decompose(&outlines->glyph->outline, &funcs, &flattener);
+    g.triangles = fill_triangles(g.contours, false);
     return g;
   }
 };

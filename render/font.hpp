@@ -20,6 +20,7 @@ struct Glyph {
   unsigned long index = 0;
   double advance_em = 0.0;
   std::vector<std::vector<Vec2>> contours;  ///< closed, curves flattened
+  std::vector<Vec2> triangles;              ///< of the area inside, three points each
 };
 
 class Font {

@@ -1,13 +1,12 @@
 // Scene -> PNG through OSMesa, software OpenGL without a display. Anti-aliased by drawing each tile kOversample times
 // larger and averaging: smoothed GL lines differ between thread counts, plain triangles do not.
-#define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
-#include <GL/glext.h>
 #include <GL/osmesa.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -20,8 +19,9 @@ namespace scanbench::render {
 namespace {
 
 constexpr int kOversample = 4;
-constexpr int kTile = 512;  // of the picture; its buffer of (4 * 512)^2 pixels takes 16 MiB
+constexpr int kTile = 128;  // pixels of the picture; the buffer of 512 x 512 pixels stays in the cache
 constexpr int kBuffer = kTile * kOversample;
+constexpr int kMostPixels = 20000;
 
 /// The process' one context: the first costs 20 ms. Used under its mutex, current in one thread at a time.
 class Context {
@@ -45,8 +45,8 @@ class Context {
  private:
   Context() : pixels(std::size_t{4} * kBuffer * kBuffer) {
     setenv("LP_NUM_THREADS", "0", 1);  // draw in the calling thread: workers already fill the cores
-    context_ = OSMesaCreateContextExt(OSMESA_RGBA, 0, 8, 0, nullptr);
-    if (context_ == nullptr) throw InternalError("OSMesa: cannot create a context with a stencil buffer");
+    context_ = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
+    if (context_ == nullptr) throw InternalError("OSMesa: cannot create a context");
   }
   OSMesaContext context_ = nullptr;
 };
@@ -58,161 +58,168 @@ struct Current {
   std::lock_guard<std::mutex> lock;
 };
 
-/// A tile of the picture: its first pixel and its size.
+/// A square piece of the picture: its first pixel, its size, and what shows on it, in drawing order.
 struct Tile {
   int x, y, width, height;
+  std::vector<TriangleBatch> batches{};
 };
 
-class TileDrawer {
+/// False only if the tile lies wholly beyond the triangle's box or beyond one of its edges.
+bool may_meet(const Vertex* t, const Rect& tile) {
+  const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
+  const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
+  if (x1 < tile.x0 || x0 > tile.x1 || y1 < tile.y0 || y0 > tile.y1) return false;
+  for (int i = 0; i < 3; ++i) {
+    const Vertex &a = t[i], &b = t[(i + 1) % 3], &c = t[(i + 2) % 3];
+    const double nx = a.y - b.y, ny = b.x - a.x;
+    const double side = nx * (c.x - a.x) + ny * (c.y - a.y);  // of the third corner
+    const double flip = side < 0 ? -1.0 : 1.0;
+    // The tile's corner that lies farthest on the triangle's side of the edge.
+    const double x = flip * nx > 0 ? tile.x1 : tile.x0, y = flip * ny > 0 ? tile.y1 : tile.y0;
+    if (flip * (nx * (x - a.x) + ny * (y - a.y)) < 0) return false;
+  }
+  return true;
+}
+
+class Picture {
  public:
-  TileDrawer(const Layout& layout, const Tile& tile, double px_per_pt)
-      : layout_(layout), tile_(tile), scale_(px_per_pt) {
-    paper_ = {tile.x / scale_, tile.y / scale_, (tile.x + kTile) / scale_, (tile.y + kTile) / scale_};
+  Picture(const Layout& layout, double dpi)
+      : layout_(layout),
+        scale_(dpi / 72.0),
+        width_(std::max(1, static_cast<int>(std::lround(layout.width * scale_)))),
+        height_(std::max(1, static_cast<int>(std::lround(layout.height * scale_)))),
+        columns_((width_ + kTile - 1) / kTile),
+        pixels_(std::size_t{3} * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 255) {
+    for (int y = 0; y < height_; y += kTile)
+      for (int x = 0; x < width_; x += kTile)
+        tiles_.push_back(
+            {.x = x, .y = y, .width = std::min(kTile, width_ - x), .height = std::min(kTile, height_ - y)});
   }
 
-  void draw(const std::vector<TriangleBatch>& batches) {
+  int width() const { return width_; }
+  int height() const { return height_; }
+  const std::vector<std::uint8_t>& bgr() const { return pixels_; }
+
+  void draw() {
+    for (const TriangleBatch& batch : tessellate(layout_.shapes, scale_ * kOversample)) sort_in(batch);
+    const Current current(Context::get());
+    for (const Tile& tile : tiles_) {
+      if (tile.batches.empty()) continue;  // white, as it is
+      draw(tile);
+      filter_down(current.context.pixels, tile);
+    }
+  }
+
+ private:
+  Rect paper(const Tile& tile) const {
+    return {tile.x / scale_, tile.y / scale_, (tile.x + kTile) / scale_, (tile.y + kTile) / scale_};
+  }
+
+  /// Hands each triangle to the tiles that it may show on.
+  void sort_in(const TriangleBatch& batch) {
+    Rect clip{0, 0, layout_.width, layout_.height};
+    if (batch.clip >= 0) clip = layout_.panels[static_cast<std::size_t>(batch.clip)].box;
+    const double size = kTile / scale_;
+    for (std::size_t i = 0; i + 2 < batch.vertices.size(); i += 3) {
+      const Vertex* t = &batch.vertices[i];
+      const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
+      const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
+      if (x1 < clip.x0 || x0 > clip.x1 || y1 < clip.y0 || y0 > clip.y1) continue;
+      const auto index = [size](double v, double low, double high) {
+        return static_cast<int>(std::clamp(v, low, high) / size);
+      };
+      const int last_column = std::min(index(x1, clip.x0, clip.x1), columns_ - 1);
+      const int last_row = std::min(index(y1, clip.y0, clip.y1), static_cast<int>(tiles_.size()) / columns_ - 1);
+      for (int row = index(y0, clip.y0, clip.y1); row <= last_row; ++row)
+        for (int column = index(x0, clip.x0, clip.x1); column <= last_column; ++column) {
+          Tile& tile = tiles_[static_cast<std::size_t>(row * columns_ + column)];
+          if (!may_meet(t, paper(tile))) continue;
+          if (tile.batches.empty() || tile.batches.back().clip != batch.clip)
+            tile.batches.push_back({.clip = batch.clip});
+          auto& vertices = tile.batches.back().vertices;
+          vertices.insert(vertices.end(), t, t + 3);
+        }
+    }
+  }
+
+  void draw(const Tile& tile) {
+    const Rect r = paper(tile);
     glViewport(0, 0, kBuffer, kBuffer);
     glMatrixMode(GL_PROJECTION);
     glLoadIdentity();
-    glOrtho(paper_.x0, paper_.x1, paper_.y1, paper_.y0, -1, 1);
+    glOrtho(r.x0, r.x1, r.y1, r.y0, -1, 1);
     glMatrixMode(GL_MODELVIEW);
     glLoadIdentity();
     glDisable(GL_DITHER);
     glShadeModel(GL_FLAT);
-    glEnable(GL_SCISSOR_TEST);
-    scissor({tile_.x / scale_, tile_.y / scale_, (tile_.x + tile_.width) / scale_, (tile_.y + tile_.height) / scale_});
+    glDisable(GL_SCISSOR_TEST);
     glClearColor(1, 1, 1, 1);
-    glClearStencil(0);
-    glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glEnable(GL_SCISSOR_TEST);
     glEnableClientState(GL_VERTEX_ARRAY);
     glEnableClientState(GL_COLOR_ARRAY);
-    for (const TriangleBatch& batch : batches) draw(batch);
-    glDisable(GL_SCISSOR_TEST);
+    for (const TriangleBatch& batch : tile.batches) {
+      if (!scissor(tile, batch.clip)) continue;
+      glVertexPointer(2, GL_FLOAT, sizeof(Vertex), &batch.vertices[0].x);
+      glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), &batch.vertices[0].r);
+      glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(batch.vertices.size()));
+    }
     glFinish();
   }
 
- private:
-  /// Keeps drawing inside a rectangle on paper; false if none of it lies on the tile.
-  bool scissor(const Rect& r) {
+  /// Keeps drawing inside a panel's box; false if none of it lies on the tile.
+  bool scissor(const Tile& tile, int clip) const {
+    if (clip < 0) {
+      glScissor(0, 0, kBuffer, kBuffer);
+      return true;
+    }
+    const Rect& box = layout_.panels[static_cast<std::size_t>(clip)].box;
     const auto sub = [&](double pt, int origin) {
       return std::clamp(static_cast<int>(std::lround((pt * scale_ - origin) * kOversample)), 0, kBuffer);
     };
-    const int x0 = sub(r.x0, tile_.x), x1 = sub(r.x1, tile_.x), y0 = sub(r.y0, tile_.y), y1 = sub(r.y1, tile_.y);
+    const int x0 = sub(box.x0, tile.x), x1 = sub(box.x1, tile.x), y0 = sub(box.y0, tile.y), y1 = sub(box.y1, tile.y);
     if (x1 <= x0 || y1 <= y0) return false;
     glScissor(x0, kBuffer - y1, x1 - x0, y1 - y0);
     return true;
   }
 
-  void draw(const TriangleBatch& batch) {
-    const Rect clip = batch.clip < 0 ? Rect{0, 0, layout_.width, layout_.height}
-                                     : layout_.panels[static_cast<std::size_t>(batch.clip)].box;
-    if (!scissor(clip)) return;
-    const bool plain = batch.rule == TriangleBatch::Rule::plain;
-    if (plain) {
-      visible_.clear();
-      for (std::size_t i = 0; i + 2 < batch.vertices.size(); i += 3)
-        if (on_tile(&batch.vertices[i], 3)) visible_.insert(visible_.end(), &batch.vertices[i], &batch.vertices[i] + 3);
-      submit(visible_);
-    } else if (!batch.vertices.empty() && on_tile(batch.vertices.data(), batch.vertices.size())) {
-      fill(batch);
+  /// Averages blocks of kOversample^2 pixels of the buffer.
+  void filter_down(const std::vector<std::uint8_t>& buffer, const Tile& tile) {
+    static_assert(kOversample == 4, "four rows and four columns are added");
+    constexpr std::size_t kRow = std::size_t{4} * kBuffer;
+    std::array<std::uint16_t, kRow> sums;
+    for (int y = 0; y < tile.height; ++y) {
+      const std::uint8_t* in = &buffer[static_cast<std::size_t>(y) * kOversample * kRow];
+      for (std::size_t i = 0; i < kRow; ++i)
+        sums[i] = static_cast<std::uint16_t>(in[i] + in[i + kRow] + in[i + 2 * kRow] + in[i + 3 * kRow]);
+      std::uint8_t* out = &pixels_[3 * (static_cast<std::size_t>(tile.y + y) * static_cast<std::size_t>(width_) +
+                                        static_cast<std::size_t>(tile.x))];
+      for (std::size_t x = 0; x < static_cast<std::size_t>(tile.width); ++x) {
+        const std::uint16_t* s = &sums[16 * x];
+        for (std::size_t c = 0; c < 3; ++c)
+          out[3 * x + 2 - c] = static_cast<std::uint8_t>((s[c] + s[c + 4] + s[c + 8] + s[c + 12] + 8) / 16);
+      }
     }
-  }
-
-  bool on_tile(const Vertex* v, std::size_t count) const {
-    float x0 = v->x, x1 = v->x, y0 = v->y, y1 = v->y;
-    for (std::size_t i = 1; i < count; ++i) {
-      x0 = std::min(x0, v[i].x), x1 = std::max(x1, v[i].x);
-      y0 = std::min(y0, v[i].y), y1 = std::max(y1, v[i].y);
-    }
-    return x1 >= paper_.x0 && x0 <= paper_.x1 && y1 >= paper_.y0 && y0 <= paper_.y1;
-  }
-
-  static void submit(const std::vector<Vertex>& vertices) {
-    if (vertices.empty()) return;
-    glVertexPointer(2, GL_FLOAT, sizeof(Vertex), &vertices[0].x);
-    glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), &vertices[0].r);
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
-  }
-
-  /// Stencil, then cover: fans count the winding of each pixel, a rectangle over them is drawn where it counts as
-  /// inside.
-  void fill(const TriangleBatch& batch) {
-    glEnable(GL_STENCIL_TEST);
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    glStencilFunc(GL_ALWAYS, 0, ~0u);
-    if (batch.rule == TriangleBatch::Rule::even_odd) {
-      glStencilOp(GL_KEEP, GL_KEEP, GL_INVERT);
-    } else {
-      glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_KEEP, GL_INCR_WRAP);
-      glStencilOpSeparate(GL_BACK, GL_KEEP, GL_KEEP, GL_DECR_WRAP);
-    }
-    submit(batch.vertices);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glStencilFunc(GL_NOTEQUAL, 0, ~0u);
-    glStencilOp(GL_ZERO, GL_ZERO, GL_ZERO);
-    Vertex low = batch.vertices[0], high = low;
-    for (const Vertex& v : batch.vertices) {
-      low.x = std::min(low.x, v.x), low.y = std::min(low.y, v.y);
-      high.x = std::max(high.x, v.x), high.y = std::max(high.y, v.y);
-    }
-    Vertex right = low, below = low;
-    right.x = high.x, below.y = high.y;
-    submit({low, right, below, below, right, high});
-    glDisable(GL_STENCIL_TEST);
   }
 
   const Layout& layout_;
-  Tile tile_;
-  double scale_;
-  Rect paper_;
-  std::vector<Vertex> visible_;
+  double scale_;  // pixels per point
+  int width_, height_, columns_;
+  std::vector<std::uint8_t> pixels_;
+  std::vector<Tile> tiles_;
 };
-
-/// Averages blocks of kOversample^2 pixels of the buffer into the picture (BGR).
-void filter_down(const std::vector<std::uint8_t>& buffer, const Tile& tile, int picture_width,
-                 std::vector<std::uint8_t>& picture) {
-  const std::size_t row = std::size_t{4} * kBuffer,
-                    used = std::size_t{4} * kOversample * static_cast<std::size_t>(tile.width);
-  std::vector<std::uint16_t> sums(used);
-  for (int y = 0; y < tile.height; ++y) {
-    const std::uint8_t* in = &buffer[static_cast<std::size_t>(y) * kOversample * row];
-    for (std::size_t i = 0; i < used; ++i)
-      sums[i] = static_cast<std::uint16_t>(in[i] + in[i + row] + in[i + 2 * row] + in[i + 3 * row]);
-    std::uint8_t* out = &picture[3 * (static_cast<std::size_t>(tile.y + y) * static_cast<std::size_t>(picture_width) +
-                                      static_cast<std::size_t>(tile.x))];
-    for (std::size_t x = 0; x < static_cast<std::size_t>(tile.width); ++x) {
-      const std::uint16_t* s = &sums[16 * x];
-      for (std::size_t c = 0; c < 3; ++c)
-        out[3 * x + 2 - c] = static_cast<std::uint8_t>((s[c] + s[c + 4] + s[c + 8] + s[c + 12] + 8) / 16);
-    }
-  }
-}
 
 }  // namespace
 
 std::string to_png(const Scene& scene, double dpi) {
-  static_assert(kOversample == 4, "filter_down() adds four rows and four columns");
   const Layout placed = layout(scene);
-  const double scale = dpi / 72.0;
-  if (!(dpi > 0) || !(placed.width * scale < 20000) || !(placed.height * scale < 20000))
-    throw ConfigError(
-        fmt::format("a picture of {:.1f} x {:.1f} in at {} dpi is not possible: up to 20000 pixels a side",
-                    placed.width / 72, placed.height / 72, dpi));
-  const int width = std::max(1, static_cast<int>(std::lround(placed.width * scale)));
-  const int height = std::max(1, static_cast<int>(std::lround(placed.height * scale)));
-  const std::vector<TriangleBatch> batches = tessellate(placed.shapes, scale * kOversample);
-  std::vector<std::uint8_t> picture(std::size_t{3} * static_cast<std::size_t>(width) *
-                                    static_cast<std::size_t>(height));
-  {
-    const Current current(Context::get());
-    for (int y = 0; y < height; y += kTile)
-      for (int x = 0; x < width; x += kTile) {
-        const Tile tile{x, y, std::min(kTile, width - x), std::min(kTile, height - y)};
-        TileDrawer(placed, tile, scale).draw(batches);
-        filter_down(current.context.pixels, tile, width, picture);
-      }
-  }
-  return encode_png(picture, width, height, dpi);
+  const double side = std::max(placed.width, placed.height) / 72.0 * dpi;
+  if (!(dpi > 0) || !(side <= kMostPixels))
+    throw ConfigError(fmt::format("a picture of {:.1f} x {:.1f} in at {} dpi is too large: up to {} pixels a side",
+                                  placed.width / 72, placed.height / 72, dpi, kMostPixels));
+  Picture picture(placed, dpi);
+  picture.draw();
+  return encode_png(picture.bgr(), picture.width(), picture.height(), dpi);
 }
 
 }  // namespace scanbench::render

@@ -198,10 +198,16 @@ class Composer {
   void ticks() {
     for (int i = 0; i < count_; ++i) {
       PanelLayout& p = place(i);
-      p.x_ticks =
-          ticks_of(panel(i).x, p.x_min, p.x_max, std::clamp(static_cast<int>(p.box.width() / (4.2 * em_)), 2, 9));
-      p.y_ticks =
-          ticks_of(panel(i).y, p.y_min, p.y_max, std::clamp(static_cast<int>(p.box.height() / (2.8 * em_)), 2, 9));
+      const auto count = [](double length, double apart) {
+        return std::clamp(static_cast<int>(length / apart), 2, 10);
+      };
+      p.x_ticks = ticks_of(panel(i).x, p.x_min, p.x_max, count(p.box.width(), 3.6 * em_));
+      p.y_ticks = ticks_of(panel(i).y, p.y_min, p.y_max, count(p.box.height(), 2.6 * em_));
+      if (!panel(i).equal_aspect || !panel(i).x.ticks.empty() || !panel(i).y.ticks.empty()) continue;
+      // A map has one step in both directions: squares of a round number of metres.
+      const double step = 3.2 * em_ * (p.x_max - p.x_min) / p.box.width();
+      const std::vector<Tick> x = ticks_apart(p.x_min, p.x_max, step), y = ticks_apart(p.y_min, p.y_max, step);
+      if (x.size() >= 2 && y.size() >= 2) p.x_ticks = x, p.y_ticks = y;
     }
   }
 

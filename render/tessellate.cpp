@@ -1,4 +1,4 @@
-// Thick lines as quads with round joins, discs as polygons, letters as fans for the stencil buffer.
+// Thick lines as quads with round joins, discs as polygons, letters and polygons cut into trapezoids.
 #include "render/tessellate.hpp"
 
 #include <algorithm>
@@ -23,10 +23,8 @@ class Tessellator {
   }
 
  private:
-  void begin(TriangleBatch::Rule rule) {
-    if (rule != TriangleBatch::Rule::plain || batches_.empty() || batches_.back().rule != rule ||
-        batches_.back().clip != clip_)
-      batches_.push_back({.rule = rule, .clip = clip_});
+  void begin() {
+    if (batches_.empty() || batches_.back().clip != clip_) batches_.push_back({.clip = clip_});
   }
 
   void triangle(const Vec2& p, const Vec2& q, const Vec2& r) {
@@ -61,14 +59,14 @@ class Tessellator {
   void path(const std::vector<Vec2>& points, bool closed, double width, bool round) {
     const double half = 0.5 * width;
     const std::size_t n = points.size(), edges = closed ? n : n - 1;
-    const bool tiny = half * px_per_pt_ < 1.0;  // a join that no pixel shows
+    // Below four pixels of the oversampled raster a round end cannot be told from one that is a little longer.
+    const bool tiny = half * px_per_pt_ < 4.0;
+    const double longer = !round && !closed ? 0.0 : round ? (tiny ? 0.6 * half : 0.0) : half;  // closed: square corners
     for (std::size_t i = 0; i < edges; ++i) {
-      Vec2 p = points[i], q = points[(i + 1) % n];
-      if (!round && closed) {  // axes boxes: square corners
-        const Vec2 u = (q - p).normalized() * half;
-        p -= u, q += u;
-      }
-      quad(p, q, half);
+      const Vec2 p = points[i], q = points[(i + 1) % n];
+      const double length = (q - p).norm();
+      const Vec2 end = length > 0 ? Vec2((q - p) * (longer / length)) : Vec2(Vec2::Zero());
+      quad(p - end, q + end, half);
     }
     const bool point = n == 2 && points[0] == points[1];
     if (round && (!tiny || point))
@@ -109,7 +107,7 @@ class Tessellator {
   }
 
   void add(const StrokeShape& s) {
-    begin(TriangleBatch::Rule::plain);
+    begin();
     color_ = s.stroke.color;
     const DashPattern dash = dash_pattern(s.stroke);
     std::vector<Vec2> points;
@@ -128,38 +126,54 @@ class Tessellator {
   }
 
   void add(const FillShape& s) {
-    begin(s.convex ? TriangleBatch::Rule::plain : TriangleBatch::Rule::even_odd);
+    begin();
     color_ = s.color;
-    for (std::size_t k = 0; k + 1 < s.starts.size(); ++k) fan(&s.points[s.starts[k]], s.starts[k + 1] - s.starts[k]);
+    std::vector<std::vector<Vec2>> contours;
+    for (std::size_t k = 0; k + 1 < s.starts.size(); ++k) {
+      const Vec2* points = s.points.data() + s.starts[k];
+      const std::size_t n = s.starts[k + 1] - s.starts[k];
+      if (s.convex)
+        for (std::size_t i = 1; i + 1 < n; ++i) triangle(points[0], points[i], points[i + 1]);
+      else
+        contours.emplace_back(points, points + n);
+    }
+    const std::vector<Vec2> corners = fill_triangles(contours, true);
+    for (std::size_t i = 0; i < corners.size(); i += 3) triangle(corners[i], corners[i + 1], corners[i + 2]);
   }
 
   void add(const DotsShape& s) {
-    begin(TriangleBatch::Rule::plain);
+    begin();
     color_ = s.color;
     for (const Vec2& c : s.centers) disc(c, 0.5 * s.diameter);
   }
 
   void add(const TextShape& s) {
-    std::vector<std::vector<Vec2>> contours;
+    begin();
+    const std::vector<const Glyph*> glyphs = Font::get().shape(s.text);
     double x = 0.0;
-    for (const Glyph* g : Font::get().shape(s.text)) {
-      for (const auto& contour : g->contours) {
-        auto& placed = contours.emplace_back();
-        for (const Vec2& p : contour) {
-          const Vec2 v((x + p.x()) * s.size, p.y() * s.size);  // y up
-          placed.push_back(s.origin + (s.upwards ? Vec2(-v.y(), -v.x()) : Vec2(v.x(), -v.y())));
+    const auto placed = [&](const Vec2& p) {
+      const Vec2 v((x + p.x()) * s.size, p.y() * s.size);  // y up
+      return Vec2(s.origin + (s.upwards ? Vec2(-v.y(), -v.x()) : Vec2(v.x(), -v.y())));
+    };
+    if (s.halo) {
+      color_ = kWhite;
+      std::vector<Vec2> rim;
+      for (const Glyph* g : glyphs) {
+        for (const auto& contour : g->contours) {
+          rim.clear();
+          for (const Vec2& p : contour) rim.push_back(placed(p));
+          path(rim, true, 2 * kHaloPt, true);
         }
+        x += g->advance_em;
       }
+    }
+    color_ = s.color;
+    x = 0.0;
+    for (const Glyph* g : glyphs) {
+      for (std::size_t i = 0; i < g->triangles.size(); i += 3)
+        triangle(placed(g->triangles[i]), placed(g->triangles[i + 1]), placed(g->triangles[i + 2]));
       x += g->advance_em;
     }
-    if (s.halo) {
-      begin(TriangleBatch::Rule::plain);
-      color_ = kWhite;
-      for (const auto& contour : contours) path(contour, true, 2 * kHaloPt, true);
-    }
-    begin(TriangleBatch::Rule::non_zero);
-    color_ = s.color;
-    for (const auto& contour : contours) fan(contour.data(), contour.size());
   }
 
   double px_per_pt_;
@@ -171,6 +185,44 @@ class Tessellator {
 };
 
 }  // namespace
+
+std::vector<Vec2> fill_triangles(const std::vector<std::vector<Vec2>>& contours, bool even_odd) {
+  struct Edge {
+    Vec2 low, high;  // by y
+    int winding;
+    double x_at(double y) const { return low.x() + (high.x() - low.x()) * ((y - low.y()) / (high.y() - low.y())); }
+  };
+  std::vector<Edge> edges;
+  std::vector<double> levels;
+  for (const auto& contour : contours)
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Vec2 &a = contour[i], &b = contour[(i + 1) % contour.size()];
+      levels.push_back(a.y());
+      if (a.y() < b.y()) edges.push_back({a, b, 1});
+      if (a.y() > b.y()) edges.push_back({b, a, -1});
+    }
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  std::vector<Vec2> triangles;
+  std::vector<const Edge*> band;
+  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+    const double y0 = levels[k], y1 = levels[k + 1], middle = 0.5 * (y0 + y1);
+    band.clear();
+    for (const Edge& e : edges)
+      if (e.low.y() <= y0 && e.high.y() >= y1) band.push_back(&e);
+    std::sort(band.begin(), band.end(),
+              [&](const Edge* a, const Edge* b) { return a->x_at(middle) < b->x_at(middle); });
+    int winding = 0;
+    for (std::size_t i = 0; i + 1 < band.size(); ++i) {
+      winding += even_odd ? 1 : band[i]->winding;
+      if (even_odd ? winding % 2 == 0 : winding == 0) continue;
+      const Edge &l = *band[i], &r = *band[i + 1];
+      const Vec2 a(l.x_at(y0), y0), b(r.x_at(y0), y0), c(l.x_at(y1), y1), d(r.x_at(y1), y1);
+      triangles.insert(triangles.end(), {a, b, c, c, b, d});
+    }
+  }
+  return triangles;
+}
 
 std::vector<TriangleBatch> tessellate(const std::vector<Shape>& shapes, double px_per_pt) {
   return Tessellator(px_per_pt).run(shapes);

@@ -15,11 +15,13 @@ struct Vertex {
 
 /// A run of triangles, every three vertices one.
 struct TriangleBatch {
-  enum class Rule { plain, non_zero, even_odd };
   std::vector<Vertex> vertices{};
-  Rule rule = Rule::plain;  ///< else the triangles are fans over contours: the rule says which of their area is inside
   int clip = -1;
 };
+
+/// Triangles (three points each) of the area inside closed contours: where the winding number is not zero, or odd.
+/// Exact for contours whose edges do not cross; horizontal cuts only, so that no seam shows between the pieces.
+std::vector<Vec2> fill_triangles(const std::vector<std::vector<Vec2>>& contours, bool even_odd);
 
 /// `px_per_pt`: of the raster, for the number of corners of a disc.
 std::vector<TriangleBatch> tessellate(const std::vector<Shape>& shapes, double px_per_pt);

@@ -16,10 +16,16 @@ std::string power_label(int exponent) {
   return fmt::format("1e{}", exponent);
 }
 
+/// With a true minus sign, as wide as a plus.
+std::string typographic(std::string number) {
+  if (!number.empty() && number[0] == '-') number.replace(0, 1, "\u2212");
+  return number;
+}
+
 std::string plain_label(double value, int exponent_of_step) {
   if (exponent_of_step >= -6 && std::abs(value) < 1e6)
-    return fmt::format("{:.{}f}", value, std::max(0, -exponent_of_step));
-  return fmt::format("{:g}", value);
+    return typographic(fmt::format("{:.{}f}", value, std::max(0, -exponent_of_step)));
+  return typographic(fmt::format("{:g}", value));
 }
 
 }  // namespace
@@ -34,16 +40,18 @@ double round_below(double x) {
 }
 
 std::vector<Tick> linear_ticks(double low, double high, int count) {
-  if (!(low < high) || !std::isfinite(high - low)) return {};
-  const double raw = (high - low) / std::max(1, count);
-  int exponent = static_cast<int>(std::floor(std::log10(raw)));
+  return ticks_apart(low, high, (high - low) / std::max(1, count));
+}
+
+std::vector<Tick> ticks_apart(double low, double high, double least_step) {
+  if (!(low < high) || !std::isfinite(high - low) || !(least_step > 0)) return {};
+  int exponent = static_cast<int>(std::floor(std::log10(least_step)));
   int multiple = 1;
-  // The smallest round step that is not below the raw one.
-  for (;; ++exponent, multiple = 1) {
-    const double decade = std::pow(10.0, exponent);
-    if (raw <= 1 * decade * (1 + 1e-9)) break;
-    if (multiple = 2; raw <= 2 * decade * (1 + 1e-9)) break;
-    if (multiple = 5; raw <= 5 * decade * (1 + 1e-9)) break;
+  for (;; ++exponent) {
+    const double decade = std::pow(10.0, exponent) * (1 + 1e-9);
+    if (multiple = 1; least_step <= decade) break;
+    if (multiple = 2; least_step <= 2 * decade) break;
+    if (multiple = 5; least_step <= 5 * decade) break;
   }
   // Divide by 10^-k where k < 0: 3 / 10 is the number that "0.3" reads as, 3 * 0.1 is not.
   const double up = exponent > 0 ? std::pow(10.0, exponent) : 1.0;

@@ -19,6 +19,9 @@ double round_below(double x);
 /// needs. Empty unless low < high, both finite.
 std::vector<Tick> linear_ticks(double low, double high, int count);
 
+/// The same with the smallest round step >= `least_step` > 0.
+std::vector<Tick> ticks_apart(double low, double high, double least_step);
+
 /// Powers of ten inside [low, high], thinned to about `count`; 1, 2, 5 within the decades if there are fewer than two.
 /// Empty unless 0 < low < high, both finite.
 std::vector<Tick> log_ticks(double low, double high, int count);

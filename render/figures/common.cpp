@@ -89,6 +89,26 @@ void set_robust_ranges(Panel& panel, const std::vector<Vec2>& points) {
   bulk(panel.y, 1);
 }
 
+void set_ranges_to_hold(Panel& panel, const std::vector<Vec2>& points) {
+  Vec2 low(INFINITY, INFINITY), high = -low;
+  for (const Vec2& p : points)
+    if (p.allFinite()) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  if (!(low.x() <= high.x())) return;
+  const double margin = 0.05 * std::max((high - low).maxCoeff(), 1.0);
+  if (!panel.x.range) panel.x.range = {low.x() - margin, high.x() + margin};
+  if (!panel.y.range) panel.y.range = {low.y() - margin, high.y() + margin};
+}
+
+void add_method_legend(const std::vector<NamedResult>& results, double width_pt, Scene& scene) {
+  if (results.size() > 4) {
+    scene.legend.push_back({.text = "lines found", .stroke = Stroke{method_style(0).color, width_pt, Dash::solid}});
+    return;
+  }
+  for (std::size_t i = 0; i < results.size(); ++i)
+    scene.legend.push_back(
+        {.text = results[i].pipeline, .stroke = Stroke{method_style(i).color, width_pt, Dash::solid}});
+}
+
 Scene small_multiples(std::size_t panels) {
   Scene scene;
   scene.columns = panels <= 3   ? static_cast<int>(std::max<std::size_t>(1, panels))

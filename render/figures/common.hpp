@@ -51,6 +51,12 @@ std::vector<Segment> true_walls(const Recording& recording, const Pose2& frame_f
 /// have no outliers.
 void set_robust_ranges(Panel& panel, const std::vector<Vec2>& points);
 
+/// Ranges that hold the points with a margin, where set_robust_ranges() set none. Without finite points: none.
+void set_ranges_to_hold(Panel& panel, const std::vector<Vec2>& points);
+
+/// A swatch per method in its colour; one for all, "lines found", if there are more than four.
+void add_method_legend(const std::vector<NamedResult>& results, double width_pt, Scene& scene);
+
 /// A scene of small multiples for `panels` panels: width and columns.
 Scene small_multiples(std::size_t panels);
 

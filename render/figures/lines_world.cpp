@@ -22,15 +22,14 @@ class LinesWorld : public Figure {
 
     Scene scene = small_multiples(input.results.size());
     scene.title = input.title + ": lines of all scans";
-    const Stroke wall_stroke{kTruthUnderlay, 2.6, Dash::solid}, path_stroke{kGrey, 0.5, Dash::dotted};
+    const Stroke wall_stroke{kWallColor, 0.35, Dash::solid}, path_stroke{kGrey, 0.5, Dash::dotted};
     std::vector<Vec2> ends;
     for (std::size_t i = 0; i < input.results.size(); ++i) {
       const auto& [pipeline, result] = input.results[i];
       const PlacedFrames placed = place_frames(recording, result);
       Panel panel;
-      if (recording.truth) panel.items.emplace_back(Lines{true_walls(recording, Pose2()), wall_stroke});
       panel.items.emplace_back(path_of(placed.world_from_sensor, path_stroke));
-      Lines lines{.stroke = {method_style(i).color, 0.45, Dash::solid}};
+      Lines lines{.stroke = {method_style(i).color, 0.6, Dash::solid}};
       std::size_t found = 0;
       for (std::size_t f = 0; f < std::min(result->lines.size(), placed.world_from_sensor.size()); ++f) {
         found += result->lines[f].lines.size();
@@ -41,12 +40,13 @@ class LinesWorld : public Figure {
       for (const Segment& s : lines.segments) ends.insert(ends.end(), {s.a, s.b});
       panel.title = fmt::format("{}: {}, {}", pipeline, counted(found, "line"), to_string(placed.source));
       panel.items.emplace_back(std::move(lines));
+      if (recording.truth) panel.items.emplace_back(Lines{true_walls(recording, Pose2()), wall_stroke});
       scene.panels.push_back(std::move(panel));
     }
     if (!recording.truth)
       for (Panel& panel : scene.panels) set_robust_ranges(panel, ends);
     if (recording.truth) scene.legend.push_back({.text = "true walls", .stroke = wall_stroke});
-    scene.legend.push_back({.text = "lines found", .stroke = Stroke{method_style(0).color, 0.8, Dash::solid}});
+    add_method_legend(input.results, 0.9, scene);
     scene.legend.push_back({.text = "path of the sensor", .stroke = path_stroke});
     const std::string thinned = stride > 1 ? fmt::format(" Only one scan in {} is drawn.", stride) : "";
     return {{"lines_world",

@@ -46,14 +46,10 @@ class ScanOverlay : public Figure {
       panel.items.emplace_back(Arrow{.pose = Pose2(), .length_pt = 12, .stroke = {kGrey, 0.9, Dash::solid}});
       scene.panels.push_back(std::move(panel));
     }
-    if (!has_truth) set_shared_range(points, scene);
+    set_ranges(points, scene);
     if (has_truth) scene.legend.push_back({.text = "true walls", .stroke = wall_stroke});
     scene.legend.push_back({.text = "scan points", .marker = Marker::dot, .marker_size_pt = 2.0});
-    scene.legend.push_back({.text = "lines found",
-                            .stroke = Stroke{method_style(0).color, 1.3, Dash::solid},
-                            .marker = Marker::circle,
-                            .marker_color = method_style(0).color,
-                            .marker_size_pt = 2.8});
+    add_method_legend(input.results, 1.3, scene);
     scene.legend.push_back({.text = "sensor", .stroke = Stroke{kGrey, 0.9, Dash::solid}, .arrow = true});
     return {{"scan_overlay",
              fmt::format("{}: the points of scan {} and the lines that each pipeline found in it, sensor frame.",
@@ -62,8 +58,14 @@ class ScanOverlay : public Figure {
   }
 
  private:
-  static void set_shared_range(const std::vector<Vec2>& points, Scene& scene) {
-    for (Panel& panel : scene.panels) set_robust_ranges(panel, points);
+  /// The view holds what was seen and said, not walls far away.
+  static void set_ranges(const std::vector<Vec2>& points, Scene& scene) {
+    for (Panel& panel : scene.panels) {
+      set_robust_ranges(panel, points);
+      std::vector<Vec2> shown = points;
+      shown.emplace_back(0.0, 0.0);
+      set_ranges_to_hold(panel, shown);
+    }
   }
 
   Params params_;
