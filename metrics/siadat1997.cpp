@@ -43,11 +43,12 @@ std::vector<GroupResidual> group_residuals(const Scan& scan, const ScanLines& fo
 }
 
 /// Mean over the frames of the CPU time spent in one of the stages, in ms. A run that was timed but never entered the
-/// stage spent 0 there (LT has no fit after its grouping); one that was not timed has no rows at all.
+/// stage spent 0 there (LT has no fit after its grouping); one that was not timed has no rows at all. Some extractors
+/// call the fit after their grouping by its name.
 Mean stage_time(const std::vector<StageTime>& times, std::initializer_list<std::string_view> stages) {
   std::map<int, double> per_frame;
   for (const StageTime& t : times) {
-    const bool timed_stage = t.stage == "pre" || t.stage == "segment" || t.stage == "post";
+    const bool timed_stage = t.stage == "pre" || t.stage == "segment" || t.stage == "post" || t.stage == "fit";
     if (timed_stage && t.frame >= 0)
       per_frame[t.frame] += std::ranges::find(stages, t.stage) != stages.end() ? t.seconds : 0.0;
   }
@@ -118,7 +119,7 @@ class Siadat1997 : public MetricFamily {
     rows.add("d_max_scan", kAll, d_max_scan);
     rows.add("t_pre", kAll, stage_time(input.result.times, {"pre"}));
     rows.add("t_seg", kAll, stage_time(input.result.times, {"segment"}));
-    rows.add("t_post", kAll, stage_time(input.result.times, {"post"}));
+    rows.add("t_post", kAll, stage_time(input.result.times, {"post", "fit"}));
     return rows.take();
   }
 };

@@ -57,13 +57,17 @@ TEST(Borges2000, ALineAcrossTwoWallsBelongsToTheMoreSimilarOneOnly) {
 }
 
 TEST(Borges2000, SimilarityScalesRhoByHalfAMetreAndAlphaByTwentyDegrees) {
-  // Walls (2, 0 deg) and (2.4, 10 deg); line (2, 10 deg): (0, 10/20)^2 = 0.25 against (0.4/0.5, 0)^2 = 0.64.
-  const PolarLine second{2.4, radians(10)};
-  const Vec2 foot = second.rho * second.normal();
-  const Vec2 along = perpendicular(second.normal());
-  MadeUpRun run = six_beams({{"a", {{2, -9}, {2, 9}}}, {"b", {foot - along, foot + along}}}, 1);
-  add_line(run, 0, polar_line(2.0, 10), {3, 4, 5});
-  expect_value(evaluate("borges2000", run), "n_lines", "a", 1.0, 1);
+  // Walls a (2, 0 deg) and b (rho, 10 deg), line (2, 10 deg): (10/20)^2 = 0.25 to a, ((rho - 2)/0.5)^2 to b.
+  const auto winner = [](double rho) {
+    const PolarLine second{rho, radians(10)};
+    const Vec2 foot = second.rho * second.normal();
+    const Vec2 along = perpendicular(second.normal());
+    MadeUpRun run = six_beams({{"a", {{2, -9}, {2, 9}}}, {"b", {foot - along, foot + along}}}, 1);
+    add_line(run, 0, polar_line(2.0, 10), {3, 4, 5});
+    return row(evaluate("borges2000", run), "n_lines", "a").count == 1 ? "a" : "b";
+  };
+  EXPECT_STREQ(winner(2.4), "a");  // 0.64
+  EXPECT_STREQ(winner(2.2), "b");  // 0.16
 }
 
 TEST(Borges2000, EquallySimilarWallsAreToldApartByTheirSupport) {

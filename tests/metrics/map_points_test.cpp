@@ -97,6 +97,22 @@ TEST(SegmentGrid, AgreesWithBruteForceInsideAndOutside) {
   }
 }
 
+TEST(SegmentGrid, FindsSegmentsThatCrossFromRowToRowWithinARoundingError) {
+  // Three segments in 3 m x 16 m make cells of sqrt(48 / 12) = 2 m; the third one lies on the border of two rows.
+  CounterRng rng(4, RngStream::resampling);
+  for (int i = 0; i < 300; ++i) {
+    const double bottom = 20 * rng.uniform();
+    const double border = bottom + 2.0 * (1 + i % 7);
+    const double below = border * (1 - (i % 3) * 2e-16);
+    const double above = border * (1 + (i % 5) * 2e-16);
+    const std::vector<Segment> segments{
+        {{0, bottom}, {3, bottom}}, {{0, bottom + 16}, {3, bottom + 16}}, {{0, below}, {3, above}}};
+    const SegmentGrid grid(segments);
+    for (const double x : {0.1, 1.0, 1.9, 2.1, 2.9})
+      for (const double dy : {-0.3, 0.3}) EXPECT_NEAR(grid.distance({x, border + dy}), 0.3, 1e-9);
+  }
+}
+
 TEST(SegmentGrid, HasAnswersForNothingAndForNonsense) {
   EXPECT_EQ(SegmentGrid(std::vector<Segment>{}).distance({0, 0}), std::numeric_limits<double>::infinity());
   const double nan = std::numeric_limits<double>::quiet_NaN();

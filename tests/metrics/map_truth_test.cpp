@@ -116,6 +116,12 @@ TEST(MapTruth, OnlyWhatWasSeenOftenEnoughCounts) {
   EXPECT_GT(row(evaluate("map_truth", sparse), "visible_m").value, 1.0);
 }
 
+TEST(MapTruth, LostReturnsMakeNothingVisible) {
+  MadeUpRun run = seen_from_above(0.1);
+  for (double& r : run.observed.frames[0].ranges) r = std::numeric_limits<double>::infinity();
+  expect_value(evaluate("map_truth", run), "visible_m", "all", 0.0, 0);
+}
+
 TEST(MapTruth, OneLineForEachVisiblePartIsNoFragment) {
   MadeUpRun run = seen_from_above(0.1);
   cast_frame(run, Pose2(-3.5, 1.0, 0.0));  // sees x = -4.5 .. -2.5, 2 m apart from the other part

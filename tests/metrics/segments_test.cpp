@@ -139,17 +139,24 @@ TEST(Segments, LostReturnsDoNotCutATrueLineButABodyInFrontDoes) {
   expect_value(evaluate("segments", run), "n_missed", "all", 1, 1);
   for (std::size_t i = 40; i < 50; ++i) run.truth.wall_ids[i] = -1;
   expect_value(evaluate("segments", run), "n_missed", "all", 2, 2);
+  // One line across the body is true for one piece and misses the other; it is not merged, because the wall is one.
+  add_line(run, 0, line_between({2, 2}, {-2, 2}), {});
+  expect_value(evaluate("segments", run), "n_missed", "all", 1, 2);
+  expect_value(evaluate("segments", run), "n_merged", "all", 0, 1);
 }
 
 TEST(Segments, TrueLinesHaveAtLeastNineReturnsAndHalfAMetre) {
   // Beams 1 deg apart on a wall 4 m away: neighbours about 7 cm apart; 9 beams reach 0.56 m, 8 only 0.49 m.
-  const auto truths = [](int beams, const ParamSet& params) {
+  const auto truths = [](int beams, const ParamSet& params, int lost = 0) {
     MadeUpRun run =
         make_run(ScanGeometry(radians(90 - 0.5 * (beams - 1)), radians(1), beams), {{"n", {{5, 4}, {-5, 4}}}});
     cast_frame(run, {});
+    for (int i = 0; i < lost; ++i) run.observed.frames[0].ranges[static_cast<std::size_t>(2 + i)] = 0.0;
     return row(evaluate("segments", run, params), "n_missed").value;
   };
   EXPECT_EQ(truths(9, {}), 1);
+  EXPECT_EQ(truths(11, {}, 2), 1);
+  EXPECT_EQ(truths(11, {}, 3), 0);
   EXPECT_EQ(truths(8, {{"min_length_m", 0.4}}), 0);
   EXPECT_EQ(truths(8, {{"min_length_m", 0.4}, {"min_beams", std::int64_t{8}}}), 1);
   EXPECT_EQ(truths(8, {{"min_beams", std::int64_t{8}}}), 0);

@@ -58,6 +58,8 @@ TEST(Siadat1997, TimesAreMillisecondsPerScanOfTheThreeStages) {
   expect_value(rows, "t_pre", "all", 2.0, 2);
   expect_value(rows, "t_seg", "all", (2.0 + 6.0) / 2, 2);
   expect_value(rows, "t_post", "all", 0.0, 2);  // line tracking has no fit after its grouping
+  run.result.times.push_back({"fit", 1, 1e-3});
+  expect_value(evaluate("siadat1997", run), "t_post", "all", 0.5, 2);
   for (const auto& d : family("siadat1997")->describe()) EXPECT_EQ(d.timing, d.metric.starts_with("t_")) << d.metric;
 }
 
