@@ -5,17 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "harness/figures.hpp"
 #include "harness/results_table.hpp"
 #include "harness/scenario.hpp"
 
 namespace scanbench::harness {
-
-/// A figure that stands in the run folder.
-struct FigureFile {
-  std::string scenario;
-  std::string name;  ///< file name without ending, below figures/
-  std::string caption;
-};
 
 /// A cell as the report lists it.
 struct CellLine {

@@ -128,9 +128,17 @@ class TableBuilder {
   std::vector<std::string> published_methods(const std::string& metric) const {
     std::vector<std::string> methods;
     for (const auto& value : published_)
-      if (value.metric == metric && std::ranges::find(methods, value.method) == methods.end())
+      if (value.metric == metric && is_compared(value.method) &&
+          std::ranges::find(methods, value.method) == methods.end())
         methods.push_back(value.method);
     return methods;
+  }
+
+  // A method that a pipeline names; all of them if no pipeline names any.
+  bool is_compared(const std::string& method) const {
+    const auto& pipelines = scenario_.pipelines;
+    return std::ranges::all_of(pipelines, [](const PipelineSpec& p) { return p.published.empty(); }) ||
+           std::ranges::any_of(pipelines, [&](const PipelineSpec& p) { return p.published == method; });
   }
 
   static std::string heading(const MetricDescription& metric, const Display& display) {

@@ -48,9 +48,54 @@ std::string flat_head(const TableColumn& column) {
   return column.group.empty() ? column.head : column.group + " " + column.head;
 }
 
-}  // namespace
+std::size_t column_width(const Table& table, std::size_t column) {
+  std::size_t width = display_width(table.columns[column].head);
+  for (const auto& row : table.rows) width = std::max(width, display_width(marked(row.cells[column])));
+  return width;
+}
 
-std::string to_terminal(const Table& table, bool color) {
+// The columns [first, first + count) with the leading text columns.
+Table part_of(const Table& table, std::size_t first, std::size_t count) {
+  Table part = table;
+  const auto from = static_cast<std::ptrdiff_t>(first);
+  const auto to = static_cast<std::ptrdiff_t>(first + count);
+  part.columns.assign(table.columns.begin() + from, table.columns.begin() + to);
+  for (std::size_t r = 0; r < table.rows.size(); ++r)
+    part.rows[r].cells.assign(table.rows[r].cells.begin() + from, table.rows[r].cells.begin() + to);
+  return part;
+}
+
+// Whole groups side by side as far as the width goes.
+std::vector<Table> parts_of_width(const Table& table, std::size_t width) {
+  std::size_t heads = 0;
+  for (std::size_t h = 0; h < table.row_heads.size(); ++h) {
+    std::size_t widest = display_width(table.row_heads[h]);
+    for (const auto& row : table.rows) widest = std::max(widest, display_width(row.heads[h]));
+    heads += widest + 2;
+  }
+  std::vector<Table> parts;
+  std::size_t first = 0;
+  std::size_t used = heads;
+  const auto spans = has_groups(table) ? group_spans(table) : std::vector<Span>{{"", 0, table.columns.size()}};
+  for (const auto& span : spans) {
+    std::size_t wanted = 1;
+    for (std::size_t c = span.first; c < span.first + span.count; ++c) wanted += column_width(table, c) + 2;
+    if (span.first > first && used + wanted > width) {
+      parts.push_back(part_of(table, first, span.first - first));
+      first = span.first;
+      used = heads;
+    }
+    used += wanted;
+  }
+  parts.push_back(part_of(table, first, table.columns.size() - first));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) parts[i].title.clear();
+    if (i + 1 < parts.size()) parts[i].caption.clear();
+  }
+  return parts;
+}
+
+std::string part_to_terminal(const Table& table, bool color) {
   const std::size_t heads = table.row_heads.size();
   std::vector<std::size_t> widths;
   for (std::size_t c = 0; c < heads + table.columns.size(); ++c) {
@@ -63,7 +108,8 @@ std::string to_terminal(const Table& table, bool color) {
     return on && color ? "\x1b[2m" + text + "\x1b[0m" : text;
   };
 
-  std::string out = (color ? "\x1b[1m" + table.title + "\x1b[0m" : table.title) + "\n";
+  std::string out;
+  if (!table.title.empty()) out = (color ? "\x1b[1m" + table.title + "\x1b[0m" : table.title) + "\n";
   std::string line;
   if (has_groups(table)) {
     for (std::size_t c = 0; c < heads; ++c) line += padded("", widths[c], false) + "  ";
@@ -96,6 +142,15 @@ std::string to_terminal(const Table& table, bool color) {
     out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   if (!table.caption.empty()) out += table.caption + "\n";
+  return out;
+}
+
+}  // namespace
+
+std::string to_terminal(const Table& table, bool color, std::size_t width) {
+  std::string out;
+  for (const auto& part : parts_of_width(table, width))
+    out += (out.empty() ? "" : "\n") + part_to_terminal(part, color);
   return out;
 }
 

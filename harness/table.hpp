@@ -32,7 +32,8 @@ struct Table {
   std::vector<Row> rows;
 };
 
-std::string to_terminal(const Table& table, bool color);
+/// Groups of columns that do not fit `width` characters side by side stand below each other.
+std::string to_terminal(const Table& table, bool color, std::size_t width = 1000);
 std::string to_markdown(const Table& table);
 std::string to_html(const Table& table);
 

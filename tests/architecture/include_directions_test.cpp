@@ -26,7 +26,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
 // Headers of a library that only one folder may name.
 const std::map<std::string, std::string> kOwned = {
     {"box2d/", "sim"},        {"GL/", "render"}, {"cairo", "render"},     {"yaml-cpp/", "harness"},
-    {"nlohmann/", "harness"}, {"CLI/", "app"},   {"openssl/", "harness"}, {"Random123/", "core"},
+    {"CLI/", "app"},   {"openssl/", "harness"}, {"Random123/", "core"},
 };
 
 const std::set<std::string> kTruthHeaders = {"core/truth.hpp", "core/recording.hpp"};

@@ -1,0 +1,44 @@
+// The verbs of the program. Each adds its options to the command line and returns what is to be done, with an exit
+// code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "harness/scenario.hpp"
+
+namespace scanbench::app {
+
+enum ExitCode {
+  kGood = 0,
+  kGateFailed = 1,
+  kBadInput = 2,
+  kCellsFailed = 3,
+  kIncomplete = 4,
+  kOurBug = 70,
+  kInterrupted = 130
+};
+
+/// Set by the verb that the user chose.
+using Action = std::function<int()>;
+
+struct Context {
+  CLI::App& app;
+  Action& action;
+  std::vector<std::string> argv;
+  std::filesystem::path program;  ///< argv[0]
+};
+
+void add_run(Context& context);         ///< run
+void add_inspection(Context& context);  ///< check, list, describe
+void add_recordings(Context& context);  ///< simulate, export
+void add_results(Context& context);     ///< score, compare, figures, report
+
+/// Scenarios of scenario and suite files, in order; `name` receives the first file's name without ending.
+std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
+                                           std::string* name = nullptr);
+
+}  // namespace scanbench::app

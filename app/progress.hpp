@@ -1,0 +1,40 @@
+// Progress of long work: one bar that redraws itself on a terminal, plain lines elsewhere, silence with --quiet.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace scanbench::app {
+
+class Progress {
+ public:
+  enum class Style { silent, lines, bar };
+
+  explicit Progress(Style style) : style_(style) {}
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress() { finish(); }
+
+  /// A share in [0, 1] of everything, and what is being done now.
+  void update(double share, const std::string& what);
+  /// A line above the bar.
+  void note(const std::string& line);
+  /// Leaves the terminal as it was.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Style style_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = {};
+  std::string what_;
+  bool drawn_ = false;
+};
+
+/// A bar if standard error is a terminal, else lines.
+Progress::Style progress_style(bool quiet);
+
+/// Colour on standard output: a terminal, NO_COLOR unset, TERM not "dumb".
+bool use_color();
+
+}  // namespace scanbench::app

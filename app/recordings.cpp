@@ -1,0 +1,118 @@
+// simulate: recordings without pipelines. export: recordings as logs that other programs read.
+#include <fmt/format.h>
+
+#include <thread>
+
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "harness/atomic_file.hpp"
+#include "harness/export.hpp"
+#include "harness/recording_folder.hpp"
+#include "harness/run_folder.hpp"
+
+namespace scanbench::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string file, out, run, format = "carmen";
+  std::vector<std::string> sets;
+  std::vector<std::uint64_t> seeds;
+  int jobs = 1;
+  bool quiet = false;
+};
+
+int simulate(const Options& options, const std::vector<std::string>& argv) {
+  std::string name;
+  const auto scenarios = load_inputs({options.file}, options.sets, &name);
+  Progress progress(progress_style(options.quiet));
+  harness::RunTarget target(options.out.empty() ? fs::path("out") / name : fs::path(options.out), false);
+  harness::Manifest manifest{"running", harness::utc_now(), "", argv, {}, {}};
+  std::vector<std::string> printed;
+  try {
+    harness::make_folders(target.path());
+    harness::write_manifest(target.path(), manifest);
+    for (const auto& scenario : scenarios) {
+      manifest.scenarios.push_back(scenario.name);
+      harness::write_file_atomically(
+          target.path() / (scenarios.size() == 1 ? "effective.yaml" : "effective/" + scenario.name + ".yaml"),
+          harness::effective_yaml(scenario));
+      for (const auto seed : options.seeds.empty() ? scenario.seeds : options.seeds) {
+        const std::string what = fmt::format("recording {}/{}", scenario.name, seed);
+        const Recording recording =
+            harness::make_recording(scenario, seed, options.jobs, [&](double share) { progress.update(share, what); });
+        const std::string hash =
+            harness::save_recording(harness::recording_path(target.path(), scenario.name, seed), recording);
+        printed.push_back(fmt::format("{}  {} scans x {} beams  {}", what, recording.observed.frames.size(),
+                                      recording.observed.sensor.geometry.beams(), hash));
+      }
+    }
+    manifest.state = "complete";
+    manifest.end = harness::utc_now();
+    harness::write_manifest(target.path(), manifest);
+  } catch (...) {
+    target.abandon();
+    throw;
+  }
+  target.finish();
+  progress.finish();
+  if (!options.quiet)
+    for (const auto& line : printed) fmt::print("{}\n", line);
+  return kGood;
+}
+
+int export_recordings(const Options& options) {
+  const fs::path folder = fs::path(options.run) / "recordings";
+  if (!fs::exists(folder)) throw ConfigError(options.run + ": not a run folder: it has no recordings/");
+  const std::string ending = options.format == "carmen" ? ".log" : options.format == "csv" ? ".csv" : ".txt";
+  const fs::path out = options.out.empty() ? fs::path(options.run) / "export" : fs::path(options.out);
+  int written = 0;
+  for (const auto& scenario : fs::directory_iterator(folder)) {
+    if (!scenario.is_directory()) continue;
+    for (const auto& seed : fs::directory_iterator(scenario.path())) {
+      const Recording recording = harness::load_recording(seed.path());
+      const fs::path path =
+          out / (scenario.path().filename().string() + "_" + seed.path().filename().string() + ending);
+      const std::string text = harness::export_text(recording, options.format);
+      harness::make_folders(out);
+      harness::write_file_atomically(path, text);
+      fmt::print("{}\n", path.string());
+      if (options.format != "tum")
+        for (const auto& [key, value] : harness::import_params(recording, options.format))
+          fmt::print("  {}: {}\n", key, to_text(value));
+      ++written;
+    }
+  }
+  if (written == 0) throw ConfigError(folder.string() + ": holds no recording");
+  return kGood;
+}
+
+}  // namespace
+
+void add_recordings(Context& context) {
+  auto options = std::make_shared<Options>();
+  auto* simulate_verb = context.app.add_subcommand("simulate", "Makes the recordings of a scenario and nothing else");
+  simulate_verb->add_option("FILE", options->file, "a scenario or suite file")->required();
+  simulate_verb->add_option("-o,--out", options->out, "the run folder (default: out/<name of the file>)");
+  simulate_verb->add_option("--seed", options->seeds, "seeds in place of the file's, separated by commas")
+      ->delimiter(',');
+  simulate_verb->add_option("-j,--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024))->capture_default_str();
+  simulate_verb->add_option("--set", options->sets, "KEY=VALUE: a value in place of the file's (dotted keys)")
+      ->take_all();
+  simulate_verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
+  simulate_verb->callback(
+      [&context, options] { context.action = [options, argv = context.argv] { return simulate(*options, argv); }; });
+
+  auto* export_verb = context.app.add_subcommand(
+      "export",
+      "Writes a run's recordings as logs that other programs read, and prints the options that read them back");
+  export_verb->add_option("RUN", options->run, "a run folder")->required();
+  export_verb->add_option("--format", options->format, "carmen, csv or tum (poses)")
+      ->check(CLI::IsMember(harness::export_formats()))
+      ->capture_default_str();
+  export_verb->add_option("-o,--out", options->out, "the folder to write to (default: RUN/export)");
+  export_verb->callback([&context, options] { context.action = [options] { return export_recordings(*options); }; });
+}
+
+}  // namespace scanbench::app

@@ -1,0 +1,123 @@
+// score, figures, report, compare: work on run folders that stand there already.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "core/number_text.hpp"
+#include "harness/atomic_file.hpp"
+#include "harness/compare.hpp"
+#include "harness/run_report.hpp"
+#include "harness/runner.hpp"
+#include "harness/score.hpp"
+#include "harness/table.hpp"
+
+namespace scanbench::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Scenarios of the run, or of files given in their place (to score with other metrics, to draw other figures).
+std::vector<harness::Scenario> scenarios_for(const fs::path& run, const std::vector<std::string>& files) {
+  return files.empty() ? harness::load_run_scenarios(run) : load_inputs(files, {});
+}
+
+int score(const fs::path& run, const std::vector<std::string>& files) {
+  const auto scenarios = scenarios_for(run, files);
+  const std::size_t cells = harness::score_run(run, scenarios);
+  harness::write_reports(run, harness::load_report_input(run, scenarios));
+  fmt::print("{} cells scored: {}\n", cells, (run / "summary.csv").string());
+  return kGood;
+}
+
+int figures(const fs::path& run, const std::vector<std::string>& files, bool pdf, bool quiet) {
+  const auto scenarios = scenarios_for(run, files);
+  Progress progress(progress_style(quiet));
+  harness::draw_run_figures(run, scenarios, pdf,
+                            [&](double share, const std::string& what) { progress.update(share, "figure " + what); });
+  progress.finish();
+  for (const auto& figure : harness::load_figure_index(run))
+    if (!quiet) fmt::print("{}\n", (run / "figures" / (figure.name + ".svg")).string());
+  return kGood;
+}
+
+int report(const fs::path& run) {
+  harness::write_reports(run, harness::load_report_input(run, harness::load_run_scenarios(run)));
+  fmt::print("{}\n{}\n", (run / "report.html").string(), (run / "report.md").string());
+  return kGood;
+}
+
+std::string shown(double value) {
+  return std::isnan(value) ? "–" : fmt::format("{:.6g}", value);
+}
+
+int compare(const fs::path& a, const fs::path& b, const std::string& csv, bool all) {
+  const harness::Comparison comparison = harness::compare_runs(a, b);
+  harness::Table table{
+      "compare",
+      "B " + b.string() + " against A " + a.string(),
+      "",
+      {"scenario", "pipeline", "seed", "metric", "subject", "verdict"},
+      {{"", "A", false}, {"", "B", false}, {"", "B - A", false}, {"", "tolerance", false}, {"", "unit", false}},
+      {}};
+  for (const auto& row : comparison.rows) {
+    const bool quiet = row.verdict == harness::Verdict::same || row.verdict == harness::Verdict::within ||
+                       row.verdict == harness::Verdict::timing;
+    if (quiet && !all) continue;
+    table.rows.push_back({{row.cell.scenario, row.cell.pipeline, std::to_string(row.cell.seed), row.metric, row.subject,
+                           std::string(to_string(row.verdict))},
+                          {{shown(row.a)}, {shown(row.b)}, {shown(row.difference)}, {shown(row.tolerance)}, {row.unit}},
+                          false});
+  }
+  for (const auto& note : comparison.notes) fmt::print("note: {}\n", note);
+  if (!table.rows.empty()) fmt::print("{}\n", harness::to_terminal(table, use_color()));
+  std::string counts;
+  for (const auto& [verdict, count] : comparison.counts)
+    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, to_string(verdict));
+  fmt::print("{}{}\n", counts.empty() ? "nothing to compare" : counts, comparison.incomplete ? "; INCOMPLETE" : "");
+  if (!csv.empty()) harness::write_file_atomically(csv, harness::comparison_csv(comparison));
+  return comparison.exit_code();
+}
+
+}  // namespace
+
+void add_results(Context& context) {
+  struct Options {
+    std::string run, other, csv;
+    std::vector<std::string> files;
+    bool pdf = false, quiet = false, all = false;
+  };
+  auto options = std::make_shared<Options>();
+
+  auto* score_verb = context.app.add_subcommand("score", "Computes the metrics of a run again, from its files");
+  score_verb->add_option("RUN", options->run, "a run folder")->required();
+  score_verb->add_option("--with", options->files, "scenario files whose metrics take the place of the run's own");
+  score_verb->callback(
+      [&context, options] { context.action = [options] { return score(options->run, options->files); }; });
+
+  auto* figures_verb = context.app.add_subcommand("figures", "Draws the figures of a run again, from its files");
+  figures_verb->add_option("RUN", options->run, "a run folder")->required();
+  figures_verb->add_option("--with", options->files, "scenario files whose figures take the place of the run's own");
+  figures_verb->add_flag("--pdf", options->pdf, "as PDF too");
+  figures_verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
+  figures_verb->callback([&context, options] {
+    context.action = [options] { return figures(options->run, options->files, options->pdf, options->quiet); };
+  });
+
+  auto* report_verb = context.app.add_subcommand("report", "Writes report.html and report.md of a run again");
+  report_verb->add_option("RUN", options->run, "a run folder")->required();
+  report_verb->callback([&context, options] { context.action = [options] { return report(options->run); }; });
+
+  auto* compare_verb =
+      context.app.add_subcommand("compare", "Compares two runs cell by cell; exit code 1 if B is worse");
+  compare_verb->add_option("A", options->run, "the run folder to compare with")->required();
+  compare_verb->add_option("B", options->other, "the run folder that is judged")->required();
+  compare_verb->add_option("--csv", options->csv, "write all rows to this file");
+  compare_verb->add_flag("--all", options->all, "show what has not changed too");
+  compare_verb->callback([&context, options] {
+    context.action = [options] { return compare(options->run, options->other, options->csv, options->all); };
+  });
+}
+
+}  // namespace scanbench::app

@@ -1,0 +1,125 @@
+// run: scenarios and suites to a run folder with tables, figures and a report.
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "harness/run_report.hpp"
+#include "harness/runner.hpp"
+
+namespace scanbench::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> files, sets, only;
+  std::vector<std::uint64_t> seeds;
+  std::string out;
+  int jobs = 1;
+  bool resume = false, quiet = false, json = false, journal = false, no_figures = false;
+};
+
+std::size_t terminal_width() {
+  winsize size{};
+  if (isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 40) return size.ws_col;
+  return 120;
+}
+
+void print_tables(const harness::ReportInput& input) {
+  for (const auto& scenario : input.scenarios)
+    for (const auto& table : harness::result_tables(scenario, input.rows))
+      fmt::print("{}\n", harness::to_terminal(table, use_color(), terminal_width()));
+}
+
+void print_json(const harness::RunResult& result) {
+  auto cells = nlohmann::ordered_json::array();
+  for (const auto& cell : result.cells)
+    cells.push_back({{"scenario", cell.key.scenario},
+                     {"pipeline", cell.key.pipeline},
+                     {"seed", cell.key.seed},
+                     {"status", cell.done ? to_string(cell.record.outcome.status) : "missing"},
+                     {"message", cell.record.outcome.message},
+                     {"reused", cell.reused}});
+  const nlohmann::ordered_json json{{"out", result.out.string()}, {"exit_code", result.exit_code()}, {"cells", cells}};
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+void note_cell(Progress& progress, const harness::CellResult& cell) {
+  const auto& outcome = cell.record.outcome;
+  if (outcome.status == harness::CellStatus::ok) return;
+  progress.note(fmt::format("{}: {}: {}", harness::to_string(cell.key), to_string(outcome.status), outcome.message));
+}
+
+int run(const Options& options, const std::vector<std::string>& argv) {
+  std::string name;
+  const auto scenarios = load_inputs(options.files, options.sets, &name);
+  for (const auto& scenario : scenarios)
+    for (const auto& note : scenario.notes)
+      if (!options.quiet) fmt::print(stderr, "{}: note: {}\n", scenario.name, note);
+
+  Progress progress(progress_style(options.quiet));
+  harness::RunOptions run_options;
+  run_options.out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
+  run_options.jobs = options.jobs;
+  run_options.seeds = options.seeds;
+  run_options.only = options.only;
+  run_options.resume = options.resume;
+  run_options.journal = options.journal;
+  run_options.argv = argv;
+  run_options.progress = [&](const harness::RunProgress& now) {
+    if (now.cell != nullptr) note_cell(progress, *now.cell);
+    const double total = static_cast<double>(now.total);
+    progress.update(total > 0 ? 0.95 * static_cast<double>(now.done) / total : 0.0, now.what);
+  };
+  const harness::RunResult result = harness::run(scenarios, run_options);
+  if (result.interrupted) {
+    progress.finish();
+    fmt::print(stderr, "scanbench: interrupted; what is finished stays in {} if the run was new (--resume goes on)\n",
+               result.out.string());
+    return kInterrupted;
+  }
+
+  const auto ran = harness::load_run_scenarios(result.out);
+  if (!options.no_figures)
+    harness::draw_run_figures(result.out, ran, false, [&](double share, const std::string& what) {
+      progress.update(0.95 + 0.05 * share, "figure " + what);
+    });
+  const auto report = harness::load_report_input(result.out, ran);
+  harness::write_reports(result.out, report);
+  progress.finish();
+
+  if (options.json) {
+    print_json(result);
+  } else if (!options.quiet) {
+    print_tables(report);
+    fmt::print("{}\n", (result.out / "report.html").string());
+  }
+  return result.exit_code();
+}
+
+}  // namespace
+
+void add_run(Context& context) {
+  auto options = std::make_shared<Options>();
+  auto* verb =
+      context.app.add_subcommand("run", "Runs scenario or suite files: scans, algorithms, metrics, figures, report");
+  verb->add_option("FILE", options->files, "scenario or suite files")->required();
+  verb->add_option("-o,--out", options->out, "the run folder (default: out/<name of the first file>)");
+  verb->add_option("--seed", options->seeds, "seeds in place of the file's, separated by commas")->delimiter(',');
+  verb->add_option("-j,--jobs", options->jobs, "cells at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  verb->add_option("--set", options->sets, "KEY=VALUE: a value in place of the file's (dotted keys)")->take_all();
+  verb->add_option("--only", options->only, "only these scenarios, pipelines or scenario/pipeline")->delimiter(',');
+  verb->add_flag("--resume", options->resume, "keep the cells that have not changed");
+  verb->add_flag("--trace", options->journal, "write what the algorithms record on the way (trace.csv)");
+  verb->add_flag("--no-figures", options->no_figures, "draw nothing");
+  verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
+  verb->add_flag("--json", options->json, "print the cells' outcomes as JSON");
+  verb->callback(
+      [&context, options] { context.action = [options, argv = context.argv] { return run(*options, argv); }; });
+}
+
+}  // namespace scanbench::app

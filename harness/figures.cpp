@@ -1,0 +1,87 @@
+// Recording and results from files, through the registered figures, to files.
+#include "harness/figures.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/registry.hpp"
+#include "harness/atomic_file.hpp"
+#include "harness/cell_files.hpp"
+#include "harness/recording_folder.hpp"
+#include "harness/run_folder.hpp"
+#include "render/figure.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct LoadedResult {
+  std::string pipeline;
+  PipelineResult result;
+};
+
+std::vector<LoadedResult> finished_results(const fs::path& run, const Scenario& scenario, std::uint64_t seed) {
+  std::vector<LoadedResult> results;
+  for (const auto& pipeline : scenario.pipelines) {
+    const fs::path cell = cell_path(run, {scenario.name, pipeline.name, seed});
+    if (!fs::exists(cell / "status.json") || load_status(cell).outcome.status != CellStatus::ok) continue;
+    results.push_back({pipeline.name, load_result(cell)});
+  }
+  return results;
+}
+
+NamedPoints waypoints_of(const Scenario& scenario, std::uint64_t seed) {
+  if (!std::holds_alternative<SimulatedInput>(scenario.input)) return {};
+  return simulation_input(scenario, seed).trajectory.waypoints;
+}
+
+}  // namespace
+
+std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenario, bool pdf,
+                                     const std::function<void(double, const std::string&)>& progress) {
+  const std::uint64_t seed = scenario.seeds.front();
+  const fs::path folder = recording_path(run, scenario.name, seed);
+  if (scenario.figures.empty() || !fs::exists(folder)) return {};
+  const Recording recording = load_recording(folder);
+  const std::vector<LoadedResult> results = finished_results(run, scenario, seed);
+  render::FigureInput input{scenario.name, recording, waypoints_of(scenario, seed), {}};
+  for (const auto& loaded : results) input.results.push_back({loaded.pipeline, &loaded.result});
+
+  make_folders(run / "figures");
+  std::vector<FigureFile> files;
+  for (std::size_t i = 0; i < scenario.figures.size(); ++i) {
+    const auto& choice = scenario.figures[i];
+    if (progress) progress(static_cast<double>(i) / static_cast<double>(scenario.figures.size()), choice.module);
+    for (const auto& drawn : Registry<render::Figure>::make(choice.module, choice.params)->draw(input)) {
+      const std::string name = scenario.name + "_" + drawn.name;
+      write_file_atomically(run / "figures" / (name + ".svg"), render::to_svg(drawn.scene));
+      write_file_atomically(run / "figures" / (name + ".png"), render::to_png(drawn.scene));
+      if (pdf) write_file_atomically(run / "figures" / (name + ".pdf"), render::to_pdf(drawn.scene));
+      files.push_back({scenario.name, name, drawn.caption});
+    }
+  }
+  return files;
+}
+
+void save_figure_index(const fs::path& run, const std::vector<FigureFile>& figures) {
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& figure : figures)
+    list.push_back({{"scenario", figure.scenario}, {"name", figure.name}, {"caption", figure.caption}});
+  make_folders(run / "figures");
+  write_file_atomically(run / "figures" / "index.json", list.dump(2) + "\n");
+}
+
+std::vector<FigureFile> load_figure_index(const fs::path& run) {
+  const fs::path path = run / "figures" / "index.json";
+  if (!fs::exists(path)) return {};
+  std::vector<FigureFile> figures;
+  try {
+    for (const auto& entry : nlohmann::json::parse(read_file(path)))
+      figures.push_back({entry.at("scenario"), entry.at("name"), entry.at("caption")});
+  } catch (const nlohmann::json::exception& error) {
+    throw ConfigError(path.string() + ": " + error.what());
+  }
+  return figures;
+}
+
+}  // namespace scanbench::harness

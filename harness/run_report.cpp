@@ -1,0 +1,54 @@
+// Gathers what a report shows; writes figures and reports.
+#include "harness/run_report.hpp"
+
+#include "harness/atomic_file.hpp"
+#include "harness/cell_files.hpp"
+#include "harness/run_folder.hpp"
+
+namespace scanbench::harness {
+
+namespace fs = std::filesystem;
+
+ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& scenarios) {
+  ReportInput input;
+  input.run = run;
+  input.title = "scanbench: " + fs::absolute(run).lexically_normal().filename().string();
+  input.facts = manifest_facts(run);
+  input.scenarios = scenarios;
+  if (fs::exists(run / "summary.csv")) input.rows = load_summary(run / "summary.csv");
+  for (const auto& key : load_manifest(run).cells) {
+    const fs::path cell = cell_path(run, key);
+    CellLine line{key.scenario, key.pipeline, key.seed, "missing", "not run", 0.0, 0.0};
+    if (fs::exists(cell / "status.json")) {
+      const CellRecord record = load_status(cell);
+      line.status = to_string(record.outcome.status);
+      line.message = record.outcome.message;
+      line.wall_seconds = record.outcome.wall_seconds;
+      line.peak_memory_bytes = record.outcome.peak_memory_bytes;
+    }
+    input.cells.push_back(std::move(line));
+  }
+  input.figures = load_figure_index(run);
+  return input;
+}
+
+void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenarios, bool pdf,
+                      const std::function<void(double, const std::string&)>& progress) {
+  std::vector<FigureFile> figures;
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const auto part = [&](double share, const std::string& what) {
+      if (progress) progress((static_cast<double>(i) + share) / static_cast<double>(scenarios.size()), what);
+    };
+    for (auto& figure : draw_figures(run, scenarios[i], pdf, part)) figures.push_back(std::move(figure));
+  }
+  save_figure_index(run, figures);
+  refresh_manifest(run);
+}
+
+void write_reports(const fs::path& run, const ReportInput& input) {
+  write_file_atomically(run / "report.html", report_html(input));
+  write_file_atomically(run / "report.md", report_markdown(input));
+  refresh_manifest(run);
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,23 @@
+// After the cells: figures and reports of a run folder, from its files.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "harness/report.hpp"
+
+namespace scanbench::harness {
+
+/// All that the reports show, read from the run folder. Throws ConfigError.
+ReportInput load_report_input(const std::filesystem::path& run, const std::vector<Scenario>& scenarios);
+
+/// Draws all figures of the scenarios (and PDFs with `pdf`), then figures/index.json and the manifest's list of files.
+void draw_run_figures(const std::filesystem::path& run, const std::vector<Scenario>& scenarios, bool pdf = false,
+                      const std::function<void(double, const std::string&)>& progress = {});
+
+/// Writes report.html and report.md and the manifest's list of files.
+void write_reports(const std::filesystem::path& run, const ReportInput& input);
+
+}  // namespace scanbench::harness
