@@ -83,14 +83,27 @@ class Run {
   }
 
   RunResult execute() {
-    write_start();
-    reuse_finished_cells();
-    WorkerPool pool;
-    while (!pool.interrupted()) {
-      while (pool.running() < static_cast<std::size_t>(options_.jobs) && start_next(pool)) {
+    try {
+      write_start();
+      reuse_finished_cells();
+      work();
+    } catch (...) {
+      pool_.kill_all();  // before the folders that the children write go
+      throw;
+    }
+    const bool interrupted = pool_.interrupted();
+    pool_.kill_all();
+    refuse_if_all_input_is_bad(interrupted);
+    return end(interrupted);
+  }
+
+ private:
+  void work() {
+    while (!pool_.interrupted()) {
+      while (pool_.running() < static_cast<std::size_t>(options_.jobs) && start_next()) {
       }
-      if (pool.running() == 0) break;
-      for (auto& finished : pool.wait()) {
+      if (pool_.running() == 0) break;
+      for (auto& finished : pool_.wait()) {
         if (finished.id < cells_.size())
           finish_cell(cells_[finished.id], finished.outcome);
         else
@@ -98,13 +111,8 @@ class Run {
       }
       write_summary(false);
     }
-    const bool interrupted = pool.interrupted();
-    pool.kill_all();
-    refuse_if_all_input_is_bad(interrupted);
-    return end(interrupted);
   }
 
- private:
   void plan() {
     for (const auto& scenario : scenarios_) {
       const std::string input = input_address(scenario);
@@ -186,23 +194,23 @@ class Run {
   }
 
   /// A cell whose recording is there, else the next recording. False if there is nothing to start now.
-  bool start_next(WorkerPool& pool) {
+  bool start_next() {
     if (!ready_.empty()) {
       const std::size_t index = ready_.front();
       ready_.pop_front();
-      start_cell(pool, index);
+      start_cell(index);
       return true;
     }
     while (next_group_ < groups_.size()) {
       const std::size_t index = next_group_++;
       if (groups_[index]->unfinished == 0) continue;
-      start_recording(pool, index);
+      start_recording(index);
       return true;
     }
     return false;
   }
 
-  void start_recording(WorkerPool& pool, std::size_t index) {
+  void start_recording(std::size_t index) {
     Group& group = *groups_[index];
     try {
       group.staged.emplace(recording_path(target_->path(), group.scenario->name, group.seed));
@@ -210,14 +218,14 @@ class Run {
       skip_cells(group, {.message = e.what()});
       return;
     }
-    const int threads = std::max(1, options_.jobs - static_cast<int>(pool.running()));
+    const int threads = std::max(1, options_.jobs - static_cast<int>(pool_.running()));
     report("recording " + group.scenario->name + "/" + std::to_string(group.seed), nullptr);
-    pool.start(cells_.size() + index,
-               [&] {
-                 return write_recording(group.staged->path(),
-                                        services_.recording(*group.scenario, group.seed, threads));
-               },
-               {group.scenario->limits.seconds, group.scenario->limits.memory_bytes, threads});
+    pool_.start(cells_.size() + index,
+                [&] {
+                  return write_recording(group.staged->path(),
+                                         services_.recording(*group.scenario, group.seed, threads));
+                },
+                {group.scenario->limits.seconds, group.scenario->limits.memory_bytes, threads});
   }
 
   void finish_recording(Group& group, WorkerOutcome outcome) {
@@ -257,24 +265,24 @@ class Run {
     group.staged->commit();
   }
 
-  void start_cell(WorkerPool& pool, std::size_t index) {
+  void start_cell(std::size_t index) {
     Cell& cell = cells_[index];
     other_trouble_ = true;
     if (!stage(cell)) return;
-    pool.start(index,
-               [&] {
-                 const fs::path& folder = cell.staged->path();
-                 Journal journal;
-                 const Recording& recording = *cell.group->recording;
-                 const PipelineRun run =
-                     run_pipeline(*cell.pipeline, recording.observed, options_.journal ? &journal : nullptr);
-                 write_result(folder, *cell.pipeline, run.result);
-                 if (options_.journal) write_staged_file(folder / "trace.csv", journal.csv());
-                 const auto rows = score_cell(cell.scenario->metrics, recording, folder);
-                 write_staged_file(folder / "metrics.csv", metrics_csv(rows));
-                 return run.remarks;
-               },
-               {cell.scenario->limits.seconds, cell.scenario->limits.memory_bytes, 1});
+    pool_.start(index,
+                [&] {
+                  const fs::path& folder = cell.staged->path();
+                  Journal journal;
+                  const Recording& recording = *cell.group->recording;
+                  const PipelineRun run =
+                      run_pipeline(*cell.pipeline, recording.observed, options_.journal ? &journal : nullptr);
+                  write_result(folder, *cell.pipeline, run.result);
+                  if (options_.journal) write_staged_file(folder / "trace.csv", journal.csv());
+                  const auto rows = score_cell(cell.scenario->metrics, recording, folder);
+                  write_staged_file(folder / "metrics.csv", metrics_csv(rows));
+                  return run.remarks;
+                },
+                {cell.scenario->limits.seconds, cell.scenario->limits.memory_bytes, 1});
   }
 
   void finish_cell(Cell& cell, const WorkerOutcome& outcome) {
@@ -357,6 +365,7 @@ class Run {
   const std::vector<Scenario>& scenarios_;
   const RunOptions& options_;
   const RunServices& services_;
+  WorkerPool pool_;  ///< lives longest: no interrupt comes between us and the removal of what is not finished
   std::vector<std::unique_ptr<Group>> groups_;
   std::unique_ptr<RunTarget> target_;
   std::vector<Cell> cells_;  ///< after target_: unfinished folders go before the run's folder does

@@ -86,6 +86,22 @@ TEST(Worker, KillsAHangWithAllThatItStarted) {
   ::close(alive[0]);
 }
 
+TEST(Worker, LeavesNothingRunningBehindATaskThatHasEnded) {
+  int alive[2];
+  ASSERT_EQ(::pipe(alive), 0);
+  const auto outcome = outcome_of([&]() -> std::string {
+    if (::fork() == 0) {
+      while (true) ::usleep(10000);
+    }
+    return "done";
+  });
+  EXPECT_EQ(outcome.message, "done");
+  ::close(alive[1]);
+  char byte = 0;
+  EXPECT_EQ(::read(alive[0], &byte, 1), 0);
+  ::close(alive[0]);
+}
+
 TEST(Worker, HoldsTheMemoryLimit) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers reserve address space without end";
