@@ -1,0 +1,9 @@
+// libFuzzer target: the readers of scenarios, worlds and suites.
+#include <cstdint>
+
+#include "fuzz/inputs.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  scanbench::fuzz::run_yaml({reinterpret_cast<const char*>(data), size});
+  return 0;
+}

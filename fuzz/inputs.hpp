@@ -1,0 +1,69 @@
+// What the fuzzers and the test of their corpus run on one input: everything that a user's file goes through.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "harness/export.hpp"
+#include "harness/log.hpp"
+#include "harness/scenario.hpp"
+#include "harness/suite.hpp"
+#include "harness/world_file.hpp"
+#include "sim/sensors.hpp"
+
+namespace scanbench::fuzz {
+
+/// Runs `work`; a refusal of the input is a good answer, anything else that is thrown is not.
+template <class Work>
+void allow_refusal(Work&& work) {
+  try {
+    work();
+  } catch (const ConfigError&) {
+  }
+}
+
+/// The bytes as a scenario, as a world of either format and as a suite. A scenario that loads must have an effective
+/// form that loads to the same.
+inline void run_yaml(std::string_view bytes) {
+  allow_refusal([&] { harness::parse_world(bytes, "fuzz.yaml"); });
+  allow_refusal([&] { harness::parse_vector_map(bytes, "fuzz.txt"); });
+  allow_refusal([&] { harness::parse_suite(bytes, "/nonexistent/fuzz.yaml"); });
+  std::string effective;
+  allow_refusal([&] { effective = harness::effective_yaml(harness::parse_scenario(bytes, "/nonexistent/fuzz.yaml")); });
+  if (effective.empty()) return;
+  const std::string again = harness::effective_yaml(harness::parse_scenario(effective, "/nonexistent/fuzz.yaml"));
+  if (again != effective) throw InternalError("the effective scenario is not stable");
+}
+
+/// The first byte chooses format and options, the rest is the log. What is read must export and read back.
+inline void run_log(std::string_view bytes) {
+  if (bytes.empty()) return;
+  using Text = std::string;
+  static const std::array<std::pair<const char*, ParamSet>, 6> kReaders = {{
+      {"carmen", {{"no_return_m", 50.0}}},
+      {"carmen", {{"poses", Text("vertex")}, {"first_angle_deg", -10.0}, {"step_deg", 1.0}, {"sensor_x_m", 0.5}}},
+      {"carmen", {{"poses", Text("odometry")}, {"step_deg", -0.5}, {"range_min_m", 0.1}, {"every", std::int64_t{2}}}},
+      {"csv", {{"step_deg", 1.0}}},
+      {"csv", {{"step_deg", 0.5}, {"columns", Text("t_ms skip:2 x_m y_m yaw_deg ranges skip")}, {"unit_m", 0.001}}},
+      {"dpslam", {{"step_deg", 1.0}, {"no_return_m", 8.0}}},
+  }};
+  const auto& [format, params] = kReaders[static_cast<unsigned char>(bytes.front()) % kReaders.size()];
+  Recording recording;
+  allow_refusal([&] {
+    recording = harness::parse_log(bytes.substr(1), "fuzz.log", format, params, sim::make_sensor("custom", {}));
+  });
+  if (recording.observed.frames.empty()) return;
+  for (const char* target : {"carmen", "csv"}) {
+    if (recording.observed.sensor.geometry.beams() > 1 && recording.observed.sensor.geometry.angle_step() == 0)
+      continue;
+    const std::string text = harness::export_text(recording, target);
+    const Recording back = harness::parse_log(text, "fuzz.log", target, harness::import_params(recording, target),
+                                              recording.observed.sensor);
+    if (back.observed.frames.size() != recording.observed.frames.size())
+      throw InternalError("frames were lost on the way");
+  }
+}
+
+}  // namespace scanbench::fuzz
