@@ -11,7 +11,7 @@ namespace {
 /// Cuts the interval down to where low <= value + slope * t <= high. False if nothing is left.
 bool clip(Interval& t, double value, double slope, double low, double high) {
   if (slope == 0) return value >= low && value <= high;
-  const auto [first, last] = std::minmax((low - value) / slope, (high - value) / slope);
+  const auto [first, last] = std::minmax({(low - value) / slope, (high - value) / slope});
   t.low = std::max(t.low, first);
   t.high = std::min(t.high, last);
   return t.low <= t.high;

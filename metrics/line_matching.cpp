@@ -48,7 +48,7 @@ Surfaces join_walls(std::span<const Wall> walls) {
   for (std::size_t i = 0; i < walls.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (continues(walls[i].segment, walls[j].segment)) {
-        const auto [low, high] = std::minmax(find(i), find(j));
+        const auto [low, high] = std::minmax({find(i), find(j)});
         root[high] = low;
       }
 

@@ -79,7 +79,7 @@ std::optional<Interval> represented_part(const Segment& surface, const Segment& 
   const auto near = part_near(surface, line, kFar);
   if (!near) return std::nullopt;
   const Vec2 u = surface.direction();
-  const auto [low, high] = std::minmax(u.dot(line.a - surface.a), u.dot(line.b - surface.a));
+  const auto [low, high] = std::minmax({u.dot(line.a - surface.a), u.dot(line.b - surface.a)});
   const Interval part{std::max(near->low, low), std::min(near->high, high)};
   if (!(part.high > part.low)) return std::nullopt;
   return part;
