@@ -60,7 +60,8 @@ std::vector<Tick> ticks_apart(double low, double high, double least_step) {
   const double first = std::ceil(low / step - 1e-9);
   const double last = std::floor(high / step + 1e-9);
   std::vector<Tick> ticks;
-  if (last - first > 1000) return ticks;  // a range so narrow that its ends are one number to the step
+  // Too many steps from zero for neighbouring multiples to be different numbers, or a range of no width to the step.
+  if (std::max(std::abs(first), std::abs(last)) > 1e12 || last - first > 1000) return ticks;
   for (double k = first; k <= last; k += 1.0) {
     const double value = k == 0 ? 0.0 : k * multiple * up / down;
     if (value >= low && value <= high) ticks.push_back({value, plain_label(value, exponent)});

@@ -2,12 +2,14 @@
 // set, the files are left there to be looked at.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
 #include "abcdef.hpp"
 #include "core/registry.hpp"
 #include "render/figure.hpp"
+#include "render/palette.hpp"
 
 namespace scanbench::render {
 namespace {
@@ -48,6 +50,76 @@ TEST(Figures, AllAreDrawnForASimulatedRecordingAndTheSvgStaysBelowAMegabyte) {
     keep(name + ".png", to_png(scenes[0].scene));
     keep(name + ".pdf", to_pdf(scenes[0].scene));
   }
+}
+
+TEST(Figures, WorkWithoutTruthAndWithOdometryOnly) {
+  Case c = simulated(20);
+  c.recording.truth.reset();
+  for (const std::string name : {"environment", "scan_overlay", "lines_world", "map"}) {
+    const std::vector<NamedScene> scenes = Registry<Figure>::make(name)->draw(c.input({}));
+    ASSERT_EQ(scenes.size(), 1u) << name;
+    keep(name + "_log.png", to_png(scenes[0].scene));
+  }
+}
+
+TEST(Figures, OfAnEmptyRecordingAreNone) {
+  const Case c;
+  for (const std::string& name : Registry<Figure>::names())
+    EXPECT_TRUE(Registry<Figure>::make(name)->draw(c.input({})).empty()) << name;
+}
+
+TEST(Figures, OfScansWithoutAnyReturnAreDrawnAllTheSame) {
+  Case c = simulated(3);
+  for (Frame& frame : c.recording.observed.frames)
+    for (double& range : frame.ranges) range = INFINITY;
+  c.recording.truth.reset();
+  c.results = std::vector<PipelineResult>(2);
+  for (const std::string& name : Registry<Figure>::names())
+    for (const NamedScene& scene : Registry<Figure>::make(name)->draw(c.input({})))
+      EXPECT_FALSE(to_svg(scene.scene).empty());
+}
+
+TEST(ScanOverlay, ShowsTheFrameAskedForAndOnePanelPerPipelineInTheMethodsColour) {
+  const Case c = simulated(9);
+  const auto scenes = Registry<Figure>::make("scan_overlay", {{"frame", std::int64_t{7}}})->draw(c.input({}));
+  ASSERT_EQ(scenes.size(), 1u);
+  EXPECT_NE(scenes[0].scene.title.find("scan 8 of 9"), std::string::npos);
+  ASSERT_EQ(scenes[0].scene.panels.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::size_t found = 0;
+    for (const Item& item : scenes[0].scene.panels[i].items)
+      if (const Lines* lines = std::get_if<Lines>(&item);
+          lines != nullptr && lines->stroke.color == method_style(i).color) {
+        ++found;
+        ASSERT_EQ(lines->segments.size(), c.results[i].lines[7].lines.size());
+        for (std::size_t k = 0; k < lines->segments.size(); ++k)
+          EXPECT_EQ(lines->segments[k], c.results[i].lines[7].lines[k].segment);
+      }
+    EXPECT_EQ(found, 1u);
+  }
+}
+
+TEST(LinesWorld, PlacesLinesByEstimatedPosesIfThereAreAnyElseByTrueOnes) {
+  Case c = simulated(2);
+  const Pose2 moved(100, 0, 0);
+  for (const Pose2& pose : c.recording.truth->world_from_sensor) c.results[0].world_from_sensor.push_back(moved * pose);
+  const auto scenes = Registry<Figure>::make("lines_world")->draw(c.input({}));
+  const auto first = [&](std::size_t panel) {
+    for (const Item& item : scenes[0].scene.panels[panel].items)
+      if (const Lines* lines = std::get_if<Lines>(&item)) return lines->segments.at(0);
+    return Segment{};
+  };
+  const Pose2 true_pose = c.recording.truth->world_from_sensor[0];
+  EXPECT_EQ(first(0), (moved * true_pose) * c.results[0].lines[0].lines[0].segment);
+  EXPECT_EQ(first(1), true_pose * c.results[1].lines[0].lines[0].segment);
+  EXPECT_NE(scenes[0].scene.panels[0].title.find("estimated"), std::string::npos);
+}
+
+TEST(Map, HasAPanelForEachPipelineWithAMapAndKeepsItsColour) {
+  const auto scenes = Registry<Figure>::make("map")->draw(simulated(5).input({}));
+  ASSERT_EQ(scenes.size(), 1u);
+  ASSERT_EQ(scenes[0].scene.panels.size(), 2u);  // the second of three has none
+  EXPECT_EQ(std::get<Lines>(scenes[0].scene.panels[1].items[1]).stroke.color, method_style(2).color);
 }
 
 }  // namespace
