@@ -135,7 +135,8 @@ std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& 
   for (const auto& word : json.value("argv", Json::array()))
     command += (command.empty() ? "" : " ") + word.get<std::string>();
   std::string used;
-  for (const auto& [name, number] : json.value("libraries", Json::object()).items())
+  const Json libraries = json.value("libraries", Json::object());  // items() only refers to it
+  for (const auto& [name, number] : libraries.items())
     used += (used.empty() ? "" : ", ") + name + " " + number.get<std::string>();
   const auto text = [&](const char* key) { return json.value(key, std::string()); };
   return {{"command", command},
