@@ -1,0 +1,161 @@
+// Hough transform: every point votes for the lines through it on a grid of (angle, distance); the cell with the most
+// votes becomes a line, its points take their votes back, and so on. Duda & Hart 1972, "Use of the Hough transformation
+// to detect lines and curves in pictures"; Nguyen et al., Autonomous Robots 23, 2007, the algorithm "HT".
+//
+// A cell counts with half of its two neighbours in distance, so that a line near the border of two cells is not lost.
+// Its points are the largest stretch without a gap; the line is refitted to them.
+#include <algorithm>
+#include <cmath>
+
+#include "algorithms/extract/consensus.hpp"
+#include "algorithms/extract/noise_scale.hpp"
+#include "core/modules.hpp"
+#include "core/portable_math.hpp"
+#include "core/registry.hpp"
+
+namespace scanbench {
+namespace {
+
+using namespace extract;
+
+constexpr int kMaxCellsAcross = 4096;  // distances are coarser where the farthest return would need more
+
+// Votes over (angle in [0, pi), signed distance).
+class Accumulator {
+ public:
+  Accumulator(int angles, double step_m, double reach_m) : step_m_(step_m) {
+    if (2.0 * reach_m / step_m_ > kMaxCellsAcross - 4) step_m_ = 2.0 * reach_m / (kMaxCellsAcross - 4);
+    zero_ = static_cast<int>(std::ceil(reach_m / step_m_)) + 1;  // a spare cell on both sides for the neighbours
+    across_ = 2 * zero_ + 1;
+    for (int k = 0; k < angles; ++k) {
+      const auto [s, c] = portable::sincos(k * kPi / angles);
+      normals_.emplace_back(c, s);
+    }
+    votes_.assign(normals_.size() * static_cast<std::size_t>(across_), 0);
+  }
+
+  void vote(const Vec2& p, int weight) {
+    for (std::size_t k = 0; k < normals_.size(); ++k) {
+      const double rho = normals_[k].x() * p.x() + normals_[k].y() * p.y();
+      const int cell = zero_ + static_cast<int>(std::floor(rho / step_m_ + 0.5));
+      votes_[k * static_cast<std::size_t>(across_) + static_cast<std::size_t>(cell)] += weight;
+    }
+  }
+
+  struct Peak {
+    int twice_votes = 0;
+    Vec2 normal{1, 0};
+    double offset = 0.0;
+  };
+  /// The lowest angle, then the lowest distance, wins ties.
+  Peak peak() const {
+    Peak best;
+    for (std::size_t k = 0; k < normals_.size(); ++k) {
+      const int* row = votes_.data() + k * static_cast<std::size_t>(across_);
+      for (int c = 1; c + 1 < across_; ++c) {
+        const int twice = row[c - 1] + 2 * row[c] + row[c + 1];
+        if (twice > best.twice_votes) best = {twice, normals_[k], (c - zero_) * step_m_};
+      }
+    }
+    return best;
+  }
+  double step_m() const { return step_m_; }
+
+ private:
+  double step_m_;
+  int zero_ = 0;
+  int across_ = 0;
+  std::vector<Vec2> normals_;
+  std::vector<int> votes_;
+};
+
+class Hough final : public LineExtractor {
+ public:
+  struct Params {
+    int angles = 180;
+    double step_m = 0.03;
+    double max_gap_m = 0.3;
+    int max_lines = 100;
+    double sigmas = 3.0;
+    double floor_m = 0.01;
+    int min_points = 8;
+    double min_length_m = 0.1;
+
+    static auto fields() {
+      return std::tuple_cat(
+          std::tuple{field("angles", &Params::angles, between(4, 1440), "", "directions of the grid over half a turn"),
+                     field("step_m", &Params::step_m, between(1e-4, 10), "m",
+                           "distance between cells; larger where the farthest return would need more than 4096"),
+                     field("max_gap_m", &Params::max_gap_m, above(0), "m",
+                           "a support ends where its neighbouring points are farther apart"),
+                     field("max_lines", &Params::max_lines, between(1, 10000), "", "lines of a scan at most")},
+          noise_fields<Params>(), support_fields<Params>());
+    }
+  };
+
+  explicit Hough(const Params& params) : params_(params) {}
+
+  ScanLines extract(const Scan& scan, Trace& trace) const override {
+    trace.stage("pre");
+    const ScanPoints points = valid_points(scan);
+    const std::vector<double> tolerance = tolerances(scan, points, {params_.sigmas, params_.floor_m});
+    std::vector<int> group(points.size(), -1);
+    int lines = 0;
+    trace.stage("segment");
+    if (points.size() > 0) lines = group_points(points, tolerance, group);
+    for (int& g : group) g = g == kSpent ? -1 : g;
+    trace.stage("post");
+    return lines_of_groups(scan, points, group, lines, Fit::tls, {params_.min_points, params_.min_length_m});
+  }
+
+ private:
+  static constexpr int kSpent = 1 << 30;  // votes taken back, but of no line
+
+  int group_points(const ScanPoints& points, std::span<const double> tolerance, std::vector<int>& group) const {
+    double reach = 0.0;
+    for (const Vec2& p : points.points) reach = std::max(reach, p.norm());
+    Accumulator votes(params_.angles, params_.step_m, reach);
+    for (const Vec2& p : points.points) votes.vote(p, 1);
+
+    // Points between the true line and the centre of its cell: half a cell of distance, half an angle over the range.
+    std::vector<double> wide(tolerance.begin(), tolerance.end());
+    for (std::size_t i = 0; i < wide.size(); ++i)
+      wide[i] += votes.step_m() + points.points[i].norm() * kPi / (2 * params_.angles);
+
+    const auto needed = static_cast<std::size_t>(std::max(2, params_.min_points));
+    int lines = 0;
+    for (std::size_t rounds = 0; rounds < points.size() && lines < params_.max_lines; ++rounds) {
+      const Accumulator::Peak peak = votes.peak();
+      if (peak.twice_votes < static_cast<int>(needed)) break;
+      const std::vector<int> rough =
+          largest_support(points.points, wide, group, peak.normal, peak.offset, params_.max_gap_m);
+      if (rough.empty()) break;
+      PointMoments moments;
+      for (const int i : rough) moments.add(points.points[static_cast<std::size_t>(i)]);
+      const LineFit fit = fit_line(moments);
+      std::vector<int> support;
+      if (!fit.degenerate)
+        support = largest_support(points.points, tolerance, group, fit.normal, fit.offset, params_.max_gap_m);
+      if (!support.empty())
+        support = refined_support(points.points, tolerance, group, std::move(support), params_.max_gap_m);
+      const bool enough = support.size() >= needed;
+      // A peak without enough support is spent too, or it would come up again for ever.
+      for (const int i : enough ? support : rough) {
+        group[static_cast<std::size_t>(i)] = enough ? lines : kSpent;
+        votes.vote(points.points[static_cast<std::size_t>(i)], -1);
+      }
+      if (enough) ++lines;
+    }
+    return lines;
+  }
+
+  Params params_;
+};
+
+const bool registered = Registry<LineExtractor>::add<Hough>(
+    {.name = "hough",
+     .summary = "Hough transform: the fullest cell of angle and distance becomes a line, again and again",
+     .reference = "Duda & Hart 1972; Nguyen et al. 2007, Autonomous Robots 23, algorithm HT"});
+
+}  // namespace
+}  // namespace scanbench

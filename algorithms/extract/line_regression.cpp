@@ -1,0 +1,130 @@
+// Line regression: a line is fitted to every window of neighbouring points; where the lines of adjacent windows agree
+// within their uncertainty the points belong to one line. Arras & Siegwart 1997, "Feature extraction and scene
+// interpretation for map-based navigation and map building", section 2; Nguyen et al., Autonomous Robots 23, 2007, the
+// algorithm "Line-Regression". Collinear neighbours are merged.
+#include <algorithm>
+#include <tuple>
+
+#include "algorithms/extract/breakpoints.hpp"
+#include "algorithms/extract/noise_scale.hpp"
+#include "core/modules.hpp"
+#include "core/portable_math.hpp"
+#include "core/registry.hpp"
+
+namespace scanbench {
+namespace {
+
+using namespace extract;
+
+class LineRegression final : public LineExtractor {
+ public:
+  struct Params {
+    int window = 9;
+    double fidelity = 9.0;
+    double sigmas = 3.0;
+    double floor_m = 0.01;
+    double lambda_rad = radians(10.0);
+    double merge_gap_m = 0.3;
+    int min_points = 5;
+    double min_length_m = 0.1;
+
+    static auto fields() {
+      return std::tuple_cat(
+          std::tuple{field("window", &Params::window, between(3, 101), "",
+                           "points of the sliding window; an even number counts as the next odd one"),
+                     field("fidelity", &Params::fidelity, above(0), "",
+                           "largest squared Mahalanobis distance of the lines two half windows on either side of a "
+                           "point from each other, two degrees of freedom")},
+          noise_fields<Params>(), lambda_field<Params>(), merge_gap_field<Params>(), support_fields<Params>());
+    }
+  };
+
+  explicit LineRegression(const Params& params) : params_(params), breakpoint_(params.lambda_rad) {}
+
+  ScanLines extract(const Scan& scan, Trace& trace) const override {
+    trace.stage("pre");
+    const ScanPoints points = valid_points(scan);
+    const std::vector<double> tolerance = tolerances(scan, points, {params_.sigmas, params_.floor_m});
+    trace.stage("segment");
+    std::vector<PointRun> runs;
+    for (const PointRun& contour : runs_between_breakpoints(scan, points, breakpoint_))
+      segment(points, tolerance, contour, runs);
+    trace.stage("merge");
+    runs = merge_neighbours(points.points, tolerance, runs, params_.merge_gap_m);
+    trace.stage("post");
+    return lines_of_disjoint_runs(scan, points, tolerance, runs, params_.merge_gap_m,
+                                  {params_.min_points, params_.min_length_m});
+  }
+
+ private:
+  // Squared Mahalanobis distance of the lines of two windows, in (offset at the point between them, angle). The line of
+  // n points with noise s has the variances s^2 / n at its centroid and s^2 / (sum of squares along it) in angle,
+  // uncorrelated there. Windows that do not overlap: their errors are independent.
+  static double disagreement(const LineFit& left, const PointMoments& a, const LineFit& right, const PointMoments& b,
+                             const Vec2& between, double sigma) {
+    Vec2 n = right.normal;
+    if (left.normal.dot(n) < 0) n = -n;
+    const double angle = portable::atan2(cross(left.normal, n), left.normal.dot(n));
+    const double offset = left.normal.dot(between - left.centroid) - n.dot(between - right.centroid);
+    double c00 = 0, c01 = 0, c11 = 0;
+    for (const auto& [line, moments, normal] : {std::tuple{&left, &a, left.normal}, std::tuple{&right, &b, n}}) {
+      const Vec2 along = perpendicular(normal);
+      const double spread = moments->sxx() + moments->syy() - line->residual_sum;
+      const double t = along.dot(between - line->centroid);
+      const double var_angle = sigma * sigma / spread;
+      c00 += sigma * sigma / line->weight + t * t * var_angle;
+      c01 -= t * var_angle;  // a line that turns by e moves its offset by t e; angle is right minus left
+      c11 += var_angle;
+    }
+    const double det = c00 * c11 - c01 * c01;
+    return det > 0 ? (c11 * offset * offset - 2 * c01 * offset * angle + c00 * angle * angle) / det : 0.0;
+  }
+
+  void segment(const ScanPoints& points, std::span<const double> tolerance, const PointRun& contour,
+               std::vector<PointRun>& runs) const {
+    const int half = params_.window / 2 + 1;  // of a window about a point, the point in both halves
+    const auto window = [&](int first) {
+      return std::span(points.points).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(half));
+    };
+    // Peaks of disagreement above the threshold are the corners; the highest of each stretch is the break.
+    int first = contour.first;
+    int peak = -1;
+    double highest = params_.fidelity;
+    for (int i = contour.first + half - 1; i + half - 1 <= contour.last; ++i) {
+      const PointMoments a = PointMoments::of(window(i - half + 1));
+      const PointMoments b = PointMoments::of(window(i));
+      const LineFit left = fit_line(a), right = fit_line(b);
+      const auto k = static_cast<std::size_t>(i);
+      const double sigma = tolerance[k] / params_.sigmas;
+      const double d =
+          left.degenerate || right.degenerate ? 0.0 : disagreement(left, a, right, b, points.points[k], sigma);
+      if (d > highest) {
+        highest = d;
+        peak = i;
+      }
+      if (peak >= 0 && (d <= params_.fidelity || i - peak >= half)) {
+        runs.push_back({first, peak - 1});
+        first = peak;
+        peak = -1;
+        highest = params_.fidelity;
+      }
+    }
+    if (peak > first) {
+      runs.push_back({first, peak - 1});
+      first = peak;
+    }
+    runs.push_back({first, contour.last});
+  }
+
+  Params params_;
+  AdaptiveBreakpoint breakpoint_;
+};
+
+const bool registered = Registry<LineExtractor>::add<LineRegression>(
+    {.name = "line_regression",
+     .summary = "Line regression: breaks where the lines of adjacent windows disagree beyond their uncertainty",
+     .reference = "Arras & Siegwart 1997, section 2; Nguyen et al. 2007, Autonomous Robots 23, algorithm "
+                  "Line-Regression"});
+
+}  // namespace
+}  // namespace scanbench

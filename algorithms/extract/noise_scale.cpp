@@ -1,0 +1,84 @@
+// Straightness within the sensor's noise. Nguyen et al. 2007.
+#include "algorithms/extract/noise_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scanbench::extract {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+std::span<const Vec2> part(std::span<const Vec2> points, const PointRun& run) {
+  return points.subspan(at(run.first), at(run.size()));
+}
+
+bool full_turn(const ScanGeometry& g) {
+  return g.beams() > 2 && std::fabs(g.angle_step()) * (g.beams() + 0.5) >= kTwoPi;
+}
+
+}  // namespace
+
+double NoiseTolerance::operator()(const Scan& scan, int beam) const {
+  return std::max(floor_m, sigmas * scan.sensor.noise.range_sigma(scan.ranges[at(beam)]));
+}
+
+std::vector<double> tolerances(const Scan& scan, const ScanPoints& points, const NoiseTolerance& tolerance) {
+  std::vector<double> result;
+  result.reserve(points.size());
+  for (const int beam : points.beams) result.push_back(tolerance(scan, beam));
+  return result;
+}
+
+bool has_clear_break(std::span<const Vec2> points, std::span<const double> tolerance, const PointRun& run,
+                     const LineFit& line) {
+  int side_before = 0;
+  for (int i = run.first; i <= run.last; ++i) {
+    const double d = line.normal.dot(points[at(i)]) - line.offset;
+    const int side = d > tolerance[at(i)] ? 1 : d < -tolerance[at(i)] ? -1 : 0;
+    if (side != 0 && side == side_before) return true;
+    side_before = side;
+  }
+  return false;
+}
+
+std::vector<PointRun> merge_neighbours(std::span<const Vec2> points, std::span<const double> tolerance,
+                                       std::span<const PointRun> runs, double max_gap_m) {
+  std::vector<PointRun> merged;
+  for (const PointRun& run : runs) {
+    if (!merged.empty()) {
+      const PointRun both{merged.back().first, run.last};
+      const double gap = (points[at(run.first)] - points[at(merged.back().last)]).norm();
+      if (gap <= max_gap_m && !has_clear_break(points, tolerance, both, fit_group(part(points, both), Fit::tls))) {
+        merged.back() = both;
+        continue;
+      }
+    }
+    merged.push_back(run);
+  }
+  return merged;
+}
+
+ScanLines lines_of_disjoint_runs(const Scan& scan, const ScanPoints& points, std::span<const double> tolerance,
+                                 std::span<const PointRun> runs, double max_gap_m, SupportRules rules) {
+  std::vector<int> group(points.size(), -1);
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    for (int i = runs[k].first; i <= runs[k].last; ++i) group[at(i)] = static_cast<int>(k);
+
+  if (runs.size() > 1 && full_turn(scan.sensor.geometry)) {
+    const PointRun& head = runs.front();
+    const PointRun& tail = runs.back();
+    PointMoments both = PointMoments::of(part(points.points, tail));
+    both.add(PointMoments::of(part(points.points, head)));
+    const LineFit line = fit_line(both);
+    const double gap = (points.points[at(head.first)] - points.points[at(tail.last)]).norm();
+    if (!line.degenerate && gap <= max_gap_m && !has_clear_break(points.points, tolerance, head, line) &&
+        !has_clear_break(points.points, tolerance, tail, line))
+      for (int i = tail.first; i <= tail.last; ++i) group[at(i)] = 0;
+  }
+  return lines_of_groups(scan, points, group, static_cast<int>(runs.size()), Fit::tls, rules);
+}
+
+}  // namespace scanbench::extract
