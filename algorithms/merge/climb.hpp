@@ -7,7 +7,7 @@
 
 namespace scanbench::merge {
 
-enum class ClimbEnd { running, converged, captured, left_box, exhausted };
+enum class ClimbEnd { converged, captured, left_box, exhausted };
 
 /// A known end of climbs, relative to the box centre.
 struct Anchor {
@@ -16,12 +16,17 @@ struct Anchor {
   int mode = -1;
 };
 
+/// The longest accelerated step. It is tried from inside the inner box and must end inside the outer one.
+inline constexpr float kLongestFastStep = 0.2F;
+
 struct ClimbRules {
   float squared_cutoff = 16.0F;
-  float tolerance = 1e-3F;
+  float tolerance = 1e-3F;  ///< of eq. 1 alone: a shorter shift ends the climb
   int max_steps = 5000;
   bool capture = true;
-  Float3 box;  ///< half sides
+  bool accelerate = true;  ///< Newton steps where shifts are short
+  Float3 inner;            ///< half sides of the box that a slow climb must not leave
+  Float3 outer;            ///< at least kLongestFastStep more: where the candidates are complete
 };
 
 /// Moves t (relative to the box centre) uphill. `steps` counts over all boxes of one climb. `captured_by` is the index

@@ -53,7 +53,7 @@ JointSpace split_lines(std::span<const MapLine> lines, double sigma_m, double lo
       ++space.unusable;
       continue;
     }
-    pieces += std::ceil(length / longest_m);
+    pieces += std::max(1.0, std::ceil(length / longest_m));
     longest_line = std::max(longest_line, length);
     farthest = std::max(farthest, reach);
     order.emplace_back(canonical_key(lines[i]), i);
@@ -78,7 +78,7 @@ JointSpace split_lines(std::span<const MapLine> lines, double sigma_m, double lo
     const Vec2 a(key[0], key[1]);
     const Vec2 b(key[2], key[3]);
     const double alpha = Segment{a, b}.direction_angle();
-    const auto count = static_cast<std::size_t>(std::ceil((b - a).norm() / longest_m));
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil((b - a).norm() / longest_m)));
     const auto cut = [&](std::size_t k) {
       if (k == 0) return a;
       return k == count ? b : Vec2(a + (b - a) * (static_cast<double>(k) / static_cast<double>(count)));

@@ -26,11 +26,12 @@ struct JointSpace {
 inline constexpr double kFarthest = 1e9;
 /// Coordinates larger than this many standard deviations leave no digits for a mode.
 inline constexpr double kMostSigmas = 1e8;
-/// More pieces than this are refused: they would take about 2 GiB in all stages together.
-inline constexpr double kMostPieces = 4e6;
+/// More pieces than this are refused: they would take about 4 GiB in all stages together.
+inline constexpr double kMostPieces = 1e7;
 
-/// Cuts every line into ceil(length / longest) equal pieces. Throws ParamError, naming sigma_m, when that makes more
-/// than kMostPieces or a coordinate is larger than kMostSigmas; nothing large is allocated before this is known.
+/// Cuts every line into ceil(length / longest) equal pieces, one for longest = infinity. Throws ParamError, naming
+/// sigma_m, when that makes more than kMostPieces or a coordinate is larger than kMostSigmas; nothing large is
+/// allocated before this is known.
 JointSpace split_lines(std::span<const MapLine> lines, double sigma_m, double longest_m);
 
 /// Mean of undirected directions, in [0, pi): half the angle of the summed doubled ones. Directions that cancel out

@@ -90,16 +90,19 @@ ShiftAndCovariance CandidateList::shift_and_covariance(Float3 t, float squared_c
   const Float4 ty = all(t.y);
   const Float4 tz = all(t.z);
   const Float4 cut = all(squared_cutoff);
-  Float4 mass = all(0.0F), sx = mass, sy = mass, sz = mass;
+  const Float4 at_cutoff = gaussian_lanes(cut);
+  Float4 mass = all(0.0F), density = mass, sx = mass, sy = mass, sz = mass;
   Float4 xx = mass, xy = mass, xz = mass, yy = mass, yz = mass, zz = mass;
   for (const Block& b : blocks_) {
     const Float4 dx = b.x - tx;
     const Float4 dy = b.y - ty;
     const Float4 dz = b.z - tz;
     const Float4 squared = dx * dx + dy * dy + dz * dz;
-    const auto inside = squared <= cut;
-    const Float4 w =
-        std::bit_cast<Float4>(std::bit_cast<Word4>(gaussian_lanes(squared)) & std::bit_cast<Word4>(inside));
+    const auto inside = std::bit_cast<Word4>(squared <= cut);
+    const Float4 full = gaussian_lanes(squared);
+    const Float4 w = std::bit_cast<Float4>(std::bit_cast<Word4>(full) & inside);
+    density += std::bit_cast<Float4>(std::bit_cast<Word4>(full - at_cutoff) & inside);
+
     const Float4 wx = w * dx;
     const Float4 wy = w * dy;
     const Float4 wz = w * dz;
@@ -119,6 +122,7 @@ ShiftAndCovariance CandidateList::shift_and_covariance(Float3 t, float squared_c
   if (!(m > 0.0F)) return result;
   const Float3 s{total(sx) / m, total(sy) / m, total(sz) / m};
   result.shift = {m, s};
+  result.density = total(density);
   result.xx = total(xx) / m - s.x * s.x;
   result.xy = total(xy) / m - s.x * s.y;
   result.xz = total(xz) / m - s.x * s.z;

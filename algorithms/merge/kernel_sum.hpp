@@ -32,9 +32,11 @@ struct Shift {
   Float3 step;
 };
 
-/// The same and the kernel-weighted covariance about m(t): I - covariance is minus the Hessian of the log density.
+/// The same, the kernel-weighted covariance about m(t) (I - covariance is minus the Hessian of the log density), and
+/// the density that steps of eq. 1 climb when the kernel is cut off at c: the sum of exp(-d^2/2) - exp(-c^2/2).
 struct ShiftAndCovariance {
   Shift shift;
+  float density = 0.0F;
   float xx = 0.0F;
   float xy = 0.0F;
   float xz = 0.0F;

@@ -4,7 +4,7 @@
 //
 // Answers for difficult input: no lines give an empty map, converged; lines that are not finite, have no length or lie
 // beyond 1e9 m are dropped (label -1), and if none is left the status is degenerate; a sigma that would cut the lines
-// into more than 4 million pieces, or of which a coordinate holds more than 1e8, is a ParamError. The map does not
+// into more than 10 million pieces, or of which a coordinate holds more than 1e8, is a ParamError. The map does not
 // depend on the order of the lines, nor on which end of a line is called a: every line of it points along (cos t, sin
 // t), t in [0, pi). Its covariances are zero: mean shift estimates none.
 #include <algorithm>
@@ -47,6 +47,7 @@ class MeanShift final : public SegmentMerger {
     double kernel2_factor = 1.0;
     merge::Kernel2 kernel2 = merge::Kernel2::rotated;
     double cutoff = 4.0;
+    bool accelerate = true;
     bool capture = true;
     double merge_gap_m = 0.0;
     bool join = false;
@@ -90,6 +91,8 @@ class MeanShift final : public SegmentMerger {
                  "the mirrored direction (to show the difference)"),
           field("cutoff", &Params::cutoff, between(3, 6), "",
                 "standard deviations at which kernels are cut off while climbing; modes are polished with 6.5"),
+          field("accelerate", &Params::accelerate,
+                "Newton steps where mean shift creeps; false: eq. 1 alone until its shift is 1e-3 of the kernel"),
           field("capture", &Params::capture, "end a climb early next to a known mode"),
           field("merge_gap_m", &Params::merge_gap_m, at_least(0), "m",
                 "projected segments of one cluster are united across gaps up to this"),
@@ -138,6 +141,7 @@ Kernels MeanShift::kernels_of(const Params& p) {
       .epsilon2 = set_or(p.epsilon2, strict ? 0.25 : 1.0),
       .ridge_dip = strict ? 0.0 : p.ridge_dip,
       .cutoff = p.cutoff,
+      .accelerate = p.accelerate,
       .capture = p.capture,
   };
   const double widest_deg = degrees(kPi / merge::min_period(p.cutoff));

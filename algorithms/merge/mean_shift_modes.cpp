@@ -16,9 +16,10 @@
 namespace scanbench::merge {
 namespace {
 
-constexpr double kBox = 1.0;      // side of a box
-constexpr double kSlack = 0.125;  // a climb may leave its box by this much before it changes the list
-constexpr double kSame = 2e-3;    // two ends of climbs this near are one mode: they are converged to 1e-5
+constexpr double kBox = 1.0;         // side of a box
+constexpr double kHysteresis = 0.1;  // a climb may leave its box by this much before it changes it
+constexpr double kMargin = kHysteresis + kLongestFastStep + 1e-3;  // candidates are complete this far out of the box
+constexpr double kSame = 2e-3;  // two ends of climbs this near are one mode: they are converged to 1e-5
 constexpr double kSamePolished = 1e-5;
 constexpr double kGradientGoal = 1e-6;
 
@@ -54,7 +55,8 @@ class Boxes {
     return {(static_cast<double>(k.x) + 0.5) * kBox, (static_cast<double>(k.y) + 0.5) * kBox,
             (static_cast<double>(k.z) + 0.5) * side_z_};
   }
-  Vec3 half() const { return {0.5 * kBox + kSlack, 0.5 * kBox + kSlack, 0.5 * side_z_ + kSlack}; }
+  /// Half sides, grown by a margin.
+  Vec3 half(double margin) const { return {0.5 * kBox + margin, 0.5 * kBox + margin, 0.5 * side_z_ + margin}; }
   std::int64_t wrap_z(std::int64_t z) const { return count_z_ > 0 ? ((z % count_z_) + count_z_) % count_z_ : z; }
 
  private:
@@ -90,7 +92,9 @@ class ModeSearch {
     rules_.tolerance = static_cast<float>(options.tolerance);
     rules_.max_steps = options.max_steps;
     rules_.capture = options.capture;
-    rules_.box = rounded(boxes_.half());
+    rules_.accelerate = options.accelerate;
+    rules_.inner = rounded(boxes_.half(kHysteresis));
+    rules_.outer = rounded(boxes_.half(kMargin));
     neighbours_ = [this](const Vec3& centre, std::vector<Vec3>& differences) {
       differences.clear();
       grid_.for_each_near(centre, Vec3::Constant(kPolishBox + kLongestPolishStep), kPolishCutoff,
@@ -193,7 +197,7 @@ void ModeSearch::process_box(std::span<PendingClimb> climbs, std::vector<Pending
   const BoxKey box = climbs.front().box;
   const Vec3 centre = boxes_.centre(box);
   candidates_.clear();
-  grid_.for_each_near(centre, boxes_.half(), options_.cutoff + 1e-3,
+  grid_.for_each_near(centre, boxes_.half(kMargin), options_.cutoff + 1e-3,
                       [&](std::size_t, const Vec3& d) { candidates_.add(rounded(d)); });
   candidates_.seal();
   collect_anchors(box, centre);
@@ -237,7 +241,7 @@ void ModeSearch::collect_anchors(const BoxKey& box, const Vec3& centre) {
       const KnownEnd& end = ends_[static_cast<std::size_t>(k)];
       Vec3 d = end.at - centre;
       d.z() = wrapped(d.z(), options_.period);
-      if (((d.cwiseAbs() - boxes_.half()).array() > end.radius).any()) continue;
+      if (((d.cwiseAbs() - boxes_.half(kMargin)).array() > end.radius).any()) continue;
       anchors_.push_back({rounded(d), static_cast<float>(end.radius * end.radius), end.mode});
     }
   });
@@ -305,7 +309,7 @@ void ModeSearch::remember(const Vec3& end, double radius, int mode) {
 }  // namespace
 
 double min_period(double cutoff) {
-  return 2.0 * (cutoff + kBox + kSlack + 1e-3);
+  return 2.0 * (cutoff + kBox + kMargin + 1e-3);
 }
 
 Modes find_modes(std::span<const Vec3> points, const ModeOptions& options, std::vector<std::vector<Vec3>>* paths) {

@@ -13,8 +13,9 @@ namespace scanbench::merge {
 struct ModeOptions {
   double cutoff = 4.0;      ///< of the kernel while climbing; modes are polished with 6.5
   double period = 0.0;      ///< of the third coordinate, 0: none; else at least min_period(cutoff)
-  double tolerance = 1e-3;  ///< a climb whose shift is shorter is handed to the Newton iteration
+  double tolerance = 1e-3;  ///< of climbs by eq. 1 alone; what is left is polished away
   int max_steps = 5000;     ///< mean-shift steps of one climb
+  bool accelerate = true;   ///< Newton steps where shifts are short
   bool capture = true;      ///< end a climb early in the immediate neighbourhood of a known mode
 };
 

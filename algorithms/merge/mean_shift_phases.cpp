@@ -31,7 +31,8 @@ void cluster_one_line(std::span<const Piece> pieces, const std::vector<int>& mem
   }
   std::vector<std::vector<Vec3>> paths;
   const Modes modes =
-      find_modes(points, {.cutoff = kernels.cutoff, .capture = kernels.capture}, with_paths ? &paths : nullptr);
+      find_modes(points, {.cutoff = kernels.cutoff, .accelerate = kernels.accelerate, .capture = kernels.capture},
+                 with_paths ? &paths : nullptr);
   result.converged = result.converged && modes.converged;
   // A ridge is followed along the line as far as two isolated pieces could be one mode, across no farther than epsilon.
   const double epsilon = kernels.epsilon2 / std::sqrt(kernels.factor);
@@ -83,8 +84,10 @@ Clustering cluster_directions(std::span<const Piece> pieces, const Kernels& kern
     points.emplace_back(centre.x() / sigma, centre.y() / sigma, z < period ? z : 0.0);
   }
   Clustering result;
-  const Modes modes = find_modes(points, {.cutoff = kernels.cutoff, .period = period, .capture = kernels.capture},
-                                 with_paths ? &result.paths : nullptr);
+  const Modes modes = find_modes(
+      points,
+      {.cutoff = kernels.cutoff, .period = period, .accelerate = kernels.accelerate, .capture = kernels.capture},
+      with_paths ? &result.paths : nullptr);
   result.converged = modes.converged;
   const std::vector<int> label = linked_modes(modes.positions, points,
                                               {.epsilon = kernels.epsilon1_m / sigma,

@@ -24,7 +24,8 @@ struct Kernels {
   double epsilon2;    ///< labelling distance of phase 2, in units of sigma_x along and sigma_y across
   double ridge_dip;   ///< share of density that may be lost between linked modes of one ridge; 0: no such links
   double cutoff;      ///< of kernels while climbing, in standard deviations
-  bool capture;
+  bool accelerate;    ///< Newton steps where shifts are short
+  bool capture;       ///< end climbs next to known modes
 };
 
 /// One entry per piece, clusters numbered in order of their first pieces.

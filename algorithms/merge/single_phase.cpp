@@ -80,15 +80,18 @@ class SinglePhase {
 };
 
 Vec3 SinglePhase::mode_from(const Vec3& start, const Frame& frame, std::vector<Vec3>* path, bool& converged) const {
+  const auto half = static_cast<float>(kBox);
   const ClimbRules rules{.squared_cutoff = static_cast<float>(kernels_.cutoff * kernels_.cutoff),
                          .capture = false,
-                         .box = {static_cast<float>(kBox), static_cast<float>(kBox), static_cast<float>(kBox)}};
+                         .accelerate = kernels_.accelerate,
+                         .inner = {half - kLongestFastStep, half - kLongestFastStep, half - kLongestFastStep},
+                         .outer = {half, half, half}};
   CandidateList candidates;
   std::vector<Float3> steps_taken;
   Vec3 centre = start;
   int steps = 0;
   int captured_by = -1;
-  ClimbEnd state = ClimbEnd::running;
+  ClimbEnd state = ClimbEnd::left_box;
   do {
     candidates.clear();
     grid_.for_each_near(centre, Vec3::Zero(), kernels_.cutoff + kBoxDiagonal, [&](std::size_t, const Vec3& d) {

@@ -1,0 +1,68 @@
+// Matching chains: segments connected by a simple pairwise relation become one (after F. Amigoni and S. Gasparini,
+// "Analysis of methods for reducing line segments in maps: towards a general approach", IROS 2008, as described in
+// Lakaemper 2009, section II). Dissimilarities add up along a chain: that is the method, and its weakness.
+//
+// Unusable lines (not finite, without length, beyond 1e9 m) are dropped; if none is left the status is degenerate. The
+// map does not depend on the order of the lines or of their ends.
+#include "algorithms/merge/components.hpp"
+#include "algorithms/merge/line_match.hpp"
+#include "core/modules.hpp"
+#include "core/registry.hpp"
+
+namespace scanbench {
+namespace {
+
+class AmigoniChain final : public SegmentMerger {
+ public:
+  struct Params {
+    double max_angle_deg = 10.0;
+    double max_distance_m = 0.20;
+    double max_gap_m = 0.0;
+    static auto fields() {
+      return std::tuple{field("max_angle_deg", &Params::max_angle_deg, between(0, 90), "deg",
+                              "largest difference of direction of two matching segments"),
+                        field("max_distance_m", &Params::max_distance_m, at_least(0), "m",
+                              "largest distance of their midpoints across their common direction"),
+                        field("max_gap_m", &Params::max_gap_m, at_least(0), "m",
+                              "largest gap between their projections; 0: they must overlap")};
+    }
+  };
+
+  explicit AmigoniChain(const Params& p)
+      : rules_{.angle_rad = radians(p.max_angle_deg), .distance_m = p.max_distance_m, .gap_m = p.max_gap_m} {}
+
+  MergeResult merge(const MergeInput& input, Trace& trace) const override {
+    trace.stage("match");
+    const merge::DistinctLines distinct = merge::distinct_lines(input.lines);
+    const auto& lines = distinct.representatives;
+    const merge::NearSegments near(lines, rules_);
+    merge::DisjointSets chains(lines.size());
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      near.for_each_after(i, [&](std::size_t j) {
+        if (chains.find(i) != chains.find(j) && merge::match_cost(lines[i], lines[j], rules_)) chains.unite(i, j);
+      });
+
+    trace.stage("merge");
+    const std::vector<int> chain = chains.labels();
+    std::vector<merge::Representative> merged;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const auto c = static_cast<std::size_t>(chain[i]);
+      if (c == merged.size())
+        merged.push_back(lines[i]);
+      else
+        merged[c] = merge::united(merged[c], lines[i]);
+    }
+    return merge::result_of(input.lines, distinct, chain, merged);
+  }
+
+ private:
+  merge::MatchRules rules_;
+};
+
+[[maybe_unused]] const bool registered = Registry<SegmentMerger>::add<AmigoniChain>(
+    {.name = "amigoni_chain",
+     .summary = "merges chains of pairwise matching segments (transitive closure of a simple relation)",
+     .reference = "Amigoni & Gasparini, Analysis of methods for reducing line segments in maps, IROS 2008"});
+
+}  // namespace
+}  // namespace scanbench
