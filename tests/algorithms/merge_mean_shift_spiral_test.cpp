@@ -52,7 +52,7 @@ TEST(MeanShiftSpiral, MergesRandomCopiesToThirtyInMostDraws) {
     if (merged == 30) ++as_expected;
   }
   RecordProperty("draws_of_20_with_30_lines", as_expected);
-  EXPECT_GE(as_expected, 16);
+  EXPECT_GE(as_expected, 18);  // 20 with kernel2_factor 2
 }
 
 }  // namespace

@@ -200,18 +200,19 @@ TEST(MeanShift, AWallSeenOftenIsOneLineBecauseModesOfOneRidgeAreLinked) {
 
 // A ridge that turns is not followed: a round column stays a polygon.
 TEST(MeanShift, ARoundColumnStaysRound) {
-  CounterRng rng(4, RngStream::pose);
-  std::vector<MapLine> lines;
-  const double radius = 0.5;
-  for (int scan = 0; scan < 200; ++scan) {
-    const double at = kTwoPi * rng.uniform();
-    lines.push_back(centred(radius * Vec2(std::cos(at), std::sin(at)), at + kPi / 2, 0.2));
-  }
-  const MergeResult r = merge(lines);
-  EXPECT_GE(r.map.lines.size(), 6U);
-  for (const MapLine& l : r.map.lines) {
-    EXPECT_LT(l.segment.length(), 1.0);
-    EXPECT_NEAR(l.segment.midpoint().norm(), radius, 0.1);
+  for (const double radius : {0.5, 2.0}) {
+    CounterRng rng(4, RngStream::pose);
+    std::vector<MapLine> lines;
+    for (int scan = 0; scan < 400 * radius; ++scan) {
+      const double at = kTwoPi * rng.uniform();
+      lines.push_back(centred(radius * Vec2(std::cos(at), std::sin(at)), at + kPi / 2, 0.2));
+    }
+    const MergeResult r = merge(lines);
+    EXPECT_GE(r.map.lines.size(), 6U);
+    for (const MapLine& l : r.map.lines) {
+      EXPECT_LT(l.segment.length(), 1.6) << radius;
+      EXPECT_NEAR(l.segment.midpoint().norm(), radius, 0.1) << radius;
+    }
   }
 }
 
@@ -275,8 +276,12 @@ TEST(MeanShift, DependsNeitherOnTheOrderNorOnTheSenseOfTheSegments) {
 // With merge_gap 0, the lines of a phase-2 cluster cover exactly what their members' projections cover.
 TEST(MeanShift, ReachesAsFarAsTheProjectionsOfItsMembers) {
   for (const double gap : {0.0, 0.1}) {
-    const std::vector<MapLine> lines{line(0, 0, 1, 0), line(0.8, 0.004, 1.5, 0.004), line(1.5, 0, 1.8, 0),
-                                     line(1.85, 0.002, 2.15, 0.002), line(5.0, 0, 5.5, 0)};
+    const std::vector<MapLine> lines{line(0, 0, 1, 0),
+                                     line(0.8, 0.004, 1.5, 0.004),
+                                     line(1.5, 0, 1.8, 0),
+                                     line(1.2, 0.001, 1.25, 0.001),
+                                     line(1.85, 0.002, 2.15, 0.002),
+                                     line(5.0, 0, 5.5, 0)};
     const MergeResult r = merge(lines, {{"merge_gap_m", gap}});
     std::vector<std::pair<double, double>> found;
     for (const MapLine& l : r.map.lines) {
