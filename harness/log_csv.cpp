@@ -96,8 +96,6 @@ double range_of(const LogLines& lines, std::string_view word, double unit_m) {
 
 Recording parse_csv_scans(std::string_view text, const LogOptions& options, const SensorModel& sensor) {
   const Layout layout = parse_columns(options.columns);
-  if (options.step_deg == 0)
-    throw ParamError("step_deg", "step_deg is 0; allowed: the angle between two beams in deg, not 0");
   const std::size_t others = layout.columns.size() - 1;
   LogLines lines(text);
   LogBuilder builder(options);
@@ -113,6 +111,9 @@ Recording parse_csv_scans(std::string_view text, const LogOptions& options, cons
     const std::size_t n = fields.size() - others;
     if (options.beams > 0 && n != static_cast<std::size_t>(options.beams))
       lines.refuse(fields.front(), fmt::format("a row with {} ranges; allowed: beams = {}", n, options.beams));
+    // A single beam needs no step.
+    if (options.step_deg == 0 && n > 1)
+      throw ParamError("step_deg", "step_deg is 0; allowed: the angle between two beams in deg, not 0");
     builder.check_beams(lines, n);
     builder.check_angles(lines, {options.first_angle_deg, options.step_deg});
     if (!builder.wants_scan()) continue;
