@@ -94,18 +94,19 @@ class TableBuilder {
 
   std::optional<Table> build(const Family& family) const {
     const auto subjects = subjects_of(family);
-    if (subjects.empty()) return std::nullopt;
-    const bool per_subject = subjects.size() > 1 || subjects.front() != "all";
-    return per_subject ? by_subject(family, subjects) : by_pipeline(family);
+    if (!subjects.empty()) return by_subject(family, subjects);
+    const bool any = std::ranges::any_of(family.metrics, [&](const auto& m) { return reported(m.metric); });
+    return any ? std::optional(by_pipeline(family)) : std::nullopt;
   }
 
  private:
+  /// Other than "all", in the order of their first row.
   std::vector<std::string> subjects_of(const Family& family) const {
     std::set<std::string> names;
     for (const auto& metric : family.metrics) names.insert(metric.metric);
     std::vector<std::string> subjects;
     for (const auto& row : rows_)
-      if (row.scenario == scenario_.name && names.contains(row.metric) &&
+      if (row.subject != "all" && row.scenario == scenario_.name && names.contains(row.metric) &&
           std::ranges::find(subjects, row.subject) == subjects.end())
         subjects.push_back(row.subject);
     return subjects;
@@ -146,7 +147,9 @@ class TableBuilder {
   }
 
   static TableCell published_cell(const PublishedValue* value, const Display& display) {
-    return {value ? fmt::format("{:.4g}", value->value * display.scale) : "", false, true};
+    if (value == nullptr) return {"", false, true};
+    const bool as_printed = value->unit == display.unit;
+    return {as_printed ? value->printed : fmt::format("{:.4g}", value->value * display.scale), false, true};
   }
 
   // Rows: subjects. Columns: per metric, our pipelines and then the published methods.
@@ -154,7 +157,7 @@ class TableBuilder {
     Table table{family.name, scenario_.name + ": " + family.name, caption(), {"line"}, {}, {}};
     for (const auto& subject : subjects) table.rows.push_back({{subject}, {}, false});
     for (const auto& metric : family.metrics) {
-      if (!reported(metric.metric)) continue;
+      if (!reported(metric.metric, subjects)) continue;
       const Display display = display_for(metric.unit, largest(metric.metric));
       const std::size_t first = table.columns.size();
       for (const auto& pipeline : scenario_.pipelines)
@@ -234,6 +237,13 @@ class TableBuilder {
                                [&](const SummaryRow& r) { return r.scenario == scenario_.name && r.metric == metric; });
   }
 
+  // Of any of these subjects: a metric of the whole run has no place among lines.
+  bool reported(const std::string& metric, const std::vector<std::string>& subjects) const {
+    return std::ranges::any_of(rows_, [&](const SummaryRow& r) {
+      return r.scenario == scenario_.name && r.metric == metric && std::ranges::count(subjects, r.subject) > 0;
+    });
+  }
+
   std::string caption() const {
     std::string text = "* best of its kind";
     if (scenario_.seeds.size() > 1)
@@ -255,8 +265,8 @@ std::vector<PublishedValue> load_published(const std::filesystem::path& path) {
   std::vector<PublishedValue> values;
   for (std::size_t r = 0; r < csv.rows(); ++r) {
     const double scale = csv.text(r, "unit") == "cm" ? 0.01 : 1.0;
-    values.push_back(
-        {csv.text(r, "metric"), csv.text(r, "subject"), csv.text(r, "method"), csv.number(r, "value") * scale});
+    values.push_back({csv.text(r, "metric"), csv.text(r, "subject"), csv.text(r, "method"),
+                      csv.number(r, "value") * scale, csv.text(r, "value"), csv.text(r, "unit")});
   }
   return values;
 }

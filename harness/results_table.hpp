@@ -30,7 +30,9 @@ struct PublishedValue {
   std::string metric;
   std::string subject;
   std::string method;
-  double value = 0.0;
+  double value = 0.0;   ///< in the unit of our metric
+  std::string printed;  ///< as the paper prints it
+  std::string unit;     ///< of `printed`
 };
 
 /// Reads a file `metric,subject,method,value,unit`; units are converted to those of our metrics (cm to m). Throws

@@ -157,7 +157,7 @@ std::string to_terminal(const Table& table, bool color, std::size_t width) {
 std::string to_markdown(const Table& table) {
   std::string out = "### " + table.title + "\n\n|";
   for (const auto& head : table.row_heads) out += " " + head + " |";
-  for (const auto& column : table.columns) out += " " + flat_head(column) + (column.published ? " (paper)" : "") + " |";
+  for (const auto& column : table.columns) out += " " + flat_head(column) + " |";
   out += "\n|";
   for (std::size_t c = 0; c < table.row_heads.size(); ++c) out += "---|";
   for (std::size_t c = 0; c < table.columns.size(); ++c) out += "---:|";
