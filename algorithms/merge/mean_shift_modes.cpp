@@ -42,7 +42,7 @@ struct BoxHash {
 /// Boxes of side 1 in x and y, and in z of a side that divides the period.
 class Boxes {
  public:
-  explicit Boxes(double period) : period_(period) {
+  explicit Boxes(double period) {
     if (period > 0) {
       count_z_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(period / kBox));
       side_z_ = period / static_cast<double>(count_z_);
@@ -62,7 +62,6 @@ class Boxes {
  private:
   static std::int64_t floor_of(double v) { return static_cast<std::int64_t>(std::floor(v)); }
 
-  double period_;
   std::int64_t count_z_ = 0;
   double side_z_ = kBox;
 };
