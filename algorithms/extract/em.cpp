@@ -34,9 +34,9 @@ struct Component {
   std::vector<int> own;  // points with a membership above one half, by their place along the line
 
   double distance2(const Vec2& p) const {
-    const double t = along.dot(p);
+    const double t = along.x() * p.x() + along.y() * p.y();
     const double beyond = t < low ? low - t : t > high ? t - high : 0.0;
-    const double off = line.normal.dot(p) - line.offset;
+    const double off = line.normal.x() * p.x() + line.normal.y() * p.y() - line.offset;
     return off * off + beyond * beyond;
   }
 };
@@ -115,7 +115,11 @@ class Em final : public LineExtractor {
   static void set_line(std::span<const Vec2> points, const LineFit& line, Component& c) {
     c.line = line;
     c.along = perpendicular(line.normal);
-    const auto place = [&](int i) { return c.along.dot(points[static_cast<std::size_t>(i)]); };
+    const double ux = c.along.x(), uy = c.along.y();
+    const auto place = [&](int i) {
+      const Vec2& p = points[static_cast<std::size_t>(i)];
+      return ux * p.x() + uy * p.y();
+    };
     std::stable_sort(c.own.begin(), c.own.end(), [&](int a, int b) { return place(a) < place(b); });
     if (c.own.empty()) return;
     c.low = place(c.own.front());

@@ -36,7 +36,8 @@ bool has_clear_break(std::span<const Vec2> points, std::span<const double> toler
                      const LineFit& line) {
   int side_before = 0;
   for (int i = run.first; i <= run.last; ++i) {
-    const double d = line.normal.dot(points[at(i)]) - line.offset;
+    const Vec2& p = points[at(i)];
+    const double d = line.normal.x() * p.x() + line.normal.y() * p.y() - line.offset;
     const int side = d > tolerance[at(i)] ? 1 : d < -tolerance[at(i)] ? -1 : 0;
     if (side != 0 && side == side_before) return true;
     side_before = side;
@@ -46,19 +47,23 @@ bool has_clear_break(std::span<const Vec2> points, std::span<const double> toler
 
 std::vector<PointRun> merge_neighbours(std::span<const Vec2> points, std::span<const double> tolerance,
                                        std::span<const PointRun> runs, double max_gap_m) {
-  std::vector<PointRun> merged;
-  for (const PointRun& run : runs) {
-    if (!merged.empty()) {
-      const PointRun both{merged.back().first, run.last};
-      const double gap = (points[at(run.first)] - points[at(merged.back().last)]).norm();
-      if (gap <= max_gap_m && !has_clear_break(points, tolerance, both, fit_group(part(points, both), Fit::tls))) {
-        merged.back() = both;
+  // Passes over pairs: a wall in many pieces is whole after a logarithmic number of passes, each linear in its points.
+  std::vector<PointRun> current(runs.begin(), runs.end());
+  while (true) {
+    std::vector<PointRun> merged;
+    for (std::size_t k = 0; k < current.size(); ++k) {
+      merged.push_back(current[k]);
+      if (k + 1 == current.size()) break;
+      const PointRun both{current[k].first, current[k + 1].last};
+      const double gap = (points[at(current[k + 1].first)] - points[at(current[k].last)]).norm();
+      if (gap > max_gap_m || has_clear_break(points, tolerance, both, fit_group(part(points, both), Fit::tls)))
         continue;
-      }
+      merged.back() = both;
+      ++k;
     }
-    merged.push_back(run);
+    if (merged.size() == current.size()) return merged;
+    current = std::move(merged);
   }
-  return merged;
 }
 
 ScanLines lines_of_disjoint_runs(const Scan& scan, const ScanPoints& points, std::span<const double> tolerance,

@@ -28,7 +28,7 @@ bool has_clear_break(std::span<const Vec2> points, std::span<const double> toler
                      const LineFit& line);
 
 /// Neighbouring disjoint runs, in order, become one where the line through both has no clear break and their facing
-/// ends are at most max_gap_m apart; from the first to the last, each run tried against what the ones before became.
+/// ends are at most max_gap_m apart. In passes from the first to the last, until nothing changes.
 std::vector<PointRun> merge_neighbours(std::span<const Vec2> points, std::span<const double> tolerance,
                                        std::span<const PointRun> runs, double max_gap_m);
 

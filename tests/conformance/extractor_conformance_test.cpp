@@ -132,7 +132,8 @@ TEST_P(ExtractorConformance, TenBeamsAreAnswered) {
 }
 
 TEST_P(ExtractorConformance, AHundredThousandBeamsAreAnswered) {
-  EXPECT_GE(extract(noisy_room(3, 100000)).lines.size(), 1u);
+  static const OwnedScan scan = noisy_room(3, 100000);
+  EXPECT_GE(extract(scan).lines.size(), 1u);
 }
 
 TEST_P(ExtractorConformance, RoomsWithHolesAreAnswered) {
