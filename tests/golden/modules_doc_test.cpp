@@ -1,0 +1,22 @@
+// docs/modules.md says what the program says of itself.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "harness/catalog.hpp"
+
+namespace scanbench {
+namespace {
+
+TEST(ModulesDocument, IsWhatDescribeAllPrints) {
+  std::ifstream file(std::string(SCANBENCH_SOURCE_DIR) + "/docs/modules.md");
+  ASSERT_TRUE(file);
+  const std::string document((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_EQ(document, harness::catalog_markdown(harness::catalog()))
+      << "write it again: ./scanbench describe --all --markdown > docs/modules.md";
+}
+
+}  // namespace
+}  // namespace scanbench
