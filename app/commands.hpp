@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -40,5 +41,9 @@ void add_results(Context& context);     ///< score, compare, figures, report
 /// Scenarios of scenario and suite files, in order; `name` receives the first file's name without ending.
 std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
                                            std::string* name = nullptr);
+
+/// `--seed` as it was written, "1,2,3"; empty: the scenarios' own. Throws ConfigError for anything but whole numbers
+/// that a scenario file may have.
+std::vector<std::uint64_t> read_seeds(const std::vector<std::string>& texts);
 
 }  // namespace scanbench::app

@@ -1,6 +1,8 @@
 // check, list, describe: nothing runs, nothing is written.
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "harness/catalog.hpp"
@@ -78,6 +80,20 @@ std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files
         throw ConfigError("two scenarios are called '" + scenarios[i].name + "': " + scenarios[j].path.string() +
                           " and " + scenarios[i].path.string() + "; their results would fall into one folder");
   return scenarios;
+}
+
+std::vector<std::uint64_t> read_seeds(const std::vector<std::string>& texts) {
+  std::vector<std::uint64_t> seeds;
+  for (const auto& text : texts) {
+    std::uint64_t seed = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, seed);
+    if (text.empty() || error != std::errc() || stop != end || seed > harness::kLargestSeed)
+      throw ConfigError("--seed: '" + text + "' is no seed; allowed: whole numbers 0 .. " +
+                        std::to_string(harness::kLargestSeed) + ", separated by commas");
+    seeds.push_back(seed);
+  }
+  return seeds;
 }
 
 void add_inspection(Context& context) {

@@ -1,15 +1,29 @@
 // scanbench: the command line, and the one place where exceptions become exit codes.
 #include <fmt/format.h>
 
+#include <csignal>
 #include <new>
 
 #include "app/commands.hpp"
 #include "core/error.hpp"
 #include "harness/run_folder.hpp"
+#include "harness/yaml_reader.hpp"
 
 namespace {
 
 using namespace scanbench;
+
+// CLI11 says of `scanbench rnu` only that a subcommand is required.
+std::string parse_trouble(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (dynamic_cast<const CLI::RequiredError*>(&error) == nullptr || !app.get_subcommands().empty() ||
+      (!first.empty() && first.front() == '-'))
+    return error.what();
+  std::vector<std::string> verbs;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    verbs.push_back(verb->get_name());
+  return (argc > 1 ? "there is no verb '" + first + "'" : "a verb is missing") + harness::known_names(first, verbs);
+}
 
 int run_program(int argc, char** argv) {
   CLI::App app{
@@ -34,7 +48,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     fmt::print(stderr, "scanbench: {}\n(scanbench --help shows the verbs, scanbench VERB --help its options)\n",
-               error.what());
+               parse_trouble(app, error, argc, argv));
     return app::kBadInput;
   }
   return action();
@@ -43,6 +57,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of write(), with a message, not our death
   try {
     return run_program(argc, argv);
   } catch (const ConfigError& error) {

@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string file, out, run, format = "carmen";
-  std::vector<std::string> sets;
-  std::vector<std::uint64_t> seeds;
+  std::vector<std::string> sets, seeds;
   int jobs = 1;
   bool quiet = false;
 };
@@ -26,6 +25,7 @@ struct Options {
 int simulate(const Options& options, const std::vector<std::string>& argv) {
   std::string name;
   const auto scenarios = load_inputs({options.file}, options.sets, &name);
+  const auto seeds = read_seeds(options.seeds);
   Progress progress(progress_style(options.quiet));
   harness::RunTarget target(options.out.empty() ? fs::path("out") / name : fs::path(options.out), false);
   harness::Manifest manifest{"running", harness::utc_now(), "", argv, {}, {}};
@@ -38,7 +38,7 @@ int simulate(const Options& options, const std::vector<std::string>& argv) {
       harness::write_file_atomically(
           target.path() / (scenarios.size() == 1 ? "effective.yaml" : "effective/" + scenario.name + ".yaml"),
           harness::effective_yaml(scenario));
-      for (const auto seed : options.seeds.empty() ? scenario.seeds : options.seeds) {
+      for (const auto seed : seeds.empty() ? scenario.seeds : seeds) {
         const std::string what = fmt::format("recording {}/{}", scenario.name, seed);
         const Recording recording =
             harness::make_recording(scenario, seed, options.jobs, [&](double share) { progress.update(share, what); });

@@ -16,8 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::vector<std::string> files, sets, only;
-  std::vector<std::uint64_t> seeds;
+  std::vector<std::string> files, sets, seeds, only;
   std::string out;
   int jobs = 1;
   bool resume = false, quiet = false, json = false, journal = false, no_figures = false;
@@ -65,7 +64,7 @@ int run(const Options& options, const std::vector<std::string>& argv) {
   harness::RunOptions run_options;
   run_options.out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
   run_options.jobs = options.jobs;
-  run_options.seeds = options.seeds;
+  run_options.seeds = read_seeds(options.seeds);
   run_options.only = options.only;
   run_options.resume = options.resume;
   run_options.journal = options.journal;

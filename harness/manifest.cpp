@@ -51,6 +51,8 @@ Json artefacts(const fs::path& run) {
 
 Json load_json(const fs::path& run) {
   const fs::path file = run / "manifest.json";
+  std::error_code absent;
+  if (!fs::exists(file, absent)) throw ConfigError(run.string() + ": not the folder of a run: it has no manifest.json");
   Json json = Json::parse(read_file(file), nullptr, false);
   if (json.is_discarded() || !json.is_object() || json.value("program", Json()) != "scanbench")
     throw ConfigError(file.string() + ": not the manifest of a scanbench run");

@@ -113,15 +113,20 @@ bool is_run_file(const fs::path& relative) {
 RunTarget::RunTarget(fs::path out, bool resume) : out_(fs::absolute(out).lexically_normal()) {
   if (!out_.has_filename()) out_ = out_.parent_path();  // "run/" is "run"
   std::error_code error;
-  if (fs::is_symlink(out_)) out_ = fs::canonical(out_, error);
+  if (fs::is_symlink(out_)) {
+    const fs::path real = fs::canonical(out_, error);
+    if (error) throw ConfigError(out_.string() + " is a symbolic link that leads nowhere; allowed: a folder");
+    out_ = real;
+  }
   if (fs::exists(out_, error) && !fs::is_directory(out_, error))
     throw ConfigError(out_.string() + " is a file; the folder of a run must be a folder of its own");
-  existed_ = fs::is_directory(out_, error);
-  const bool empty = !existed_ || fs::is_empty(out_, error);
+  const bool empty = !fs::is_directory(out_, error) || fs::is_empty(out_, error);
   if (!empty && !fs::exists(out_ / "manifest.json"))
     throw ConfigError(out_.string() +
                       " is not empty and has no manifest.json, so it is no run of ours and is left alone");
   if (!empty) load_manifest(out_);  // refuses somebody else's manifest.json
+  for (fs::path folder = out_; folder.has_relative_path() && !fs::exists(folder, error); folder = folder.parent_path())
+    first_made_ = folder;
   make_folders(out_);
   lock_ = ::open(out_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ < 0) throw ConfigError("cannot read " + out_.string() + ": " + std::strerror(errno));
@@ -153,7 +158,8 @@ void RunTarget::abandon() {
   } else if (!resumed_) {
     // The folder was empty or absent: all that is in it is of this run.
     for (const auto& entry : fs::directory_iterator(out_, ignored)) fs::remove_all(entry.path(), ignored);
-    if (!existed_) fs::remove(out_, ignored);
+    if (first_made_.empty()) return;
+    for (fs::path folder = out_; fs::remove(folder, ignored) && folder != first_made_;) folder = folder.parent_path();
   }
 }
 

@@ -81,7 +81,7 @@ class RunTarget {
  private:
   std::filesystem::path out_;
   std::optional<StagedFolder> staged_;
-  bool existed_ = false;
+  std::filesystem::path first_made_;  ///< topmost folder that was not there before; may be empty
   bool resumed_ = false;
   int lock_ = -1;
 };

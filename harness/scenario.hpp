@@ -35,6 +35,9 @@
 
 namespace scanbench::harness {
 
+/// 2^53: the largest seed that every tool reads back exactly.
+inline constexpr std::uint64_t kLargestSeed = 9007199254740992U;
+
 /// A registered thing with its parameters, all of them.
 struct ModuleChoice {
   std::string kind;  ///< slot: extract, align, match, map, merge; or metrics, figure

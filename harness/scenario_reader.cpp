@@ -13,8 +13,6 @@
 namespace scanbench::harness {
 namespace {
 
-constexpr double kLargestSeed = 9007199254740992.0;  // 2^53: every tool reads it back exactly
-
 ParamSpec seed_spec(std::string name, Bounds bounds) {
   ParamSpec spec;
   spec.name = std::move(name);
@@ -25,7 +23,7 @@ ParamSpec seed_spec(std::string name, Bounds bounds) {
 
 std::uint64_t read_seed(const YamlNode& node, const std::string& name) {
   return static_cast<std::uint64_t>(
-      std::get<std::int64_t>(read_param(node, seed_spec(name, between(0, kLargestSeed)))));
+      std::get<std::int64_t>(read_param(node, seed_spec(name, between(0, static_cast<double>(kLargestSeed))))));
 }
 
 // `name` under `key` in a map {key: name, params: {...}}; extra keys are refused.

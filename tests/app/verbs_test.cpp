@@ -1,0 +1,161 @@
+// Every verb on good input.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/app/program.hpp"
+
+namespace scanbench::app_test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// A folder with room.yaml and its run in "run".
+class Verbs : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("room.yaml", room());
+    const auto outcome = here({"run", "room.yaml", "--out", "run", "-q"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err, "");
+  }
+  Outcome here(const Args& args, const Env& env = {}) const { return run(args, env, folder_.path()); }
+  Folder folder_;
+};
+
+TEST(Catalog, ListsEveryKindAndDescribesEveryName) {
+  const auto all = run({"list", "--json"});
+  ASSERT_EQ(all.code, 0);
+  std::set<std::string> kinds;
+  for (const auto& entry : nlohmann::json::parse(all.out)) kinds.insert(entry.at("kind").get<std::string>());
+  EXPECT_THAT(kinds, testing::IsSupersetOf({"extract", "merge", "metrics", "figure", "trajectory", "sensor"}));
+  for (const auto& kind : kinds) {
+    const auto one = nlohmann::json::parse(run({"list", kind, "--json"}).out);
+    EXPECT_FALSE(one.empty());
+    for (const auto& entry : one) EXPECT_EQ(entry.at("kind"), kind);
+  }
+  const auto iepf = run({"describe", "iepf"});
+  EXPECT_EQ(iepf.code, 0);
+  EXPECT_THAT(iepf.out, AllOf(HasSubstr("threshold_m"), HasSubstr("Siadat")));
+  const auto near = run({"describe", "iefp"});
+  EXPECT_EQ(near.code, 2);
+  EXPECT_THAT(near.err, HasSubstr("did you mean 'iepf'?"));
+  EXPECT_EQ(run({"list", "furniture"}).code, 2);
+  EXPECT_EQ(run({"--version"}).code, 0);
+  EXPECT_THAT(run({"--help"}).out, HasSubstr("compare"));
+}
+
+TEST(Check, FindsEveryScenarioOfTheTreeGood) {
+  for (const auto& entry : fs::directory_iterator(fs::path(SCANBENCH_SOURCE_DIR) / "scenarios")) {
+    if (entry.path().extension() != ".yaml") continue;
+    const auto outcome = run({"check", entry.path().string()});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr(": good: "));
+  }
+}
+
+TEST_F(Verbs, CheckPrintsTheEffectiveScenarioOfTheRun) {
+  EXPECT_EQ(here({"check", "room.yaml", "--effective"}).out, read(folder_ / "run/effective.yaml"));
+  EXPECT_EQ(here({"check", "run/effective.yaml", "--effective"}).out, read(folder_ / "run/effective.yaml"));
+}
+
+TEST_F(Verbs, SimulateMakesTheRecordingOfTheRun) {
+  ASSERT_EQ(here({"simulate", "room.yaml", "--out", "recordings only"}).code, 0);
+  EXPECT_THAT(differences(files(folder_ / "run/recordings"), files(folder_ / "recordings only/recordings")), IsEmpty());
+}
+
+TEST_F(Verbs, ScoreFiguresAndReportGiveTheBytesOfTheRun) {
+  const auto before = files(folder_ / "run");
+  fs::remove(folder_ / "run/summary.csv");
+  fs::remove(folder_ / "run/cells/room/iepf/1/metrics.csv");
+  EXPECT_EQ(here({"score", "run"}).code, 0);
+  fs::remove_all(folder_ / "run/figures");
+  EXPECT_EQ(here({"figures", "run"}).code, 0);
+  fs::remove(folder_ / "run/report.md");
+  fs::remove(folder_ / "run/report.html");
+  EXPECT_EQ(here({"report", "run"}).code, 0);
+  auto changed = differences(before, files(folder_ / "run"));
+  std::erase(changed, "manifest.json");
+  EXPECT_THAT(changed, IsEmpty());
+}
+
+TEST_F(Verbs, CompareIsGoodWithItselfAndFailsWithAWorseOne) {
+  const auto same = here({"compare", "run", "run"});
+  EXPECT_EQ(same.code, 0);
+  EXPECT_THAT(same.out, AllOf(HasSubstr(" same"), Not(HasSubstr("worse"))));
+  // Two metres of threshold round every corner off: walls go unfound.
+  ASSERT_EQ(here({"run", "room.yaml", "-q", "--no-figures", "--out", "worse", "--set",
+                  "pipelines.iepf.extract.params.threshold_m=2"})
+                .code,
+            0);
+  const auto worse = here({"compare", "run", "worse", "--csv", "rows.csv"});
+  EXPECT_EQ(worse.code, 1) << worse.out << worse.err;
+  EXPECT_THAT(worse.out, HasSubstr("worse"));
+  EXPECT_THAT(read(folder_ / "rows.csv"), HasSubstr("precision"));
+}
+
+TEST_F(Verbs, AnExportedLogReadsBackToTheSameRangesAndLines) {
+  const std::string head = "schema: 1\nrecording: {log: run/export/room_1.";
+  const std::string tail = "}\nsensor: {preset: sick_lms200}\n" + room().substr(room().find("pipelines:"));
+  const std::string rest = tail.substr(0, tail.find("metrics:")) + "metrics: [siadat1997]\n";
+  for (const std::string format : {"carmen", "csv"}) {
+    const auto exported = here({"export", "run", "--format", format});
+    ASSERT_EQ(exported.code, 0) << exported.err;
+    std::string options = (format == "carmen" ? "log" : "csv") + std::string(", format: ") + format;
+    std::istringstream lines(exported.out);  // "  key: value" lines: what reads the log back
+    for (std::string line; std::getline(lines, line);) {
+      const auto colon = line.find(": ");
+      if (!line.starts_with("  ") || colon == std::string::npos) continue;
+      const std::string key = line.substr(2, colon - 2);
+      const std::string value = line.substr(colon + 2);
+      options += ", " + key + ": " + (key == "columns" ? "[" + value + "]" : value);
+    }
+    folder_.write("again.yaml", head + options + rest);
+    const auto again = here({"run", "again.yaml", "-q", "--out", "again_" + format});
+    ASSERT_EQ(again.code, 0) << again.err << read(folder_ / "again.yaml");
+    const fs::path second = folder_ / ("again_" + format);
+    EXPECT_EQ(read(second / "recordings/again/1/ranges.npy"), read(folder_ / "run/recordings/room/1/ranges.npy"));
+    EXPECT_EQ(read(second / "cells/again/iepf/1/lines.csv"), read(folder_ / "run/cells/room/iepf/1/lines.csv"));
+  }
+  ASSERT_EQ(here({"export", "run", "--format", "tum", "--out", "poses"}).code, 0);
+  std::istringstream poses(read(folder_ / "poses/room_1.txt"));
+  int rows = 0;
+  for (std::string line; std::getline(poses, line);) rows += !line.empty() && line.front() != '#';
+  EXPECT_EQ(rows, 5);
+}
+
+TEST_F(Verbs, RunIntoTheSameFolderReplacesItAndKeepsWhatIsNotOurs) {
+  folder_.write("run/notes.txt", "mine");
+  ASSERT_EQ(here({"run", "room.yaml", "--out", "run", "-q", "--seed", "7"}).code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "run/cells/room/iepf/7/lines.csv"));
+  EXPECT_FALSE(fs::exists(folder_ / "run/cells/room/iepf/1"));
+  EXPECT_EQ(read(folder_ / "run/notes.txt"), "mine");
+  EXPECT_THAT(half_written(folder_.path()), IsEmpty());
+}
+
+TEST_F(Verbs, RunTakesSuitesAndPathsWithBlanksAndUmlauts) {
+  folder_.write("my suite.yaml", "schema: 1\nscenarios: [room.yaml, höhle.yaml]\nseeds: [3, 4]\n");
+  folder_.write("höhle.yaml", "name: cave\n" + room_with("0.10", "0.2"));
+  const auto outcome = here({"run", "my suite.yaml", "--out", "deep/er/größer und mehr", "--json", "--no-figures"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out).at("cells").size(), 4U);
+  EXPECT_TRUE(fs::exists(folder_ / "deep/er/größer und mehr/cells/cave/iepf/4/lines.csv"));
+}
+
+TEST_F(Verbs, NothingButATerminalGetsEscapeCodes) {
+  for (const Env& env : {Env{}, Env{{"NO_COLOR", "1"}}, Env{{"TERM", "xterm-256color"}, {"CLICOLOR_FORCE", "1"}}}) {
+    const auto outcome = here({"run", "room.yaml", "--out", "plain"}, env);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("precision"), Not(HasSubstr("\x1b"))));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("room/iepf/1"), Not(HasSubstr("\x1b")), Not(HasSubstr("\r"))));
+  }
+}
+
+}  // namespace
+}  // namespace scanbench::app_test
