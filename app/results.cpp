@@ -8,6 +8,7 @@
 #include "core/number_text.hpp"
 #include "harness/atomic_file.hpp"
 #include "harness/compare.hpp"
+#include "harness/run_folder.hpp"
 #include "harness/run_report.hpp"
 #include "harness/runner.hpp"
 #include "harness/score.hpp"
@@ -27,8 +28,13 @@ int score(const fs::path& run, const std::vector<std::string>& files) {
   const auto scenarios = scenarios_for(run, files);
   const std::size_t cells = harness::score_run(run, scenarios);
   harness::write_reports(run, harness::load_report_input(run, scenarios));
-  fmt::print("{} cells scored: {}\n", cells, (run / "summary.csv").string());
-  return kGood;
+  fmt::print("{} cell{} scored: {}\n", cells, cells == 1 ? "" : "s", (run / "summary.csv").string());
+  const auto planned = harness::load_manifest(run).cells;
+  const auto missing = std::ranges::count_if(
+      planned, [&](const auto& key) { return !fs::exists(harness::cell_path(run, key) / "status.json"); });
+  if (missing == 0) return kGood;
+  fmt::print("INCOMPLETE: {} of {} cells are missing\n", missing, planned.size());
+  return kIncomplete;
 }
 
 int figures(const fs::path& run, const std::vector<std::string>& files, bool pdf, bool quiet) {

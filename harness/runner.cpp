@@ -27,6 +27,7 @@ struct Group {
   std::size_t unfinished = 0;
   std::optional<StagedFolder> staged;  ///< while the recording is made
   std::optional<Recording> recording;  ///< while cells need it
+  std::optional<bool> stands;          ///< resumed: the recording is there with the bytes that its hash says
 };
 
 struct Cell {
@@ -184,13 +185,25 @@ class Run {
     try {
       const CellRecord record = load_status(folder);
       if (record.outcome.status != CellStatus::ok || record.address != cell.result.record.address) return;
-      stated_recording_hash(recording_path(target_->path(), cell.result.key.scenario, cell.result.key.seed));
+      if (!recording_stands(*cell.group)) return;
       cell.summary = summary_lines(cell.result.key, load_metrics(folder));
       cell.result.record = record;
       cell.result.done = cell.result.reused = true;
     } catch (const ConfigError&) {
       // Absent or damaged: it is made again.
     }
+  }
+
+  bool recording_stands(Group& group) const {
+    if (!group.stands) {
+      try {
+        load_recording(recording_path(target_->path(), group.scenario->name, group.seed));
+        group.stands = true;
+      } catch (const ConfigError&) {
+        group.stands = false;
+      }
+    }
+    return *group.stands;
   }
 
   /// A cell whose recording is there, else the next recording. False if there is nothing to start now.

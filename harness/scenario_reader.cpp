@@ -90,6 +90,9 @@ std::vector<std::uint64_t> read_seeds(YamlMap& map) {
     const auto count = std::get<std::int64_t>(
         read_param(range.require("count", "how many seeds"), seed_spec("count", between(1, 100000))));
     range.done();
+    if (const std::uint64_t last = first + static_cast<std::uint64_t>(count) - 1; last > kLargestSeed)
+      throw PlacedError(many->mark,
+                        fmt::format("the last of these seeds is {}; allowed: up to {}", last, kLargestSeed));
     for (std::int64_t i = 0; i < count; ++i) seeds.push_back(first + static_cast<std::uint64_t>(i));
     return seeds;
   }

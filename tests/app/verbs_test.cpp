@@ -130,6 +130,25 @@ TEST_F(Verbs, AnExportedLogReadsBackToTheSameRangesAndLines) {
   EXPECT_EQ(rows, 5);
 }
 
+TEST_F(Verbs, ScoreOfARunWithAMissingCellIsIncomplete) {
+  fs::remove_all(folder_ / "run/cells/room/iepf");
+  const auto outcome = here({"score", "run"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_THAT(outcome.out, HasSubstr("INCOMPLETE: 1 of 1 cells"));
+}
+
+TEST_F(Verbs, ResumeMakesADamagedOrMissingRecordingAgain) {
+  const auto before = files(folder_ / "run/recordings");
+  for (const bool missing : {false, true}) {
+    if (missing)
+      fs::remove_all(folder_ / "run/recordings");
+    else
+      fs::resize_file(folder_ / "run/recordings/room/1/ranges.npy", 100);
+    EXPECT_EQ(here({"run", "room.yaml", "--out", "run", "--resume", "-q"}).code, 0);
+    EXPECT_THAT(differences(before, files(folder_ / "run/recordings")), IsEmpty());
+  }
+}
+
 TEST_F(Verbs, RunIntoTheSameFolderReplacesItAndKeepsWhatIsNotOurs) {
   folder_.write("run/notes.txt", "mine");
   ASSERT_EQ(here({"run", "room.yaml", "--out", "run", "-q", "--seed", "7"}).code, 0);
