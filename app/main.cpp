@@ -2,9 +2,12 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <cstdio>
 #include <new>
+#include <system_error>
 
 #include "app/commands.hpp"
+#include "app/progress.hpp"
 #include "core/error.hpp"
 #include "harness/run_folder.hpp"
 #include "harness/yaml_reader.hpp"
@@ -51,7 +54,9 @@ int run_program(int argc, char** argv) {
                parse_trouble(app, error, argc, argv));
     return app::kBadInput;
   }
-  return action();
+  const int code = action();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw ConfigError("cannot write to standard output");
+  return code;
 }
 
 }  // namespace
@@ -61,6 +66,12 @@ int main(int argc, char** argv) {
   try {
     return run_program(argc, argv);
   } catch (const ConfigError& error) {
+    fmt::print(stderr, "scanbench: {}\n", error.what());
+    return app::kBadInput;
+  } catch (const app::Interrupted&) {
+    fmt::print(stderr, "\nscanbench: interrupted\n");
+    return app::kInterrupted;
+  } catch (const std::system_error& error) {  // standard output or a folder that the system refuses us
     fmt::print(stderr, "scanbench: {}\n", error.what());
     return app::kBadInput;
   } catch (const std::bad_alloc&) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -14,6 +15,8 @@ namespace {
 
 constexpr int kWidth = 30;
 
+volatile std::sig_atomic_t interrupted = 0;  // a handler reaches nothing else
+
 std::string duration_text(double seconds) {
   if (seconds < 60) return fmt::format("{:.0f} s", seconds);
   const int minutes = static_cast<int>(seconds / 60);
@@ -22,7 +25,21 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
+InterruptGuard::InterruptGuard() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = 1; };
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, &old_int_);
+  sigaction(SIGTERM, &action, &old_term_);
+}
+
+InterruptGuard::~InterruptGuard() {
+  sigaction(SIGINT, &old_int_, nullptr);
+  sigaction(SIGTERM, &old_term_, nullptr);
+}
+
 void Progress::update(double share, const std::string& what) {
+  if (interrupted != 0) throw Interrupted{};
   if (style_ == Style::silent) return;
   share = std::clamp(share, 0.0, 1.0);
   if (style_ == Style::lines) {

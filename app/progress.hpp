@@ -1,10 +1,29 @@
 // Progress of long work: one bar that redraws itself on a terminal, plain lines elsewhere, silence with --quiet.
 #pragma once
 
+#include <signal.h>
+
 #include <chrono>
 #include <string>
 
 namespace scanbench::app {
+
+/// The user asked us to stop.
+struct Interrupted {};
+
+/// While one lives, SIGINT and SIGTERM end the work at the next Progress::update(), which throws Interrupted, so that
+/// what is being written is finished or removed.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+ private:
+  struct sigaction old_int_ {};
+  struct sigaction old_term_ {};
+};
 
 class Progress {
  public:

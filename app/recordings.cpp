@@ -26,6 +26,7 @@ int simulate(const Options& options, const std::vector<std::string>& argv) {
   std::string name;
   const auto scenarios = load_inputs({options.file}, options.sets, &name);
   const auto seeds = read_seeds(options.seeds);
+  const InterruptGuard guard;
   Progress progress(progress_style(options.quiet));
   harness::RunTarget target(options.out.empty() ? fs::path("out") / name : fs::path(options.out), false);
   harness::Manifest manifest{"running", harness::utc_now(), "", argv, {}, {}};

@@ -39,6 +39,7 @@ int score(const fs::path& run, const std::vector<std::string>& files) {
 
 int figures(const fs::path& run, const std::vector<std::string>& files, bool pdf, bool quiet) {
   const auto scenarios = scenarios_for(run, files);
+  const InterruptGuard guard;
   Progress progress(progress_style(quiet));
   harness::draw_run_figures(run, scenarios, pdf,
                             [&](double share, const std::string& what) { progress.update(share, "figure " + what); });

@@ -82,6 +82,7 @@ int run(const Options& options, const std::vector<std::string>& argv) {
     return kInterrupted;
   }
 
+  const InterruptGuard guard;
   const auto ran = harness::load_run_scenarios(result.out);
   if (!options.no_figures)
     harness::draw_run_figures(result.out, ran, false, [&](double share, const std::string& what) {

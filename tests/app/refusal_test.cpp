@@ -183,6 +183,26 @@ TEST(OutputFolder, OnADiskThatIsFullHoldsNoHalfWrittenFileAndTheOldRunStays) {
   EXPECT_FALSE(fs::exists(folder / "run"));
 }
 
+TEST(OutputFolder, OfAnInterruptedSimulationVanishes) {
+  const Folder folder;
+  folder.write("room.yaml", room_with("scans: 5", "scans: 200000"));
+  Child child(command({"simulate", "room.yaml", "--out", "a/b"}), {}, folder.path());
+  ASSERT_TRUE(child.wait_until([&] { return child.err_so_far().find("recording") != std::string::npos; }));
+  child.interrupt();
+  EXPECT_EQ(child.wait().code, 130);
+  EXPECT_FALSE(fs::exists(folder / "a"));
+}
+
+TEST(StandardOutput, ThatCannotBeWrittenIsNoBugOfOurs) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  for (const char* verb : {"list", "describe --all"}) {
+    const auto outcome =
+        Child({"/bin/bash", "-c", std::string(SCANBENCH_PROGRAM) + " " + verb + " > /dev/full"}, {}, {}).wait();
+    EXPECT_EQ(outcome.code, 2) << verb << ": " << outcome.err;
+    EXPECT_THAT(outcome.err, Not(HasSubstr("internal error")));
+  }
+}
+
 TEST(OutputFolder, KeepsTheOldRunWhenTheNewOneIsInterrupted) {
   const Folder folder;
   folder.write("room.yaml", room());
