@@ -126,12 +126,12 @@ TEST(Refusals, OfARecordedLogNameItsLine) {
 
 TEST(Refusals, OfMemoryComeAtOnceWithTheArithmetic) {
   const Folder folder;
-  folder.write("room.yaml", room_with("scans: 5", "scans: 10000000"));
-  // 361 beams x 20 bytes x 1e7 frames = 72.2e9 bytes = 67.2 GiB; the frames themselves come on top.
+  folder.write("room.yaml", room_with("scans: 5", "scans: 1000000"));
+  // 361 beams x 20 bytes x 1e6 frames = 7.2e9 bytes, more than 4 GiB; the frames themselves come on top.
   for (const Args& args : {Args{"run", "room.yaml", "--out", "a/b/c"}, Args{"check", "room.yaml"},
                            Args{"simulate", "room.yaml", "--out", "a/b/c"}})
     EXPECT_THAT(refusal_in(folder, args),
-                AllOf(HasSubstr("10000000 frames x 361 beams"), HasSubstr("limits.memory_mib")));
+                AllOf(HasSubstr("1000000 frames x 361 beams"), HasSubstr("limits.memory_mib")));
   EXPECT_FALSE(fs::exists(folder / "a")) << "folders made on the way to the run folder stay behind";
 }
 
