@@ -66,7 +66,16 @@ double address_space_bytes() {
   return pages.value_or(0.0) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
+constexpr std::string_view kOutOfMemory = "an allocation failed (std::bad_alloc)\n";
+
+/// The new-handler of a child: the last that is certain to run before std::bad_alloc, whatever becomes of it.
+void say_out_of_memory() {
+  [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, kOutOfMemory.data(), kOutOfMemory.size());
+  std::set_new_handler(nullptr);
+}
+
 void set_limits(const WorkerLimits& limits) {
+  std::set_new_handler(say_out_of_memory);
   limit(RLIMIT_CORE, 0);
   // Behind the wall-clock limit, for the case that the parent cannot act.
   const double cores = std::max(1u, std::thread::hardware_concurrency());
@@ -214,8 +223,8 @@ struct WorkerPool::Worker {
       result.status = CellStatus::out_of_memory;
       result.message = "killed by the system, most likely for want of memory";
     } else {
-      // std::terminate after a bad_alloc that met a noexcept says so on stderr.
-      const bool memory = output_text.find("std::bad_alloc") != std::string::npos;
+      // A bad_alloc that met a noexcept ends by abort(): say_out_of_memory() has left its word.
+      const bool memory = output_text.find(kOutOfMemory) != std::string::npos;
       result.status = memory ? CellStatus::out_of_memory : CellStatus::crashed;
       result.message = "ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
     }
@@ -247,7 +256,10 @@ std::size_t WorkerPool::running() const {
 }
 
 bool WorkerPool::interrupted() const {
-  return interrupt_seen != 0;
+  // While pipes keep having something to read, ppoll() returns before it delivers a signal: ask for it.
+  sigset_t pending;
+  sigpending(&pending);
+  return interrupt_seen != 0 || sigismember(&pending, SIGINT) == 1 || sigismember(&pending, SIGTERM) == 1;
 }
 
 void WorkerPool::start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits) {
@@ -279,7 +291,7 @@ std::vector<WorkerPool::Finished> WorkerPool::wait() {
   std::vector<Finished> finished;
   while (finished.empty() && !workers_.empty() && !interrupted()) {
     std::vector<pollfd> fds;
-    double pause = 3600.0;
+    double pause = 0.02;  // nothing wakes us when a child ends while a process that it started holds its pipes
     for (const auto& w : workers_) {
       if (w.report_open) fds.push_back({w.report, POLLIN, 0});
       if (w.output_open) fds.push_back({w.output, POLLIN, 0});

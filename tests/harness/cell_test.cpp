@@ -100,12 +100,13 @@ TEST(CellFiles, HaveTheNamesAndColumnsOfTheContract) {
 
 TEST(CellFiles, KeepStatusAndMetrics) {
   const testing::TemporaryFolder folder;
-  const CellRecord record{{.status = CellStatus::timeout,
-                           .message = "quote \" and bad bytes \xff\n",
-                           .wall_seconds = 1.5,
-                           .cpu_seconds = 0.1,
-                           .peak_memory_bytes = 1e9},
-                          "abc"};
+  CellRecord record;
+  record.outcome.status = CellStatus::timeout;
+  record.outcome.message = "quote \" and bad bytes \xff\n";
+  record.outcome.wall_seconds = 1.5;
+  record.outcome.cpu_seconds = 0.1;
+  record.outcome.peak_memory_bytes = 1e9;
+  record.address = "abc";
   write_file_atomically(folder.path() / "status.json", status_json(record));
   const CellRecord loaded = load_status(folder.path());
   EXPECT_EQ(loaded.outcome.status, CellStatus::timeout);
