@@ -25,6 +25,7 @@ body { margin: 0 auto; max-width: 78rem; padding: 1.5rem; background: var(--pape
 h1 { font-size: 1.7rem; margin: 0 0 .2rem; } h2 { margin: 2.2rem 0 .4rem; font-size: 1.3rem; border-top: 2px solid var(--ink); padding-top: .6rem; }
 h3 { margin: 1.4rem 0 .4rem; font-size: 1.05rem; } p { margin: .4rem 0; max-width: 60rem; }
 a { color: var(--accent); } .faint, .caption { color: var(--faint); font-size: .88rem; }
+section.table { margin-bottom: .9rem; }
 .scroll { overflow-x: auto; } table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .86rem; }
 th, td { padding: .18rem .55rem; text-align: right; white-space: nowrap; } thead { border-bottom: 1.5px solid var(--ink); }
 th.head { text-align: left; font-weight: 600; } th.group { text-align: left; border-bottom: 1px solid var(--rule); }
@@ -35,6 +36,8 @@ figure { margin: 1rem 0; } figure img { max-width: 100%; height: auto; } figcapt
 .status { display: inline-block; padding: 0 .5rem; border-radius: .3rem; border: 1px solid currentColor; font-size: .85rem; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; font-size: .86rem; } dt { color: var(--faint); } dd { margin: 0; overflow-wrap: anywhere; }
 )css";
+
+constexpr std::size_t kPageWidth = 128;  // characters of a table that fit the page
 
 std::string base64(const std::string& bytes) {
   std::string out(4 * ((bytes.size() + 2) / 3) + 1, '\0');
@@ -106,7 +109,8 @@ std::string report_html(const ReportInput& input) {
   for (const auto& scenario : input.scenarios) {
     out += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n<p class=\"faint\">{2}</p>\n", html_escaped(scenario.name),
                        html_escaped(scenario.about), html_escaped(input_text(scenario)));
-    for (const auto& table : result_tables(scenario, input.rows)) out += to_html(table);
+    for (const auto& table : result_tables(scenario, input.rows))
+      for (const auto& part : parts_of_width(table, kPageWidth)) out += to_html(part);
     out += "<div class=\"figures\">\n";
     for (const auto& figure : figures_of(input, scenario.name)) {
       const std::string svg = read_file(input.run / "figures" / (figure.name + ".svg"));

@@ -65,36 +65,6 @@ Table part_of(const Table& table, std::size_t first, std::size_t count) {
   return part;
 }
 
-// Whole groups side by side as far as the width goes.
-std::vector<Table> parts_of_width(const Table& table, std::size_t width) {
-  std::size_t heads = 0;
-  for (std::size_t h = 0; h < table.row_heads.size(); ++h) {
-    std::size_t widest = display_width(table.row_heads[h]);
-    for (const auto& row : table.rows) widest = std::max(widest, display_width(row.heads[h]));
-    heads += widest + 2;
-  }
-  std::vector<Table> parts;
-  std::size_t first = 0;
-  std::size_t used = heads;
-  const auto spans = has_groups(table) ? group_spans(table) : std::vector<Span>{{"", 0, table.columns.size()}};
-  for (const auto& span : spans) {
-    std::size_t wanted = 1;
-    for (std::size_t c = span.first; c < span.first + span.count; ++c) wanted += column_width(table, c) + 2;
-    if (span.first > first && used + wanted > width) {
-      parts.push_back(part_of(table, first, span.first - first));
-      first = span.first;
-      used = heads;
-    }
-    used += wanted;
-  }
-  parts.push_back(part_of(table, first, table.columns.size() - first));
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (i > 0) parts[i].title.clear();
-    if (i + 1 < parts.size()) parts[i].caption.clear();
-  }
-  return parts;
-}
-
 std::string part_to_terminal(const Table& table, bool color) {
   const std::size_t heads = table.row_heads.size();
   std::vector<std::size_t> widths;
@@ -147,6 +117,39 @@ std::string part_to_terminal(const Table& table, bool color) {
 
 }  // namespace
 
+std::vector<Table> parts_of_width(const Table& table, std::size_t width) {
+  std::size_t heads = 0;
+  for (std::size_t h = 0; h < table.row_heads.size(); ++h) {
+    std::size_t widest = display_width(table.row_heads[h]);
+    for (const auto& row : table.rows) widest = std::max(widest, display_width(row.heads[h]));
+    heads += widest + 2;
+  }
+  std::vector<Table> parts;
+  std::size_t first = 0;
+  std::size_t used = heads;
+  std::vector<Span> spans;
+  if (has_groups(table))
+    spans = group_spans(table);
+  else
+    for (std::size_t c = 0; c < table.columns.size(); ++c) spans.push_back({"", c, 1});
+  for (const auto& span : spans) {
+    std::size_t wanted = 1;
+    for (std::size_t c = span.first; c < span.first + span.count; ++c) wanted += column_width(table, c) + 2;
+    if (span.first > first && used + wanted > width) {
+      parts.push_back(part_of(table, first, span.first - first));
+      first = span.first;
+      used = heads;
+    }
+    used += wanted;
+  }
+  parts.push_back(part_of(table, first, table.columns.size() - first));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) parts[i].title.clear();
+    if (i + 1 < parts.size()) parts[i].caption.clear();
+  }
+  return parts;
+}
+
 std::string to_terminal(const Table& table, bool color, std::size_t width) {
   std::string out;
   for (const auto& part : parts_of_width(table, width))
@@ -173,8 +176,11 @@ std::string to_markdown(const Table& table) {
 }
 
 std::string to_html(const Table& table) {
-  std::string out = fmt::format("<section class=\"table\" id=\"{}\"><h3>{}</h3><div class=\"scroll\"><table>\n<thead>",
-                                html_escaped(table.id), html_escaped(table.title));
+  // A part without a title continues the one before it.
+  std::string out = table.title.empty() ? "<section class=\"table\">"
+                                        : fmt::format("<section class=\"table\" id=\"{}\"><h3>{}</h3>",
+                                                      html_escaped(table.id), html_escaped(table.title));
+  out += "<div class=\"scroll\"><table>\n<thead>";
   if (has_groups(table)) {
     out += "<tr>";
     for (std::size_t c = 0; c < table.row_heads.size(); ++c) out += "<th></th>";

@@ -32,6 +32,10 @@ struct Table {
   std::vector<Row> rows;
 };
 
+/// The table in parts of at most `width` characters where it is wider: whole groups of columns, or single columns where
+/// there are no groups, side by side as far as they go. The first part has the title, the last the caption.
+std::vector<Table> parts_of_width(const Table& table, std::size_t width);
+
 /// Groups of columns that do not fit `width` characters side by side stand below each other.
 std::string to_terminal(const Table& table, bool color, std::size_t width = 1000);
 std::string to_markdown(const Table& table);

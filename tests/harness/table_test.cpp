@@ -30,6 +30,16 @@ TEST(TerminalTable, AlignsNumbersToTheRightUnderTheirHeads) {
             "10    11.50                 –\n");
 }
 
+TEST(PartsOfWidth, KeepGroupsTogetherAndLoseNoColumn) {
+  const auto parts = parts_of_width(example(), 30);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].columns.size(), 2u);
+  EXPECT_EQ(parts[1].columns.size(), 1u);
+  EXPECT_EQ(parts[1].rows[0].cells[0].text, "0.9");
+  EXPECT_EQ(parts[1].rows[0].heads, example().rows[0].heads);
+  EXPECT_EQ(parts_of_width(example(), 200).size(), 1u);
+}
+
 TEST(TerminalTable, UsesNoEscapesWithoutColour) {
   EXPECT_THAT(to_terminal(example(), false), Not(HasSubstr("\x1b")));
   EXPECT_THAT(to_terminal(example(), true), HasSubstr("\x1b[1m"));
