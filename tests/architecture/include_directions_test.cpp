@@ -25,7 +25,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
 
 // Headers of a library that only one folder may name.
 const std::map<std::string, std::string> kOwned = {
-    {"box2d/", "sim"},        {"GL/", "render"}, {"cairo", "render"},     {"yaml-cpp/", "harness"},
+    {"box2d/", "sim"}, {"GL/", "render"},       {"cairo", "render"},    {"yaml-cpp/", "harness"},
     {"CLI/", "app"},   {"openssl/", "harness"}, {"Random123/", "core"},
 };
 
