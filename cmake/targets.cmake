@@ -21,10 +21,16 @@ endfunction()
 
 # The headers that nearly every file reads, parsed once a target. No file may count on it: each includes what it uses, and
 # -DSCANBENCH_PRECOMPILE=OFF builds without.
+# scanbench_precompile(target [more headers...] | target REUSE other)
 function(scanbench_precompile target)
+  cmake_parse_arguments(arg "" "REUSE" "" ${ARGN})
   if(SCANBENCH_PRECOMPILE)
-    target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <span>
-                              <string> <vector> <Eigen/Dense> ${ARGN})
+    if(arg_REUSE)
+      target_precompile_headers(${target} REUSE_FROM ${arg_REUSE})
+    else()
+      target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <span>
+                                <string> <vector> <Eigen/Dense> ${arg_UNPARSED_ARGUMENTS})
+    endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
       # The same false alarm under two more names; the build without precompiled headers keeps both warnings.
       target_compile_options(${target} PRIVATE "$<$<CONFIG:Release,RelWithDebInfo>:-Wno-stringop-overflow;-Wno-array-bounds>")

@@ -30,11 +30,6 @@ std::vector<LoadedResult> finished_results(const fs::path& run, const Scenario& 
   return results;
 }
 
-NamedPoints waypoints_of(const Scenario& scenario, std::uint64_t seed) {
-  if (!std::holds_alternative<SimulatedInput>(scenario.input)) return {};
-  return simulation_input(scenario, seed).trajectory.waypoints;
-}
-
 }  // namespace
 
 std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenario, bool pdf,
@@ -44,7 +39,15 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenar
   if (scenario.figures.empty() || !fs::exists(folder)) return {};
   const Recording recording = load_recording(folder);
   const std::vector<LoadedResult> results = finished_results(run, scenario, seed);
-  render::FigureInput input{scenario.name, recording, waypoints_of(scenario, seed), {}};
+  render::FigureInput input{.title = scenario.name, .recording = recording, .waypoints = {}, .results = {}};
+  if (std::holds_alternative<SimulatedInput>(scenario.input)) {
+    const sim::SimulationInput simulated = simulation_input(scenario, seed);
+    input.waypoints = simulated.trajectory.waypoints;
+    input.continuous = simulated.trajectory.continuous;
+    for (const sim::Circle& circle : simulated.world.circles)
+      input.round_things.push_back({circle.center, circle.radius_m});
+    for (const sim::MovingBody& body : simulated.world.moving) input.body_paths.push_back(body.path);
+  }
   for (const auto& loaded : results) input.results.push_back({loaded.pipeline, &loaded.result});
 
   make_folders(run / "figures");

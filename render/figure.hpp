@@ -17,10 +17,20 @@ struct NamedResult {
   const PipelineResult* result;
 };
 
+/// Round things of a simulated world, which no line describes.
+struct RoundThing {
+  Vec2 center;  ///< [m], world frame
+  double radius_m = 0;
+};
+
 struct FigureInput {
   std::string title;  ///< the scenario's name
   const Recording& recording;
-  NamedPoints waypoints;             ///< may be empty
+  NamedPoints waypoints;  ///< may be empty
+  std::vector<RoundThing> round_things{};
+  std::vector<std::vector<Vec2>> body_paths{};  ///< of bodies that move through the world
+  /// Does a way lead from each pose to the next? False: the sensor was put down at each of them.
+  bool continuous = true;
   std::vector<NamedResult> results;  ///< in the scenario's order; a method keeps its colour by its place here
 };
 

@@ -19,7 +19,7 @@ std::string to_string(PoseSource source) {
     case PoseSource::truth:
       return "true poses";
     default:
-      return "odometry";
+      return "recorded poses";
   }
 }
 
@@ -59,10 +59,21 @@ std::vector<Vec2> all_points(const Recording& recording, std::span<const Pose2> 
   return points;
 }
 
-Polyline path_of(std::span<const Pose2> poses, const Stroke& stroke) {
-  Polyline path{.stroke = stroke};
-  for (const Pose2& pose : poses) path.points.push_back(pose.translation());
-  return path;
+void add_path(const FigureInput& input, std::span<const Pose2> poses, const Stroke& stroke, Panel& panel) {
+  std::vector<Vec2> places;
+  for (const Pose2& pose : poses) places.push_back(pose.translation());
+  if (input.continuous)
+    panel.items.emplace_back(Polyline{.points = std::move(places), .stroke = stroke});
+  else
+    panel.items.emplace_back(Points{.points = std::move(places), .color = stroke.color, .size_pt = kPlaceSizePt});
+}
+
+LegendEntry path_legend(const FigureInput& input, const Stroke& stroke) {
+  if (input.continuous) return {.text = "path of the sensor", .stroke = stroke};
+  return {.text = "places of the sensor",
+          .marker = Marker::dot,
+          .marker_color = stroke.color,
+          .marker_size_pt = kPlaceSizePt};
 }
 
 std::vector<Segment> true_walls(const Recording& recording, const Pose2& frame_from_world) {

@@ -16,6 +16,7 @@ inline constexpr Color kScanColor = kBlue;
 inline constexpr Color kPathColor = kVermillion;
 inline const Color kTruthUnderlay{205, 205, 205};  ///< true walls behind coloured lines
 inline const Color kFaintPoints{175, 175, 175};
+inline constexpr double kPlaceSizePt = 3.0;
 
 /// How many segments or points all panels of one figure may show: an SVG of them stays below a megabyte.
 inline constexpr std::size_t kSegmentBudget = 14000;
@@ -24,13 +25,13 @@ inline constexpr std::size_t kPointBudget = 9000;
 /// The frame to show: `wanted`, -1 for the middle one, the last one if there are fewer. The recording has frames.
 std::size_t shown_frame(const Recording& recording, int wanted);
 
-enum class PoseSource { estimated, truth, odometry };
-std::string to_string(PoseSource source);  ///< "estimated poses", "true poses", "odometry"
+enum class PoseSource { estimated, truth, recorded };
+std::string to_string(PoseSource source);  ///< "estimated poses", "true poses", "recorded poses"
 
-/// World poses of all frames: estimated ones if the result has them, else true ones, else odometry. `result` may be
-/// nullptr.
+/// World poses of all frames: estimated ones if the result has them, else true ones, else those of the log. `result`
+/// may be nullptr.
 struct PlacedFrames {
-  PoseSource source = PoseSource::odometry;
+  PoseSource source = PoseSource::recorded;
   std::vector<Pose2> world_from_sensor;
 };
 PlacedFrames place_frames(const Recording& recording, const PipelineResult* result);
@@ -41,8 +42,9 @@ std::vector<Vec2> frame_points(const Recording& recording, std::size_t frame, co
 /// At most `budget` points, evenly taken from the valid returns of all frames.
 std::vector<Vec2> all_points(const Recording& recording, std::span<const Pose2> world_from_sensor, std::size_t budget);
 
-/// Positions of poses; their path as a line, dots where the sensor was placed.
-Polyline path_of(std::span<const Pose2> poses, const Stroke& stroke);
+/// The way of the sensor as a line, and its legend entry; dots where it was put down at each pose.
+void add_path(const FigureInput& input, std::span<const Pose2> poses, const Stroke& stroke, Panel& panel);
+LegendEntry path_legend(const FigureInput& input, const Stroke& stroke);
 
 /// True walls as seen from a frame (identity: world frame); empty without truth.
 std::vector<Segment> true_walls(const Recording& recording, const Pose2& frame_from_world);

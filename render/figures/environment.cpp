@@ -2,6 +2,8 @@
 // Of a recorded log: the points of all scans in place of walls.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/registry.hpp"
 #include "render/figures/common.hpp"
 
@@ -37,6 +39,7 @@ class Environment : public Figure {
     const PlacedFrames placed = place_frames(recording, nullptr);
     if (has_walls) {
       add_walls(*recording.truth, panel, scene);
+      add_distractors(input, panel, scene);
       caption += " walls with their labels";
     } else {
       const std::vector<Vec2> points = all_points(recording, placed.world_from_sensor, kPointBudget);
@@ -48,11 +51,9 @@ class Environment : public Figure {
     }
     if (has_frames) {
       const Stroke stroke{kPathColor, 0.7, Dash::solid};
-      panel.items.emplace_back(path_of(placed.world_from_sensor, stroke));
-      scene.legend.push_back(
-          {.text = placed.source == PoseSource::truth ? "trajectory" : "odometry", .stroke = stroke});
-      caption += fmt::format(", {} of {} scans", placed.source == PoseSource::truth ? "trajectory" : "odometry",
-                             recording.observed.frames.size());
+      add_path(input, placed.world_from_sensor, stroke, panel);
+      scene.legend.push_back(path_legend(input, stroke));
+      caption += fmt::format(", {} of {} scans", to_string(placed.source), recording.observed.frames.size());
     }
     if (has_frames && params_.scan) {
       const std::size_t frame = shown_frame(recording, params_.frame);
@@ -76,6 +77,21 @@ class Environment : public Figure {
       panel.items.emplace_back(
           Text{.at = wall.segment.midpoint(), .text = wall.label, .offset_pt = 2.6 * behind, .scale = 0.88});
     }
+  }
+
+  static void add_distractors(const FigureInput& input, Panel& panel, Scene& scene) {
+    const Stroke round{kWallColor, 0.8, Dash::solid}, moving{kGrey, 0.8, Dash::dashed};
+    for (const RoundThing& thing : input.round_things) {
+      Polyline circle{.stroke = round, .closed = true};
+      for (int k = 0; k < 48; ++k) {
+        const double angle = 2 * kPi * k / 48;
+        circle.points.push_back(thing.center + thing.radius_m * Vec2(std::cos(angle), std::sin(angle)));
+      }
+      panel.items.emplace_back(std::move(circle));
+    }
+    for (const std::vector<Vec2>& path : input.body_paths)
+      panel.items.emplace_back(Polyline{.points = path, .stroke = moving});
+    if (!input.body_paths.empty()) scene.legend.push_back({.text = "way of a moving body", .stroke = moving});
   }
 
   static void add_scan(const Recording& recording, std::size_t frame, const Pose2& pose, Panel& panel, Scene& scene) {

@@ -28,7 +28,7 @@ class LinesWorld : public Figure {
       const auto& [pipeline, result] = input.results[i];
       const PlacedFrames placed = place_frames(recording, result);
       Panel panel;
-      panel.items.emplace_back(path_of(placed.world_from_sensor, path_stroke));
+      add_path(input, placed.world_from_sensor, path_stroke, panel);
       Lines lines{.stroke = {method_style(i).color, 0.6, Dash::solid}};
       std::size_t found = 0;
       for (std::size_t f = 0; f < std::min(result->lines.size(), placed.world_from_sensor.size()); ++f) {
@@ -47,7 +47,7 @@ class LinesWorld : public Figure {
       for (Panel& panel : scene.panels) set_robust_ranges(panel, ends);
     if (recording.truth) scene.legend.push_back({.text = "true walls", .stroke = wall_stroke});
     add_method_legend(input.results, 0.9, scene);
-    scene.legend.push_back({.text = "path of the sensor", .stroke = path_stroke});
+    scene.legend.push_back(path_legend(input, path_stroke));
     const std::string thinned = stride > 1 ? fmt::format(" Only one scan in {} is drawn.", stride) : "";
     return {{"lines_world",
              input.title + ": the lines found in all scans, placed by the poses of each pipeline." + thinned,

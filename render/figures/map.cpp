@@ -24,6 +24,7 @@ class Map : public Figure {
     scene.title = input.title + ": line maps";
     std::vector<Vec2> ends;
     Color first_color = kBlack;
+    const Stroke path_stroke{kGrey, 0.5, Dash::dotted};
     for (std::size_t i = input.results.size(); i-- > 0;)
       if (has_map(input.results[i])) first_color = method_style(i).color;
     for (std::size_t i = 0; i < input.results.size(); ++i) {
@@ -44,14 +45,14 @@ class Map : public Figure {
       ends.insert(ends.end(), tips.points.begin(), tips.points.end());
       panel.items.emplace_back(std::move(lines));
       if (tips.points.size() <= 400) panel.items.emplace_back(std::move(tips));  // more would hide the lines
-      panel.items.emplace_back(path_of(placed.world_from_sensor, {kGrey, 0.5, Dash::dotted}));
+      add_path(input, placed.world_from_sensor, path_stroke, panel);
       if (!recording.truth) set_robust_ranges(panel, std::get<Points>(panel.items[0]).points);
       scene.panels.push_back(std::move(panel));
     }
     scene.legend.push_back(
         {.text = "points of all scans", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.0});
     scene.legend.push_back({.text = "lines of the map", .stroke = Stroke{first_color, 1.2, Dash::solid}});
-    scene.legend.push_back({.text = "path of the sensor", .stroke = Stroke{kGrey, 0.5, Dash::dotted}});
+    scene.legend.push_back(path_legend(input, path_stroke));
     return {{"map", input.title + ": the line map of each pipeline over the points of all scans.", std::move(scene)}};
   }
 };

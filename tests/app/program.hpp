@@ -16,6 +16,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/places.hpp"
+
 namespace scanbench::app_test {
 
 namespace fs = std::filesystem;
@@ -121,7 +123,7 @@ class Child {
 };
 
 inline Args command(Args args) {
-  args.insert(args.begin(), SCANBENCH_PROGRAM);
+  args.insert(args.begin(), places::program());
   return args;
 }
 
@@ -195,7 +197,7 @@ inline std::string room_with(const std::string& piece, const std::string& replac
 }
 
 inline std::string abcdef() {
-  return std::string(SCANBENCH_SOURCE_DIR) + "/scenarios/abcdef.yaml";
+  return places::source_dir() / "scenarios/abcdef.yaml";
 }
 
 }  // namespace scanbench::app_test

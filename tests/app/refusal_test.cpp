@@ -165,7 +165,7 @@ TEST(OutputFolder, ThatMayNotBeWrittenIsRefused) {
 TEST(OutputFolder, OnADiskThatIsFullHoldsNoHalfWrittenFileAndTheOldRunStays) {
   const Folder folder;
   folder.write("room.yaml", room());
-  const std::string run_it = std::string(SCANBENCH_PROGRAM) + " run room.yaml -q --out run";
+  const std::string run_it = places::program().string() + " run room.yaml -q --out run";
   ASSERT_EQ(run({"run", "room.yaml", "-q", "--out", "run"}, {}, folder.path()).code, 0);
   const auto before = files(folder.path());
   // The limit cuts files at 1 KiB (the manifest), 4 KiB (the recording).
@@ -197,7 +197,7 @@ TEST(StandardOutput, ThatCannotBeWrittenIsNoBugOfOurs) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   for (const char* verb : {"list", "describe --all"}) {
     const auto outcome =
-        Child({"/bin/bash", "-c", std::string(SCANBENCH_PROGRAM) + " " + verb + " > /dev/full"}, {}, {}).wait();
+        Child({"/bin/bash", "-c", places::program().string() + " " + verb + " > /dev/full"}, {}, {}).wait();
     EXPECT_EQ(outcome.code, 2) << verb << ": " << outcome.err;
     EXPECT_THAT(outcome.err, Not(HasSubstr("internal error")));
   }

@@ -52,7 +52,7 @@ TEST(Catalog, ListsEveryKindAndDescribesEveryName) {
 }
 
 TEST(Check, FindsEveryScenarioOfTheTreeGood) {
-  for (const auto& entry : fs::directory_iterator(fs::path(SCANBENCH_SOURCE_DIR) / "scenarios")) {
+  for (const auto& entry : fs::directory_iterator(places::source_dir() / "scenarios")) {
     if (entry.path().extension() != ".yaml") continue;
     const auto outcome = run({"check", entry.path().string()});
     EXPECT_EQ(outcome.code, 0) << outcome.err;

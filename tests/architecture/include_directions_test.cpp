@@ -9,6 +9,8 @@
 #include <set>
 #include <string>
 
+#include "tests/support/places.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -34,7 +36,7 @@ const std::set<std::string> kTruthHeaders = {"core/truth.hpp", "core/recording.h
 template <class Check>
 void for_each_include(const std::string& folder, const Check& check) {
   const std::regex include(R"re(^\s*#\s*include\s*["<]([^">]+)[">])re");
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(SCANBENCH_SOURCE_DIR) / folder)) {
+  for (const auto& entry : fs::recursive_directory_iterator(scanbench::places::source_dir() / folder)) {
     const auto ending = entry.path().extension();
     if (ending != ".cpp" && ending != ".hpp") continue;
     std::ifstream file(entry.path());
@@ -64,7 +66,7 @@ TEST(Architecture, NoAlgorithmCanSeeTheTruth) {
   });
   // ... nor through a header that it may include.
   for (const char* header : {"scan.hpp", "modules.hpp", "line_map.hpp", "result.hpp", "registry.hpp", "trace.hpp"}) {
-    std::ifstream file(fs::path(SCANBENCH_SOURCE_DIR) / "core" / header);
+    std::ifstream file(scanbench::places::source_dir() / "core" / header);
     ASSERT_TRUE(file) << header;
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     for (const auto& truth : kTruthHeaders)
@@ -86,7 +88,7 @@ TEST(Architecture, LibrariesAppearInOneFolderEach) {
 TEST(Architecture, RandomnessComesFromTheCounterBasedGeneratorOnly) {
   const std::regex forbidden(R"(std::(random_device|mt19937|normal_distribution|uniform_\w+_distribution|rand)\b)");
   for (const auto& [folder, allowed] : kAllowed) {
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SCANBENCH_SOURCE_DIR) / folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(scanbench::places::source_dir() / folder)) {
       const auto ending = entry.path().extension();
       if (ending != ".cpp" && ending != ".hpp") continue;
       std::ifstream file(entry.path());

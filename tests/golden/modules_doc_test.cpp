@@ -6,12 +6,13 @@
 #include <string>
 
 #include "harness/catalog.hpp"
+#include "tests/support/places.hpp"
 
 namespace scanbench {
 namespace {
 
 TEST(ModulesDocument, IsWhatDescribeAllPrints) {
-  std::ifstream file(std::string(SCANBENCH_SOURCE_DIR) + "/docs/modules.md");
+  std::ifstream file(places::source_dir() / "docs/modules.md");
   ASSERT_TRUE(file);
   const std::string document((std::istreambuf_iterator<char>(file)), {});
   EXPECT_EQ(document, harness::catalog_markdown(harness::catalog()))

@@ -10,18 +10,12 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "tests/support/places.hpp"
 
 namespace scanbench::harness {
 
-inline std::filesystem::path source_dir() {
-  return SCANBENCH_SOURCE_DIR;
-}
-
-/// Where recorded logs may be: the environment's SCANBENCH_DATA, or beside the source tree.
-inline std::filesystem::path data_dir() {
-  const char* data = std::getenv("SCANBENCH_DATA");
-  return data != nullptr ? std::filesystem::path(data) : source_dir() / "../shared/data";
-}
+using places::data_dir;
+using places::source_dir;
 
 /// The message of the ConfigError that the work throws, "" if it throws none.
 template <class Work>

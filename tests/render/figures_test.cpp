@@ -99,6 +99,26 @@ TEST(ScanOverlay, ShowsTheFrameAskedForAndOnePanelPerPipelineInTheMethodsColour)
   }
 }
 
+TEST(Environment, DrawsAWayOnlyWhereThereIsOneAndRoundThingsWhereTheyStand) {
+  const Case c = simulated(9);
+  for (const bool continuous : {true, false}) {
+    FigureInput input = c.input({});
+    input.continuous = continuous;
+    input.round_things = {{Vec2(2, 3), 0.5}};
+    const auto scenes = Registry<Figure>::make("environment")->draw(input);
+    std::size_t ways = 0, circles = 0;
+    for (const Item& item : scenes.at(0).scene.panels.at(0).items)
+      if (const Polyline* line = std::get_if<Polyline>(&item)) {
+        ways += line->points.size() == 9 ? 1 : 0;
+        if (!line->closed) continue;
+        ++circles;
+        for (const Vec2& p : line->points) EXPECT_NEAR((p - Vec2(2, 3)).norm(), 0.5, 1e-12);
+      }
+    EXPECT_EQ(ways, continuous ? 1U : 0U);
+    EXPECT_EQ(circles, 1U);
+  }
+}
+
 TEST(LinesWorld, PlacesLinesByEstimatedPosesIfThereAreAnyElseByTrueOnes) {
   Case c = simulated(2);
   const Pose2 moved(100, 0, 0);
