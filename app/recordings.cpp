@@ -1,4 +1,4 @@
-// simulate: recordings without pipelines. export: recordings as logs that other programs read.
+// simulate: recordings without pipelines. export: recordings as logs that other programs read, lines as polygons.
 #include <fmt/format.h>
 
 #include <thread>
@@ -6,7 +6,9 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "harness/atomic_file.hpp"
+#include "harness/cell_files.hpp"
 #include "harness/export.hpp"
+#include "harness/polygon_files.hpp"
 #include "harness/recording_folder.hpp"
 #include "harness/run_folder.hpp"
 
@@ -63,6 +65,22 @@ int simulate(const Options& options, const std::vector<std::string>& argv) {
   return kGood;
 }
 
+constexpr const char* kPolygons = "polygons";
+
+int export_polygons(const Options& options) {
+  const fs::path out = options.out.empty() ? fs::path(options.run) / "export" : fs::path(options.out);
+  for (const auto& key : harness::load_manifest(options.run).cells) {
+    const fs::path cell = harness::cell_path(options.run, key);
+    if (!fs::exists(cell / "lines.csv")) continue;
+    const std::string text = harness::polygons_csv(harness::load_result(cell).lines);
+    const fs::path path = out / fmt::format("{}_{}_{}_polygons.csv", key.scenario, key.pipeline, key.seed);
+    harness::make_folders(out);
+    harness::write_file_atomically(path, text);
+    fmt::print("{}\n", path.string());
+  }
+  return kGood;
+}
+
 int export_recordings(const Options& options) {
   const fs::path folder = fs::path(options.run) / "recordings";
   if (!fs::exists(folder)) throw ConfigError(options.run + ": not a run folder: it has no recordings/");
@@ -107,13 +125,20 @@ void add_recordings(Context& context) {
 
   auto* export_verb = context.app.add_subcommand(
       "export",
-      "Writes a run's recordings as logs that other programs read, and prints the options that read them back");
+      "Writes a run's recordings as logs that other programs read, and prints the options that read them back; or the "
+      "lines of its cells as polygons");
   export_verb->add_option("RUN", options->run, "a run folder")->required();
-  export_verb->add_option("--format", options->format, "carmen, csv or tum (poses)")
-      ->check(CLI::IsMember(harness::export_formats()))
+  auto formats = harness::export_formats();
+  formats.emplace_back(kPolygons);
+  export_verb->add_option("--format", options->format, "carmen, csv, tum (poses) or polygons (of every cell)")
+      ->check(CLI::IsMember(formats))
       ->capture_default_str();
   export_verb->add_option("-o,--out", options->out, "the folder to write to (default: RUN/export)");
-  export_verb->callback([&context, options] { context.action = [options] { return export_recordings(*options); }; });
+  export_verb->callback([&context, options] {
+    context.action = [options] {
+      return options->format == kPolygons ? export_polygons(*options) : export_recordings(*options);
+    };
+  });
 }
 
 }  // namespace scanbench::app

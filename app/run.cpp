@@ -9,6 +9,7 @@
 #include "app/progress.hpp"
 #include "harness/run_report.hpp"
 #include "harness/runner.hpp"
+#include "harness/scenario_tables.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -30,7 +31,7 @@ std::size_t terminal_width() {
 
 void print_tables(const harness::ReportInput& input) {
   for (const auto& scenario : input.scenarios)
-    for (const auto& table : harness::result_tables(scenario, input.rows))
+    for (const auto& table : harness::scenario_tables(scenario, input.rows, harness::TableDetail::summary))
       fmt::print("{}\n", harness::to_terminal(table, use_color(), terminal_width()));
 }
 

@@ -9,6 +9,7 @@
 #include <openssl/evp.h>
 
 #include "harness/atomic_file.hpp"
+#include "harness/scenario_tables.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -37,7 +38,7 @@ figure { margin: 1rem 0; } figure img { max-width: 100%; height: auto; } figcapt
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; font-size: .86rem; } dt { color: var(--faint); } dd { margin: 0; overflow-wrap: anywhere; }
 )css";
 
-constexpr std::size_t kPageWidth = 128;  // characters of a table that fit the page
+constexpr std::size_t kPageWidth = 136;  // characters of a table that fit the page
 
 std::string base64(const std::string& bytes) {
   std::string out(4 * ((bytes.size() + 2) / 3) + 1, '\0');
@@ -109,7 +110,7 @@ std::string report_html(const ReportInput& input) {
   for (const auto& scenario : input.scenarios) {
     out += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n<p class=\"faint\">{2}</p>\n", html_escaped(scenario.name),
                        html_escaped(scenario.about), html_escaped(input_text(scenario)));
-    for (const auto& table : result_tables(scenario, input.rows))
+    for (const auto& table : scenario_tables(scenario, input.rows, TableDetail::departures))
       for (const auto& part : parts_of_width(table, kPageWidth)) out += to_html(part);
     out += "<div class=\"figures\">\n";
     for (const auto& figure : figures_of(input, scenario.name)) {
@@ -131,7 +132,8 @@ std::string report_markdown(const ReportInput& input) {
   if (const auto table = failures(input.cells)) out += "\n" + to_markdown(*table);
   for (const auto& scenario : input.scenarios) {
     out += "\n## " + scenario.name + "\n\n" + scenario.about + "\n\n" + input_text(scenario) + "\n";
-    for (const auto& table : result_tables(scenario, input.rows)) out += "\n" + to_markdown(table);
+    for (const auto& table : scenario_tables(scenario, input.rows, TableDetail::departures))
+      out += "\n" + to_markdown(table);
     for (const auto& figure : figures_of(input, scenario.name))
       out += fmt::format("\n![{0}](figures/{1}.svg)\n\n{0}\n", figure.caption, figure.name);
   }

@@ -1,4 +1,4 @@
-// Grouping, averaging over seeds, marking the best, and the published values in their places.
+// Grouping, averaging over seeds, marking the best.
 #include "harness/results_table.hpp"
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include "harness/atomic_file.hpp"
 #include "harness/csv.hpp"
 #include "harness/statistics.hpp"
+#include "harness/table_marks.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::harness {
@@ -21,23 +22,6 @@ namespace {
 
 using metrics::Direction;
 using metrics::MetricDescription;
-
-// How a metric is shown: lengths below a metre in centimetres, as the papers print them.
-struct Display {
-  std::string unit;
-  double scale = 1.0;
-  int decimals = 2;
-};
-
-Display display_for(const std::string& unit, double largest) {
-  Display display{unit, 1.0, 2};
-  if (unit == "m" && largest < 1.0) display = {"cm", 100.0, 2};
-  if (unit == "s" && largest < 1.0) display = {"ms", 1e3, 2};
-  if (unit == "rad") display = {"deg", 180.0 / kPi, 2};
-  const double shown = largest * display.scale;
-  if (shown > 0) display.decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(shown))), 0, 4);
-  return display;
-}
 
 // Our value of one (pipeline, metric, subject) over seeds.
 using Key = std::pair<std::string, std::string>;  // metric, subject
@@ -66,20 +50,6 @@ std::string value_text(const Interval& interval, const Display& display) {
   return text;
 }
 
-bool better(double a, double b, Direction direction) {
-  return direction == Direction::lower_is_better ? a < b : a > b;
-}
-
-// Marks the best of the cells whose values are given (NaN: no value); ties are all best.
-void mark_best(std::vector<TableCell*> cells, const std::vector<double>& values, Direction direction) {
-  if (direction == Direction::neither || std::ranges::count_if(values, [](double v) { return std::isfinite(v); }) < 2)
-    return;
-  double best = std::numeric_limits<double>::quiet_NaN();
-  for (const double v : values)
-    if (std::isfinite(v) && (std::isnan(best) || better(v, best, direction))) best = v;
-  for (std::size_t i = 0; i < cells.size(); ++i) cells[i]->best = values[i] == best;
-}
-
 struct Family {
   std::string name;
   std::vector<MetricDescription> metrics;
@@ -88,9 +58,7 @@ struct Family {
 class TableBuilder {
  public:
   TableBuilder(const Scenario& scenario, const std::vector<SummaryRow>& rows)
-      : scenario_(scenario), rows_(rows), values_(rows, scenario.name) {
-    if (!scenario.published_file.empty()) published_ = load_published(scenario.published_file);
-  }
+      : scenario_(scenario), rows_(rows), values_(rows, scenario.name) {}
 
   std::optional<Table> build(const Family& family) const {
     const auto subjects = subjects_of(family);
@@ -120,39 +88,7 @@ class TableBuilder {
     return largest;
   }
 
-  const PublishedValue* published(const Key& key, const std::string& method) const {
-    for (const auto& value : published_)
-      if (value.metric == key.first && value.subject == key.second && value.method == method) return &value;
-    return nullptr;
-  }
-
-  std::vector<std::string> published_methods(const std::string& metric) const {
-    std::vector<std::string> methods;
-    for (const auto& value : published_)
-      if (value.metric == metric && is_compared(value.method) &&
-          std::ranges::find(methods, value.method) == methods.end())
-        methods.push_back(value.method);
-    return methods;
-  }
-
-  // A method that a pipeline names; all of them if no pipeline names any.
-  bool is_compared(const std::string& method) const {
-    const auto& pipelines = scenario_.pipelines;
-    return std::ranges::all_of(pipelines, [](const PipelineSpec& p) { return p.published.empty(); }) ||
-           std::ranges::any_of(pipelines, [&](const PipelineSpec& p) { return p.published == method; });
-  }
-
-  static std::string heading(const MetricDescription& metric, const Display& display) {
-    return display.unit.empty() ? metric.metric : metric.metric + " [" + display.unit + "]";
-  }
-
-  static TableCell published_cell(const PublishedValue* value, const Display& display) {
-    if (value == nullptr) return {"", false, true};
-    const bool as_printed = value->unit == display.unit;
-    return {as_printed ? value->printed : fmt::format("{:.4g}", value->value * display.scale), false, true};
-  }
-
-  // Rows: subjects. Columns: per metric, our pipelines and then the published methods.
+  // Rows: subjects. Columns: per metric, the pipelines.
   Table by_subject(const Family& family, const std::vector<std::string>& subjects) const {
     Table table{family.name, scenario_.name + ": " + family.name, caption(), {"line"}, {}, {}};
     for (const auto& subject : subjects) table.rows.push_back({{subject}, {}, false});
@@ -161,30 +97,22 @@ class TableBuilder {
       const Display display = display_for(metric.unit, largest(metric.metric));
       const std::size_t first = table.columns.size();
       for (const auto& pipeline : scenario_.pipelines)
-        table.columns.push_back({heading(metric, display), pipeline.name, false});
-      const auto methods = published_methods(metric.metric);
-      for (const auto& method : methods) table.columns.push_back({heading(metric, display), method + " (paper)", true});
+        table.columns.push_back({heading(metric.metric, display), pipeline.name, false});
       for (std::size_t r = 0; r < subjects.size(); ++r) {
         auto& cells = table.rows[r].cells;
-        std::vector<double> ours, theirs;
+        std::vector<double> ours;
         for (const auto& pipeline : scenario_.pipelines) {
           const auto value = values_.find(pipeline.name, {metric.metric, subjects[r]});
           cells.push_back({value ? value_text(*value, display) : "", false, false});
           ours.push_back(value ? value->mean : std::numeric_limits<double>::quiet_NaN());
         }
-        for (const auto& method : methods) {
-          const auto* value = published({metric.metric, subjects[r]}, method);
-          cells.push_back(published_cell(value, display));
-          theirs.push_back(value ? value->value : std::numeric_limits<double>::quiet_NaN());
-        }
         mark_best(pointers(cells, first, ours.size()), ours, metric.direction);
-        mark_best(pointers(cells, first + ours.size(), theirs.size()), theirs, metric.direction);
       }
     }
     return table;
   }
 
-  // Rows: pipelines, each followed by its published row. Columns: metrics.
+  // Rows: pipelines. Columns: metrics.
   Table by_pipeline(const Family& family) const {
     Table table{family.name, scenario_.name + ": " + family.name, caption(), {"pipeline"}, {}, {}};
     struct Column {
@@ -195,28 +123,21 @@ class TableBuilder {
     for (const auto& metric : family.metrics) {
       if (!reported(metric.metric)) continue;
       columns.push_back({&metric, display_for(metric.unit, largest(metric.metric))});
-      table.columns.push_back({"", heading(metric, columns.back().display), false});
+      table.columns.push_back({"", heading(metric.metric, columns.back().display), false});
     }
     for (const auto& pipeline : scenario_.pipelines) {
       Table::Row row{{pipeline.name}, {}, false};
-      Table::Row paper{{"  paper: " + pipeline.published}, {}, true};
-      bool any_published = false;
       for (const auto& column : columns) {
         const Key key{column.metric->metric, "all"};
         const auto value = values_.find(pipeline.name, key);
         row.cells.push_back({value ? value_text(*value, column.display) : "", false, false});
-        const auto* theirs = published(key, pipeline.published);
-        paper.cells.push_back(published_cell(theirs, column.display));
-        any_published = any_published || theirs != nullptr;
       }
       table.rows.push_back(std::move(row));
-      if (any_published) table.rows.push_back(std::move(paper));
     }
     for (std::size_t c = 0; c < columns.size(); ++c) {
       std::vector<TableCell*> cells;
       std::vector<double> ours;
       for (auto& row : table.rows) {
-        if (row.published) continue;
         const auto value = values_.find(row.heads.front(), {columns[c].metric->metric, "all"});
         cells.push_back(&row.cells[c]);
         ours.push_back(value ? value->mean : std::numeric_limits<double>::quiet_NaN());
@@ -248,28 +169,15 @@ class TableBuilder {
     std::string text = "* best of its kind";
     if (scenario_.seeds.size() > 1)
       text += fmt::format("; mean over {} seeds ± half width of the 95 % interval", scenario_.seeds.size());
-    if (!published_.empty()) text += "; (paper): as published";
     return text + ".";
   }
 
   const Scenario& scenario_;
   const std::vector<SummaryRow>& rows_;
   Values values_;
-  std::vector<PublishedValue> published_;
 };
 
 }  // namespace
-
-std::vector<PublishedValue> load_published(const std::filesystem::path& path) {
-  const CsvTable csv(read_file(path), path, {"metric", "subject", "method", "value", "unit"});
-  std::vector<PublishedValue> values;
-  for (std::size_t r = 0; r < csv.rows(); ++r) {
-    const double scale = csv.text(r, "unit") == "cm" ? 0.01 : 1.0;
-    values.push_back({csv.text(r, "metric"), csv.text(r, "subject"), csv.text(r, "method"),
-                      csv.number(r, "value") * scale, csv.text(r, "value"), csv.text(r, "unit")});
-  }
-  return values;
-}
 
 std::vector<SummaryRow> load_summary(const std::filesystem::path& path) {
   const CsvTable csv(read_file(path), path,
@@ -283,12 +191,15 @@ std::vector<SummaryRow> load_summary(const std::filesystem::path& path) {
   return rows;
 }
 
-std::vector<Table> result_tables(const Scenario& scenario, const std::vector<SummaryRow>& rows) {
+std::vector<Table> result_tables(const Scenario& scenario, const std::vector<SummaryRow>& rows,
+                                 const std::vector<std::string>& shown_elsewhere) {
   const TableBuilder builder(scenario, rows);
   std::vector<Table> tables;
   for (const auto& choice : scenario.metrics) {
     const auto family = Registry<metrics::MetricFamily>::make(choice.module, choice.params);
-    if (auto table = builder.build({choice.module, family->describe()})) tables.push_back(std::move(*table));
+    auto described = family->describe();
+    std::erase_if(described, [&](const auto& m) { return std::ranges::count(shown_elsewhere, m.metric) > 0; });
+    if (auto table = builder.build({choice.module, std::move(described)})) tables.push_back(std::move(*table));
   }
   return tables;
 }

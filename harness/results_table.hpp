@@ -1,4 +1,4 @@
-// From the rows of summary.csv to the tables of a report, the published values beside ours.
+// From the rows of summary.csv to the tables of a report.
 #pragma once
 
 #include <cstdint>
@@ -25,24 +25,10 @@ struct SummaryRow {
 
 std::vector<SummaryRow> load_summary(const std::filesystem::path& path);
 
-/// A value that a paper prints, by the paper's name of the method.
-struct PublishedValue {
-  std::string metric;
-  std::string subject;
-  std::string method;
-  double value = 0.0;   ///< in the unit of our metric
-  std::string printed;  ///< as the paper prints it
-  std::string unit;     ///< of `printed`
-};
-
-/// Reads a file `metric,subject,method,value,unit`; units are converted to those of our metrics (cm to m). Throws
-/// ConfigError.
-std::vector<PublishedValue> load_published(const std::filesystem::path& path);
-
-/// One table per metric family of the scenario. Families that speak of many subjects (walls) have a row per subject and
-/// a column per pipeline and published method; the others a row per pipeline, the published row below it, and a column
-/// per metric. Over several seeds a value is the mean with the half width of its 95 % interval. The best of our
-/// pipelines is marked, and the best published value among the published ones.
-std::vector<Table> result_tables(const Scenario& scenario, const std::vector<SummaryRow>& rows);
+/// One table per metric family of the scenario, without the metrics that are `shown_elsewhere`. Families that speak of
+/// many subjects (walls) have a row per subject and a column per pipeline; the others a row per pipeline and a column
+/// per metric. Over several seeds a value is the mean with the half width of its 95 % interval. The best is marked.
+std::vector<Table> result_tables(const Scenario& scenario, const std::vector<SummaryRow>& rows,
+                                 const std::vector<std::string>& shown_elsewhere = {});
 
 }  // namespace scanbench::harness

@@ -100,6 +100,7 @@ bool is_run_file(const fs::path& relative) {
   const std::string& first = parts.front();
   const std::string ending = relative.extension().string();
   if (first == "figures") return ending == ".png" || ending == ".svg" || ending == ".pdf" || last == "index.json";
+  if (first == "published") return parts.size() == 2 && one_of({"cells.csv", "orderings.csv", "agreement.csv"});
   if (first == "scenarios" || first == "effective") return parts.size() == 2 && ending == ".yaml";
   if (first == "recordings")
     return parts.size() == 4 && one_of({"walls.csv", "frames.csv", "rotations.npy", "scan.json", "ranges.npy",

@@ -1,6 +1,7 @@
 // Gathers what a report shows; writes figures and reports.
 #include "harness/run_report.hpp"
 
+#include "harness/agreement.hpp"
 #include "harness/atomic_file.hpp"
 #include "harness/cell_files.hpp"
 #include "harness/run_folder.hpp"
@@ -8,6 +9,20 @@
 namespace scanbench::harness {
 
 namespace fs = std::filesystem;
+namespace {
+
+// published/*.csv, if a scenario has values of a paper.
+void write_agreement(const fs::path& run, const ReportInput& input) {
+  std::vector<std::pair<std::string, std::vector<ComparedColumn>>> compared;
+  for (const auto& scenario : input.scenarios)
+    if (auto columns = compare_with_paper(scenario, input.rows); !columns.empty())
+      compared.emplace_back(scenario.name, std::move(columns));
+  if (compared.empty()) return;
+  make_folders(run / "published");
+  for (const auto& file : agreement_files(compared)) write_file_atomically(run / "published" / file.name, file.bytes);
+}
+
+}  // namespace
 
 ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& scenarios) {
   ReportInput input;
@@ -48,6 +63,7 @@ void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenario
 void write_reports(const fs::path& run, const ReportInput& input) {
   write_file_atomically(run / "report.html", report_html(input));
   write_file_atomically(run / "report.md", report_markdown(input));
+  write_agreement(run, input);
   refresh_manifest(run);
 }
 

@@ -103,6 +103,21 @@ double median(std::span<const double> all) {
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
+MedianInterval median_interval(std::span<const double> all) {
+  std::vector<double> values = finite(all);
+  std::ranges::sort(values);
+  const std::size_t n = values.size();
+  // The number of values below the median is binomial(n, 1/2): ranks k and n + 1 - k miss it with 2 P(X < k).
+  std::size_t k = 0;
+  double term = std::pow(0.5, static_cast<double>(n));
+  for (double below = term; below <= kTail && k < n / 2; below += term) {
+    ++k;
+    term *= static_cast<double>(n - k + 1) / static_cast<double>(k);
+  }
+  if (k == 0) return {kNaN, kNaN};
+  return {values[k - 1], values[n - k]};
+}
+
 double pearson_correlation(std::span<const double> x, std::span<const double> y) {
   SCANBENCH_ASSERT(x.size() == y.size());
   std::vector<double> a, b;

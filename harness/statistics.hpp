@@ -21,6 +21,16 @@ struct Interval {
 Interval mean_interval(std::span<const double> values);
 
 double median(std::span<const double> values);  ///< NaN values left out; NaN for none
+
+/// The interval between two of the values that holds the median of their distribution with at least 95 % probability,
+/// whatever the distribution (of 20 values, the 6th and the 15th in order). Fewer than six values have none: NaN.
+struct MedianInterval {
+  double low;
+  double high;
+  double half_width() const { return 0.5 * (high - low); }
+};
+MedianInterval median_interval(std::span<const double> values);  ///< NaN values left out
+
 double pearson_correlation(std::span<const double> x,
                            std::span<const double> y);  ///< NaN for fewer than two pairs or no spread
 

@@ -20,6 +20,10 @@ void read_suite(const YamlNode& root, const std::vector<std::string>& sets, Suit
   const YamlNode* pipelines = map.find("pipelines");
   const YamlNode* metrics = map.find("metrics");
   const YamlNode* figures = map.find("figures");
+  const YamlNode* published = map.find("published");
+  const auto published_file = published == nullptr
+                                  ? std::filesystem::path()
+                                  : resolve_path(*published, map.text("published", "a file's path"), suite.path);
   const YamlNode& files = map.require("scenarios", "a list of scenario files");
   map.done();
   for (const auto& node : read_list(files, "scenarios", "a list of scenario files")) {
@@ -32,6 +36,7 @@ void read_suite(const YamlNode& root, const std::vector<std::string>& sets, Suit
     if (pipelines != nullptr) scenario.pipelines = read_pipelines(*pipelines);
     if (metrics != nullptr) scenario.metrics = read_choices(*metrics, "metrics");
     if (figures != nullptr) scenario.figures = read_choices(*figures, "figure");
+    if (published != nullptr) scenario.published_file = published_file;
     suite.scenarios.push_back(std::move(scenario));
   }
   if (suite.scenarios.empty()) throw PlacedError(files.mark, "scenarios is empty; allowed: at least one scenario file");

@@ -7,6 +7,7 @@
 //   pipelines: [...]                                    # optional: in place of the scenarios' own
 //   metrics: [...]                                      # optional: in place of the scenarios' own
 //   figures: [...]                                      # optional: in place of the scenarios' own
+//   published: ../published/paper.csv                   # optional: in place of the scenarios' own
 #pragma once
 
 #include <filesystem>

@@ -45,7 +45,7 @@ TEST(Bytes, OneJobTwoJobsAndAnInterruptedRunThatIsResumedGiveTheSame) {
   ASSERT_EQ(run(abcdef_run(folder / "cut", more)).code, 0);
 
   const auto expected = results(folder / "one");
-  EXPECT_EQ(expected.size(), 8U * 6U + 24U * 3U + 1U);  // recordings; labels, lines, metrics; summary
+  EXPECT_EQ(expected.size(), 8U * 6U + 24U * 3U + 4U);  // recordings; labels, lines, metrics; summary, published
   EXPECT_THAT(differences(expected, results(folder / "two")), IsEmpty());
   EXPECT_THAT(differences(expected, results(folder / "cut")), IsEmpty());
 }

@@ -8,6 +8,7 @@
 
 #include "core/rng.hpp"
 #include "harness/log.hpp"
+#include "harness/polygon_files.hpp"
 #include "sim/sensors.hpp"
 #include "tests/harness/inputs_support.hpp"
 
@@ -106,6 +107,17 @@ TEST(Export, TumIsTimePositionAndQuaternion) {
 
 TEST(Export, UnknownFormatsAreRefused) {
   EXPECT_THAT(config_refusal([] { export_text({}, "carmn"); }), testing::HasSubstr("did you mean 'carmen'?"));
+}
+
+TEST(PolygonsCsv, HasTheRecordsOfEveryFrame) {
+  LineFeature wall;
+  wall.segment = {{2, -1}, {2, 3}};
+  wall.line = {2, 0};
+  wall.points = 41;
+  EXPECT_EQ(
+      polygons_csv({{}, {{wall}, {}}}),
+      "frame,segment,x1_m,y1_m,x2_m,y2_m,direction_x,direction_y,normal_x,normal_y,length_m,distance_m,points,flags\n"
+      "1,0,2,-1,2,3,0,1,1,0,4,2,41,1\n");
 }
 
 }  // namespace

@@ -181,7 +181,7 @@ TEST(ShippedSuites, LoadWithTheirSeeds) {
   EXPECT_EQ(load_suite(source_dir() / "scenarios/suites/extractors.yaml").scenarios[0].seeds.size(), 20U);
 }
 
-TEST(Suite, ReplacesPipelinesAndMetrics) {
+TEST(Suite, ReplacesPipelinesMetricsAndPublishedValues) {
   const TemporaryFolder folder;
   folder.write("one.yaml", kSmall);
   const auto file = folder.write("s.yaml",
@@ -194,6 +194,9 @@ TEST(Suite, ReplacesPipelinesAndMetrics) {
   EXPECT_EQ(suite.scenarios[0].pipelines[0].name, "lt");
   EXPECT_TRUE(suite.scenarios[0].metrics.empty());
   EXPECT_EQ(suite.scenarios[0].limits.seconds, 3.0);
+  folder.write("paper.csv", "metric,subject,method,value,unit\n");
+  const auto paper = folder.write("p.yaml", "schema: 1\nscenarios: [one.yaml]\npublished: paper.csv\n");
+  EXPECT_EQ(load_suite(paper).scenarios[0].published_file.filename(), "paper.csv");
   const auto twice = folder.write("t.yaml", "schema: 1\nscenarios: [one.yaml, one.yaml]\n");
   EXPECT_THAT(config_refusal([&] { load_suite(twice); }), HasSubstr("t.yaml:2:23: a second scenario is called one"));
 }

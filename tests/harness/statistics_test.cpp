@@ -61,6 +61,23 @@ TEST(Median, IsTheMiddleOfWhatIsANumber) {
   EXPECT_EQ(median(std::array{4.0, 1.0}), 2.5);
 }
 
+TEST(MedianInterval, IsBetweenTheRanksOfTheBinomialDistribution) {
+  // P(6th < median < 15th of 20) = 1 - 2 P(X <= 5) = 0.959; of 6 values only the outermost reach 0.969; of 10 the 2nd
+  // and the 9th 0.979 (Conover, Practical Nonparametric Statistics, table A3).
+  std::vector<double> values;
+  for (int i = 20; i >= 1; --i) values.push_back(i);
+  EXPECT_EQ(median_interval(values).low, 6.0);
+  EXPECT_EQ(median_interval(values).high, 15.0);
+  values.resize(10);  // 20 .. 11
+  EXPECT_EQ(median_interval(values).low, 12.0);
+  EXPECT_EQ(median_interval(values).high, 19.0);
+  values.resize(6);
+  EXPECT_EQ(median_interval(values).half_width(), 2.5);
+  values.back() = std::nan("");
+  EXPECT_TRUE(std::isnan(median_interval(values).low));
+  EXPECT_TRUE(std::isnan(median_interval({}).high));
+}
+
 TEST(PearsonCorrelation, IsOneForAnyRisingLine) {
   EXPECT_NEAR(pearson_correlation(std::array{1.0, 2.0, 4.0}, std::array{3.0, 5.0, 9.0}), 1.0, 1e-15);
   EXPECT_NEAR(pearson_correlation(std::array{1.0, 2.0, 3.0}, std::array{1.0, -2.0, 1.0}), 0.0, 1e-15);

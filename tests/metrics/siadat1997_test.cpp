@@ -58,16 +58,27 @@ TEST(Siadat1997, TimesAreMillisecondsPerScanOfTheThreeStages) {
   expect_value(rows, "t_pre", "all", 2.0, 2);
   expect_value(rows, "t_seg", "all", (2.0 + 6.0) / 2, 2);
   expect_value(rows, "t_post", "all", 0.0, 2);  // line tracking has no fit after its grouping
+  expect_value(rows, "t_total", "all", (3.0 + 9.0) / 2, 2);
   run.result.times.push_back({"fit", 1, 1e-3});
   expect_value(evaluate("siadat1997", run), "t_post", "all", 0.5, 2);
   for (const auto& d : family("siadat1997")->describe()) EXPECT_EQ(d.timing, d.metric.starts_with("t_")) << d.metric;
+}
+
+TEST(Siadat1997, APolygonTakes48BytesASegmentAgainst4ABeam) {
+  MadeUpRun run = points_near_x1({{0, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0}});
+  add_line(run, 0, polar_line(1, 0), {0, 1, 2});
+  add_line(run, 0, polar_line(1, 0), {3, 4});
+  add_line(run, 1, polar_line(1, 0), {0, 1, 2});
+  const auto rows = evaluate("siadat1997", run);
+  expect_value(rows, "polygon_bytes", "all", 3 * 48 / 2.0, 2);
+  expect_value(rows, "compression", "all", 2 * 7 * 4 / (3 * 48.0), 2);
 }
 
 TEST(Siadat1997, NeedsNoTruthAndSurvivesAnEmptyRun) {
   MadeUpRun run = make_run(ScanGeometry(0.0, 0.1, 7), {});
   EXPECT_TRUE(family("siadat1997")->applies(run.input_without_truth()));
   const auto rows = family("siadat1997")->evaluate(run.input_without_truth());
-  EXPECT_EQ(rows.size(), 10u);
+  EXPECT_EQ(rows.size(), 13u);
   for (const auto& r : rows) expect_undefined(rows, r.metric);
 }
 

@@ -1,0 +1,15 @@
+// The polygons of a cell's scans as a table (core/polygon.hpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scan.hpp"
+
+namespace scanbench::harness {
+
+/// A row per segment: frame, segment, then the fields of its record in their order. Neighbours joined by the usual
+/// rules.
+std::string polygons_csv(const std::vector<ScanLines>& scans);
+
+}  // namespace scanbench::harness
