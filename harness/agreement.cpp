@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
+#include <tuple>
 
 #include "core/registry.hpp"
 #include "harness/published.hpp"
@@ -76,19 +76,16 @@ std::vector<std::string> subjects_of(const std::string& metric, const std::vecto
   return subjects;
 }
 
-/// The index of the one that beats all others; none if two share the first place.
-std::optional<std::size_t> best_of(const std::vector<double>& values, Direction direction) {
-  std::optional<std::size_t> best;
-  bool shared = false;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) continue;
-    const double ahead = !best                                     ? 1.0
-                         : direction == Direction::lower_is_better ? values[*best] - values[i]
-                                                                   : values[i] - values[*best];
-    if (ahead > 0) best = i;
-    shared = ahead == 0 || (shared && ahead < 0);
-  }
-  return shared ? std::nullopt : best;
+/// The indices of those that no other is better than; NaN is never best.
+std::vector<std::size_t> best_of(const std::vector<double>& values, Direction direction) {
+  const double sign = direction == Direction::lower_is_better ? 1.0 : -1.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double value : values)
+    if (std::isfinite(value)) least = std::min(least, sign * value);
+  std::vector<std::size_t> best;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (sign * values[i] == least) best.push_back(i);
+  return best;
 }
 
 }  // namespace
@@ -173,24 +170,25 @@ std::vector<double> orderings_per_seed(const ComparedColumn& column) {
   return held;
 }
 
-std::vector<BestCount> best_counts(const ComparedColumn& column) {
+std::vector<BestCount> best_counts(const ComparedColumn& column, Ties ties) {
   std::vector<BestCount> counts;
   if (column.metric.direction == Direction::neither) return counts;
   for (std::size_t m = 0; m < column.methods.size(); ++m)
     if (!column.methods[m].published.empty()) counts.push_back({m, 0, 0, std::vector<double>(column.seeds, 0.0)});
 
-  const auto winner = [&](std::size_t subject, auto&& value_of) -> BestCount* {
+  const auto winners = [&](std::size_t subject, auto&& value_of) {
     std::vector<double> values;
     for (const auto& count : counts) values.push_back(value_of(column.at(subject, count.method)));
-    const auto best = best_of(values, column.metric.direction);
-    return best ? &counts[*best] : nullptr;
+    auto best = best_of(values, column.metric.direction);
+    if (ties == Ties::nobodys && best.size() > 1) best.clear();
+    return best;
   };
   for (std::size_t s = 0; s < column.subjects.size(); ++s) {
     if (!column.printed(s)) continue;
-    if (auto* best = winner(s, [](const ComparedCell& c) { return c.paper; })) ++best->paper;
-    if (auto* best = winner(s, [](const ComparedCell& c) { return c.our_median(); })) ++best->median;
+    for (const auto i : winners(s, [](const ComparedCell& c) { return c.paper; })) ++counts[i].paper;
+    for (const auto i : winners(s, [](const ComparedCell& c) { return c.our_median(); })) ++counts[i].median;
     for (std::size_t k = 0; k < column.seeds; ++k)
-      if (auto* best = winner(s, [&](const ComparedCell& c) { return c.ours[k]; })) ++best->per_seed[k];
+      for (const auto i : winners(s, [&](const ComparedCell& c) { return c.ours[k]; })) ++counts[i].per_seed[k];
   }
   return counts;
 }

@@ -67,16 +67,19 @@ std::vector<Ordering> orderings(const ComparedColumn& column);
 /// How many of them hold for the values of each seed.
 std::vector<double> orderings_per_seed(const ComparedColumn& column);
 
-/// On how many of the subjects that the paper prints a method is better than every other that it has; ties are
-/// nobody's.
+/// On how many of the subjects that the paper prints no other method that it has is better.
 struct BestCount {
   std::size_t method = 0;
   std::size_t paper = 0;
   std::size_t median = 0;        ///< by our medians over the seeds
   std::vector<double> per_seed;  ///< by the values of each seed
 };
+enum class Ties {
+  shared,  ///< all methods that share the first place are best
+  nobodys  ///< only a method that is better than every other
+};
 /// One for each published method; none if the metric has no better direction.
-std::vector<BestCount> best_counts(const ComparedColumn& column);
+std::vector<BestCount> best_counts(const ComparedColumn& column, Ties ties);
 
 /// Pearson's correlation of our cells with the printed ones; NaN for fewer than two pairs or no spread.
 struct Correlation {

@@ -68,10 +68,11 @@ std::string agreement_csv(const Scenarios& scenarios) {
         const auto all = static_cast<double>(stated.size());
         agreement_row(csv, scenario, column, "orderings", "", all, held, orderings_per_seed(column), stated.size());
       }
-      for (const auto& count : best_counts(column))
-        agreement_row(csv, scenario, column, "best", column.methods[count.method].published,
-                      static_cast<double>(count.paper), static_cast<double>(count.median), count.per_seed,
-                      column.printed_subjects());
+      for (const auto& [measure, ties] : {std::pair{"best", Ties::shared}, std::pair{"best_alone", Ties::nobodys}})
+        for (const auto& count : best_counts(column, ties))
+          agreement_row(csv, scenario, column, measure, column.methods[count.method].published,
+                        static_cast<double>(count.paper), static_cast<double>(count.median), count.per_seed,
+                        column.printed_subjects());
       if (const Correlation r = correlation(column); r.cells > 1)
         agreement_row(csv, scenario, column, "correlation", "", 1.0, r.of_medians, r.per_seed, r.cells);
     }

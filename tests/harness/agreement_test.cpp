@@ -86,32 +86,38 @@ TEST(SplitMethod, TakesTheLastWordWithAnEqualsSignForTheSetting) {
   EXPECT_EQ(split_method("SMF").setting, "");
 }
 
-TEST(BestCounts, CountLinesWhereAMethodBeatsAllOthers) {
+TEST(BestCounts, CountLinesWhereNoOtherMethodIsBetter) {
   // Two seeds. Paper: SMF is best on lines 1 and 2, LT and IEPF share line 3, line 4 is not printed. Our medians: line
   // 1 SMF; line 2 LT (1.5 of 1.5, 2.75, 2); line 3 SMF. Seed 1: SMF, LT, SMF; seed 2: IEPF, SMF, a tie of LT and SMF.
   const auto column = column_of(
       {{2, 3, 1}, {2, 3, 1}, {1, 1, 2}, {kNone, kNone, kNone}},
       {{{4, 4}, {5, 2}, {1, 3}}, {{0, 3}, {3, 2.5}, {2, 2}}, {{3, 2}, {3, 3}, {1, 2}}, {{9, 9}, {9, 9}, {0, 0}}});
   EXPECT_EQ(column.printed_subjects(), 3U);
-  const auto counts = best_counts(column);
-  ASSERT_EQ(counts.size(), 3U);
-  EXPECT_EQ(counts[0].paper, 0U);
-  EXPECT_EQ(counts[1].paper, 0U);
-  EXPECT_EQ(counts[2].paper, 2U);
-  EXPECT_EQ(counts[0].median, 1U);
-  EXPECT_EQ(counts[1].median, 0U);
-  EXPECT_EQ(counts[2].median, 2U);
-  EXPECT_THAT(counts[0].per_seed, ElementsAre(1, 0));
-  EXPECT_THAT(counts[1].per_seed, ElementsAre(0, 1));
-  EXPECT_THAT(counts[2].per_seed, ElementsAre(2, 1));
+  const auto alone = best_counts(column, Ties::nobodys);
+  ASSERT_EQ(alone.size(), 3U);
+  EXPECT_EQ(alone[0].paper, 0U);
+  EXPECT_EQ(alone[1].paper, 0U);
+  EXPECT_EQ(alone[2].paper, 2U);
+  EXPECT_EQ(alone[0].median, 1U);
+  EXPECT_EQ(alone[1].median, 0U);
+  EXPECT_EQ(alone[2].median, 2U);
+  EXPECT_THAT(alone[0].per_seed, ElementsAre(1, 0));
+  EXPECT_THAT(alone[1].per_seed, ElementsAre(0, 1));
+  EXPECT_THAT(alone[2].per_seed, ElementsAre(2, 1));
+  const auto shared = best_counts(column, Ties::shared);
+  EXPECT_EQ(shared[0].paper, 1U);
+  EXPECT_EQ(shared[1].paper, 1U);
+  EXPECT_EQ(shared[2].median, 2U);
+  EXPECT_THAT(shared[0].per_seed, ElementsAre(1, 1));
+  EXPECT_THAT(shared[2].per_seed, ElementsAre(2, 2));
 }
 
 TEST(BestCounts, KnowThatMoreMayBeBetterAndThatUndefinedIsNotBest) {
   const auto column = column_of({{0.5, 0.9, 0.7}}, {{{kNone}, {0.2}, {0.1}}}, Direction::higher_is_better);
-  const auto counts = best_counts(column);
+  const auto counts = best_counts(column, Ties::shared);
   EXPECT_EQ(counts[1].paper, 1U);
   EXPECT_EQ(counts[1].median, 1U);
-  EXPECT_THAT(best_counts(column_of({{1, 2, 3}}, {{{1}, {2}, {3}}}, Direction::neither)), IsEmpty());
+  EXPECT_THAT(best_counts(column_of({{1, 2, 3}}, {{{1}, {2}, {3}}}, Direction::neither), Ties::shared), IsEmpty());
 }
 
 TEST(CorrelationOfCells, IsPearsonsOverAllPrintedCells) {
@@ -228,7 +234,9 @@ TEST(AgreementFiles, AreTidyTablesOfCellsOrderingsAndSummaries) {
   EXPECT_THAT(files[1].bytes, HasSubstr("rooms,n_lines,1,SMF,LT,1,2,1,1,0,1,2\n"));
   EXPECT_EQ(files[2].name, "agreement.csv");
   EXPECT_THAT(files[2].bytes, HasSubstr("rooms,n_lines,orderings,,3,2,2,2.5,3,3\n"));
-  EXPECT_THAT(files[2].bytes, HasSubstr("rooms,n_lines,best,SMF,1,0,0,0.5,1,1\n"));
+  EXPECT_THAT(files[2].bytes, HasSubstr("rooms,n_lines,best,LT,0,1,0,0.5,1,1\n"));
+  EXPECT_THAT(files[2].bytes, HasSubstr("rooms,n_lines,best,SMF,1,1,0,0.5,1,1\n"));
+  EXPECT_THAT(files[2].bytes, HasSubstr("rooms,n_lines,best_alone,SMF,1,0,0,0.5,1,1\n"));
 }
 
 }  // namespace
