@@ -32,6 +32,7 @@ std::vector<const ComparedColumn*> compared(const std::vector<ComparedColumn>& c
 std::string spread(const std::vector<double>& per_seed, int decimals) {
   if (per_seed.empty()) return "–";
   const auto [low, high] = std::ranges::minmax_element(per_seed);
+  if (decimals == 0) return fmt::format("{:g} / {:g} / {:g}", *low, median(per_seed), *high);  // a median may be half
   return fmt::format("{:.{}f} / {:.{}f} / {:.{}f}", *low, decimals, median(per_seed), decimals, *high, decimals);
 }
 

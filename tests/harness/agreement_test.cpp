@@ -222,6 +222,14 @@ TEST(DepartureTables, ListWhatDoesNotHoldAndNothingElse) {
   EXPECT_EQ(tables[0].rows[0].cells.back().text, "1 of 2");  // medians 1 and 1: a tie does not hold
 }
 
+TEST(AgreementTables, ShowTheSpreadOverSeedsWithHalfMedians) {
+  const auto column = column_of({{2, 3, 1}}, {{{1, 1}, {3, 3}, {2, 0}}});  // 2 and 3 orderings hold
+  const auto tables = agreement_tables("rooms", {column});
+  ASSERT_EQ(tables.size(), 4U);  // by line, by pair, best, correlation
+  EXPECT_EQ(tables[0].rows.back().cells[0].text, "2 / 2.5 / 3");
+  EXPECT_EQ(tables[0].rows[0].cells[0].text, "2 of 3");
+}
+
 TEST(AgreementFiles, AreTidyTablesOfCellsOrderingsAndSummaries) {
   auto column = column_of({{2, 3, 1}}, {{{1, 1}, {3, 3}, {2, 0}}});
   column.table = "1";
