@@ -24,11 +24,15 @@ std::vector<harness::Scenario> scenarios_for(const fs::path& run, const std::vec
   return files.empty() ? harness::load_run_scenarios(run) : load_inputs(files, {});
 }
 
-int score(const fs::path& run, const std::vector<std::string>& files) {
+int score(const fs::path& run, const std::vector<std::string>& files, bool quiet) {
   const auto scenarios = scenarios_for(run, files);
-  const std::size_t cells = harness::score_run(run, scenarios);
+  const InterruptGuard guard;
+  Progress progress(progress_style(quiet));
+  const std::size_t cells = harness::score_run(
+      run, scenarios, [&](double share, const std::string& what) { progress.update(share, "score " + what); });
+  progress.finish();
   harness::write_reports(run, harness::load_report_input(run, scenarios));
-  fmt::print("{} cell{} scored: {}\n", cells, cells == 1 ? "" : "s", (run / "summary.csv").string());
+  if (!quiet) fmt::print("{} cell{} scored: {}\n", cells, cells == 1 ? "" : "s", (run / "summary.csv").string());
   const auto planned = harness::load_manifest(run).cells;
   const auto missing = std::ranges::count_if(
       planned, [&](const auto& key) { return !fs::exists(harness::cell_path(run, key) / "status.json"); });
@@ -100,8 +104,10 @@ void add_results(Context& context) {
   auto* score_verb = context.app.add_subcommand("score", "Computes the metrics of a run again, from its files");
   score_verb->add_option("RUN", options->run, "a run folder")->required();
   score_verb->add_option("--with", options->files, "scenario files whose metrics take the place of the run's own");
-  score_verb->callback(
-      [&context, options] { context.action = [options] { return score(options->run, options->files); }; });
+  score_verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors and what is missing");
+  score_verb->callback([&context, options] {
+    context.action = [options] { return score(options->run, options->files, options->quiet); };
+  });
 
   auto* figures_verb = context.app.add_subcommand("figures", "Draws the figures of a run again, from its files");
   figures_verb->add_option("RUN", options->run, "a run folder")->required();

@@ -2,6 +2,8 @@
 #include "core/params.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "core/number_text.hpp"
@@ -13,6 +15,15 @@ std::string join(const std::vector<std::string>& names) {
   std::string text;
   for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
+}
+
+// As people write a number: without an exponent from 0.0001 to below 1e15.
+std::string plain_text(double value) {
+  const double size = std::fabs(value);
+  if (!(size >= 1e-4 && size < 1e15)) return number_text(value);
+  std::array<char, 40> buffer{};
+  const auto [end, ec] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed);
+  return {buffer.data(), end};
 }
 
 [[noreturn]] void refuse(const ParamSpec& spec, const std::string& found) {
@@ -27,7 +38,7 @@ std::string allowed_numbers(const ParamSpec& spec) {
 }
 
 void check_number(const ParamSpec& spec, double v) {
-  if (!std::isfinite(v) || !spec.bounds.contains(v)) refuse(spec, number_text(v));
+  if (!std::isfinite(v) || !spec.bounds.contains(v)) refuse(spec, plain_text(v));
 }
 
 std::string kind_of(const ParamValue& value) {
@@ -57,10 +68,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string Bounds::describe() const {
   const bool has_min = std::isfinite(min);
   const bool has_max = std::isfinite(max);
-  if (has_min && has_max && !open_min) return number_text(min) + " .. " + number_text(max);
+  if (has_min && has_max && !open_min) return plain_text(min) + " .. " + plain_text(max);
   std::string text;
-  if (has_min) text = (open_min ? "> " : ">= ") + number_text(min);
-  if (has_max) text += (text.empty() ? "<= " : " and <= ") + number_text(max);
+  if (has_min) text = (open_min ? "> " : ">= ") + plain_text(min);
+  if (has_max) text += (text.empty() ? "<= " : " and <= ") + plain_text(max);
   return text;
 }
 
@@ -195,6 +206,7 @@ ParamSet resolve(const std::vector<ParamSpec>& specs, const ParamSet& given) {
   for (const auto& [name, value] : given) {
     if (all.contains(name)) continue;
     std::vector<std::string> known;
+    known.reserve(specs.size());
     for (const auto& spec : specs) known.push_back(spec.name);
     const std::string near = nearest_name(name, known);
     throw ParamError(name, "unknown parameter '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +

@@ -82,6 +82,7 @@ Recording parse_dpslam(std::string_view text, const LogOptions& options, const S
                                            words.size() < 2 ? "no" : quoted_excerpt(words[1]), n));
       if (!odometry)
         lines.refuse(words[0], "a Laser line without an Odometry line before it; allowed: the two in turns");
+      lines.check_last_number(words);
       builder.check_beams(lines, n);
       builder.check_angles(lines, builder.angles_by_rule(lines, n));
       if (builder.wants_scan()) {

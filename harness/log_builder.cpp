@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/number_text.hpp"
 #include "harness/text_file.hpp"
@@ -23,6 +24,22 @@ bool LogLines::next() {
 void LogLines::refuse(std::string_view word, const std::string& message) const {
   throw PlacedError({number_, column_of(line_, word)},
                     message + (cut_short() ? "; the file ends in this line: is it cut short?" : ""));
+}
+
+void LogLines::check_last_number(const std::vector<std::string_view>& words) const {
+  constexpr std::size_t kWitnesses = 32;
+  if (!cut_short() || words.size() <= kWitnesses) return;
+  const auto decimals = [](std::string_view word) {
+    const std::size_t point = word.find('.');
+    return point == std::string_view::npos ? 0 : word.size() - point - 1;
+  };
+  const auto before = std::span(words).last(kWitnesses + 1).first(kWitnesses);
+  const std::size_t usual = decimals(before.front());
+  if (decimals(words.back()) >= usual) return;
+  if (!std::ranges::all_of(before, [&](std::string_view word) { return decimals(word) == usual; })) return;
+  refuse(words.back(), fmt::format("{} has fewer than the {} decimals of the numbers before it; allowed: all of them, "
+                                   "or a line break behind a number that is whole",
+                                   quoted_excerpt(words.back()), usual));
 }
 
 double LogLines::number_of(std::string_view word, std::string_view what) const {

@@ -66,6 +66,9 @@ class LogLines {
   bool cut_short() const { return ends_open_; }
 
   [[noreturn]] void refuse(std::string_view word, const std::string& message) const;
+  /// Refuses an open last line whose last number has fewer decimals than the 32 before it, which agree: it was cut
+  /// inside that number. Numbers of varying width, and whole ones, do not show it.
+  void check_last_number(const std::vector<std::string_view>& words) const;
   /// A finite number; throws PlacedError naming `what`.
   double number_of(std::string_view word, std::string_view what) const;
 

@@ -124,6 +124,7 @@ class CarmenReader {
 
   // Ranges from word `first`, two pose triples from word `poses`.
   void scan(std::size_t first, std::size_t n, std::size_t poses, std::optional<std::size_t> stamp) {
+    lines_.check_last_number(words_);
     if (!builder_.wants_scan()) return;
     Frame frame;
     frame.ranges.reserve(n);

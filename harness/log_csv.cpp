@@ -114,6 +114,7 @@ Recording parse_csv_scans(std::string_view text, const LogOptions& options, cons
     // A single beam needs no step.
     if (options.step_deg == 0 && n > 1)
       throw ParamError("step_deg", "step_deg is 0; allowed: the angle between two beams in deg, not 0");
+    lines.check_last_number(fields);
     builder.check_beams(lines, n);
     builder.check_angles(lines, {options.first_angle_deg, options.step_deg});
     if (!builder.wants_scan()) continue;

@@ -55,12 +55,15 @@ std::string summary_lines(const CellKey& key, const std::vector<metrics::MetricR
   return csv.str().substr(summary_header().size());
 }
 
-std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenarios) {
+std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenarios,
+                      const std::function<void(double, const std::string&)>& progress) {
   const Manifest manifest = load_manifest(run);
   std::string summary = summary_header();
-  std::size_t scored = 0;
+  std::vector<std::pair<fs::path, std::string>> files;  // written when all are known: whoever stops it changes nothing
   std::map<std::pair<std::string, std::uint64_t>, Recording> recordings;  // at most one at a time
-  for (const CellKey& key : manifest.cells) {
+  for (std::size_t i = 0; i < manifest.cells.size(); ++i) {
+    const CellKey& key = manifest.cells[i];
+    if (progress) progress(static_cast<double>(i) / static_cast<double>(manifest.cells.size()), to_string(key));
     const fs::path cell = cell_path(run, key);
     if (!fs::exists(cell / "status.json") || load_status(cell).outcome.status != CellStatus::ok) continue;
     const auto scenario = std::ranges::find(scenarios, key.scenario, &Scenario::name);
@@ -72,13 +75,13 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
       recordings.emplace(source, load_recording(recording_path(run, key.scenario, key.seed)));
     }
     const auto rows = score_cell(scenario->metrics, recordings.at(source), cell);
-    write_file_atomically(cell / "metrics.csv", metrics_csv(rows));
+    files.emplace_back(cell / "metrics.csv", metrics_csv(rows));
     summary += summary_lines(key, rows);
-    ++scored;
   }
+  for (const auto& [path, text] : files) write_file_atomically(path, text);
   write_file_atomically(run / "summary.csv", summary);
   refresh_manifest(run);
-  return scored;
+  return files.size();
 }
 
 }  // namespace scanbench::harness

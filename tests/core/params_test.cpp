@@ -136,5 +136,14 @@ TEST(Registry, RefusesANameTakenTwice) {
   EXPECT_THROW(Registry<Animal>::add<Dog>({.name = "dog", .summary = "", .reference = ""}), InternalError);
 }
 
+TEST(Params, MessagesWriteBoundsAndFindingsWithoutExponents) {
+  EXPECT_EQ(between(1, 1e6).describe(), "1 .. 1000000");
+  EXPECT_EQ(above(1e-4).describe(), "> 0.0001");
+  EXPECT_EQ(at_least(1e-9).describe(), ">= 1e-09");
+  const ParamSpec spec{"beams", ParamType::integer, std::int64_t{1}, between(1, 1e5), "", "", {}};
+  EXPECT_THAT([&] { checked(spec, std::int64_t{1000000}); },
+              ::testing::ThrowsMessage<ParamError>("beams is 1000000; allowed: a whole number 1 .. 100000"));
+}
+
 }  // namespace
 }  // namespace scanbench

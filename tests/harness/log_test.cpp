@@ -207,6 +207,30 @@ TEST(Log, UnknownFormatsAndDamagedFilesAreRefused) {
   EXPECT_THAT(read("big.log", flaser(180, 1, kTail), 2500), HasSubstr("numbers x 8 B"));
 }
 
+std::string row(int n, const std::string& number) {
+  std::string text = number;
+  for (int i = 1; i < n; ++i) text += " " + number;
+  return text;
+}
+
+TEST(Log, ACutInsideTheLastNumberIsRefusedWhereItsDecimalsTell) {
+  const auto refusal = [](const std::string& text) { return config_refusal([&] { csv(text); }); };
+  const std::string good = row(40, "1.234");
+  EXPECT_EQ(refusal(good + "\n" + good), "");  // whole, but for the line break
+  for (const std::string last : {"1.23", "1.", "1"}) {
+    EXPECT_THAT(refusal(good + "\n" + row(39, "1.234") + " " + last),
+                HasSubstr("l.csv:2:235: '" + last + "' has fewer than the 3 decimals"));
+    EXPECT_THAT(refusal(good + "\n" + row(39, "1.234") + " " + last), HasSubstr("is it cut short?"));
+    EXPECT_EQ(refusal(good + "\n" + row(39, "1.234") + " " + last + "\n"), "") << "the line is whole";
+  }
+  EXPECT_EQ(refusal(row(20, "1.234 1.2") + " 1"), "") << "numbers vary in width";
+  EXPECT_EQ(refusal(row(40, "1234") + " 12"), "") << "whole numbers do not show it";
+  EXPECT_THAT(config_refusal([] {
+                parse_log("Odometry 1 2 0.5\nLaser 181 " + row(180, "2.50") + " 2.5", "l.log", "dpslam", {}, sensor());
+              }),
+              HasSubstr("l.log:2:911: '2.5' has fewer than the 2 decimals"));
+}
+
 // Counts are those of the data sets' own descriptions.
 struct KnownLog {
   const char* scenario;

@@ -62,5 +62,24 @@ TEST(Score, OfARunReadsFilesOnlyAndMayBeRepeatedWithOtherMetrics) {
   EXPECT_THROW(score_run(run, {}), ConfigError);
 }
 
+TEST(Score, ThatIsStoppedLeavesTheRunAsItWas) {
+  const testing::TemporaryFolder folder;
+  const fs::path run = folder.path() / "run";
+  Scenario scenario = testing::scenario_with("s", {testing::extract_with("good", "test_line")}, {1, 2, 3});
+  testing::run_here({scenario}, {.out = run});
+  const auto before = testing::artefacts(run);
+  scenario.metrics = {};  // other rows than those that stand there
+  struct Stopped {};
+  std::vector<std::string> told;
+  const auto stop = [&](double share, const std::string& cell) {
+    EXPECT_DOUBLE_EQ(share, static_cast<double>(told.size()) / 3);
+    told.push_back(cell);
+    if (told.size() == 3) throw Stopped{};
+  };
+  EXPECT_THROW(score_run(run, {scenario}, stop), Stopped);
+  EXPECT_EQ(told, (std::vector<std::string>{"s/good/1", "s/good/2", "s/good/3"}));
+  EXPECT_EQ(testing::artefacts(run), before);
+}
+
 }  // namespace
 }  // namespace scanbench::harness
