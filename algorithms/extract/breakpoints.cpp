@@ -24,11 +24,8 @@ std::vector<PointRun> cut(const ScanPoints& points, Breaks&& breaks) {
 
 }  // namespace
 
-AdaptiveBreakpoint::AdaptiveBreakpoint(double lambda_rad) {
-  const auto [s, c] = portable::sincos(lambda_rad);
-  sin_lambda_ = s;
-  cos_lambda_ = c;
-}
+AdaptiveBreakpoint::AdaptiveBreakpoint(double lambda_rad)
+    : sin_lambda_(portable::sincos(lambda_rad).sin), cos_lambda_(portable::sincos(lambda_rad).cos) {}
 
 double AdaptiveBreakpoint::max_distance(const Scan& scan, int beam, int next_beam) const {
   const Vec2& u = scan.sensor.geometry.direction(beam);

@@ -3,6 +3,7 @@
 // Robotic Systems 40, 2004, section 3.1.
 #pragma once
 
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -10,11 +11,20 @@
 
 namespace scanbench::extract {
 
-/// T(r) = constant + slope * r: point spacing and range error grow with range (Siadat et al. 1997, section 5).
+/// How a threshold follows the range: point spacing and range error grow with it (Siadat et al. 1997, section 5).
+enum class Growth { constant, linear };
+
+/// T(r) = constant, or constant + slope * r.
 struct RangeThreshold {
   double constant_m = 0.0;
   double per_m = 0.0;
-  double operator()(double range_m) const { return constant_m + per_m * range_m; }
+
+  RangeThreshold(double threshold_m, Growth growth, double threshold_per_m)
+      : constant_m(threshold_m), per_m(growth == Growth::linear ? threshold_per_m : 0.0) {}
+  /// At the reading of a beam; a constant threshold does not look at it.
+  double at(const Scan& scan, int beam) const {
+    return per_m > 0 ? constant_m + per_m * scan.ranges[static_cast<std::size_t>(beam)] : constant_m;
+  }
 };
 
 /// Adaptive breakpoint detector: neighbours farther apart than
@@ -44,6 +54,16 @@ std::vector<PointRun> runs_between_gaps(const ScanPoints& points, const GapRules
 /// Runs of points between the breakpoints of the adaptive detector.
 std::vector<PointRun> runs_between_breakpoints(const Scan& scan, const ScanPoints& points,
                                                const AdaptiveBreakpoint& detector);
+
+/// Fields for Params with the members threshold_m, threshold (a Growth) and threshold_per_m; `doc` says what is
+/// compared with it, `where` at which point's range.
+template <class P>
+auto threshold_fields(std::string_view doc, std::string_view where) {
+  return std::tuple{
+      field("threshold_m", &P::threshold_m, at_least(0), "m", doc),
+      choice("threshold", &P::threshold, {{Growth::constant, "constant"}, {Growth::linear, "linear"}}, where),
+      field("threshold_per_m", &P::threshold_per_m, at_least(0), "m/m", "growth of the linear threshold with range")};
+}
 
 /// Fields for Params with the members max_gap_m and max_missing_beams.
 template <class P>

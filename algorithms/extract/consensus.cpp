@@ -50,9 +50,7 @@ std::vector<int> largest_support(std::span<const Vec2> points, std::span<const d
 std::vector<int> refined_support(std::span<const Vec2> points, std::span<const double> tolerance,
                                  std::span<const int> group, std::vector<int> support, double max_gap_m) {
   for (int round = 0; round < 10; ++round) {
-    PointMoments moments;
-    for (const int i : support) moments.add(points[at(i)]);
-    const LineFit line = fit_line(moments);
+    const LineFit line = fit_line(moments_of(points, support));
     if (line.degenerate) break;
     std::vector<int> next = largest_support(points, tolerance, group, line.normal, line.offset, max_gap_m);
     if (next.size() < support.size() || next == support) break;

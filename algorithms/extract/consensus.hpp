@@ -3,9 +3,10 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
-#include "algorithms/extract/groups.hpp"
+#include "algorithms/extract/noise_scale.hpp"
 
 namespace scanbench::extract {
 
@@ -19,5 +20,14 @@ std::vector<int> largest_support(std::span<const Vec2> points, std::span<const d
 /// times), starting from `support`. Never returns a smaller set than it was given.
 std::vector<int> refined_support(std::span<const Vec2> points, std::span<const double> tolerance,
                                  std::span<const int> group, std::vector<int> support, double max_gap_m);
+
+/// Fields for Params with the members max_gap_m, max_lines, sigmas, floor_m, min_points and min_length_m.
+template <class P>
+auto consensus_fields() {
+  return std::tuple_cat(std::tuple{field("max_gap_m", &P::max_gap_m, above(0), "m",
+                                         "a support ends where its neighbouring points are farther apart"),
+                                   field("max_lines", &P::max_lines, between(1, 10000), "", "lines of a scan at most")},
+                        noise_fields<P>(), support_fields<P>());
+}
 
 }  // namespace scanbench::extract

@@ -106,7 +106,7 @@ class Em final : public LineExtractor {
  private:
   static Component from_points(std::span<const Vec2> points, std::vector<int> own) {
     Component c;
-    for (const int i : own) c.moments.add(points[static_cast<std::size_t>(i)]);
+    c.moments = moments_of(points, own);
     c.own = std::move(own);
     set_line(points, fit_line(c.moments), c);
     return c;
@@ -152,8 +152,8 @@ class Em final : public LineExtractor {
 
   // E: p(j | i) proportional to exp(-d_ij^2 / 2 s_i^2), with an outlier class of the density at three s.
   // M: weighted least squares; the interval is that of the points with p > 1/2.
-  std::vector<int> expect_and_maximise(std::span<const Vec2> points, std::span<const double> s,
-                                       std::vector<Component>& components) const {
+  static std::vector<int> expect_and_maximise(std::span<const Vec2> points, std::span<const double> s,
+                                              std::vector<Component>& components) {
     static const double outlier = portable::exp(-4.5);
     constexpr double kNegligible = 30.0;  // exp(-15), against exp(-4.5)
     std::vector<PointMoments> weighted(components.size());
@@ -180,8 +180,7 @@ class Em final : public LineExtractor {
     }
     for (std::size_t k = 0; k < components.size(); ++k) {
       Component& c = components[k];
-      c.moments = PointMoments();
-      for (const int i : c.own) c.moments.add(points[static_cast<std::size_t>(i)]);
+      c.moments = moments_of(points, c.own);
       const LineFit line = fit_line(weighted[k]);
       set_line(points, line.degenerate ? c.line : line, c);
     }

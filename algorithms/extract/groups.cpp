@@ -131,6 +131,12 @@ ScanLines assemble(const Scan& scan, const ScanPoints& points, std::span<const P
 
 }  // namespace
 
+PointMoments moments_of(std::span<const Vec2> points, std::span<const int> indices) {
+  PointMoments moments;
+  for (const int i : indices) moments.add(points[at(i)]);
+  return moments;
+}
+
 LineFit fit_group(std::span<const Vec2> points, Fit fit) {
   if (points.empty()) return {};
   const PointMoments m = PointMoments::of(points);
@@ -147,9 +153,8 @@ LineFit fit_group(std::span<const Vec2> points, Fit fit) {
 
 ScanLines lines_of_runs(const Scan& scan, const ScanPoints& points, std::span<const PointRun> runs, Fit fit,
                         SupportRules rules) {
-  return assemble(scan, points, runs, rules, [&](std::size_t k) {
-    return fit_group(std::span(points.points).subspan(at(runs[k].first), at(runs[k].size())), fit);
-  });
+  return assemble(scan, points, runs, rules,
+                  [&](std::size_t k) { return fit_group(points_of(points.points, runs[k]), fit); });
 }
 
 ScanLines lines_of_runs(const Scan& scan, const ScanPoints& points, std::span<const PointRun> runs,

@@ -29,11 +29,18 @@ struct PointRun {
   bool operator==(const PointRun&) const = default;
 };
 
+inline std::span<const Vec2> points_of(std::span<const Vec2> points, const PointRun& run) {
+  return points.subspan(static_cast<std::size_t>(run.first), static_cast<std::size_t>(run.size()));
+}
+
 /// Which groups become lines.
 struct SupportRules {
   int min_points = 2;         ///< own points; 1 also keeps groups without a direction, as segments of length 0
   double min_length_m = 0.0;  ///< of the segment
 };
+
+/// Of the points with these indices, in their order.
+PointMoments moments_of(std::span<const Vec2> points, std::span<const int> indices);
 
 /// The line of a group, by `fit`. A group without a direction (one point, equal points, an isotropic cloud) is marked
 /// degenerate; its line passes through the centroid, across the ray from the sensor, so that it turns with the scan.

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "algorithms/extract/consensus.hpp"
-#include "algorithms/extract/noise_scale.hpp"
 #include "core/modules.hpp"
 #include "core/portable_math.hpp"
 #include "core/registry.hpp"
@@ -85,11 +84,8 @@ class Hough final : public LineExtractor {
       return std::tuple_cat(
           std::tuple{field("angles", &Params::angles, between(4, 1440), "", "directions of the grid over half a turn"),
                      field("step_m", &Params::step_m, between(1e-4, 10), "m",
-                           "distance between cells; larger where the farthest return would need more than 4096"),
-                     field("max_gap_m", &Params::max_gap_m, above(0), "m",
-                           "a support ends where its neighbouring points are farther apart"),
-                     field("max_lines", &Params::max_lines, between(1, 10000), "", "lines of a scan at most")},
-          noise_fields<Params>(), support_fields<Params>());
+                           "distance between cells; larger where the farthest return would need more than 4096")},
+          consensus_fields<Params>());
     }
   };
 
@@ -130,9 +126,7 @@ class Hough final : public LineExtractor {
       const std::vector<int> rough =
           largest_support(points.points, wide, group, peak.normal, peak.offset, params_.max_gap_m);
       if (rough.empty()) break;
-      PointMoments moments;
-      for (const int i : rough) moments.add(points.points[static_cast<std::size_t>(i)]);
-      const LineFit fit = fit_line(moments);
+      const LineFit fit = fit_line(moments_of(points.points, rough));
       std::vector<int> support;
       if (!fit.degenerate)
         support = largest_support(points.points, tolerance, group, fit.normal, fit.offset, params_.max_gap_m);

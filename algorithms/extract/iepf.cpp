@@ -3,8 +3,6 @@
 //
 // The break point belongs to both halves (p' and p'' of Borges & Aldon): both chords and both fitted lines use it. As
 // support it counts for the second half only, so that supports partition the points.
-#include <cmath>
-
 #include "algorithms/extract/breakpoints.hpp"
 #include "algorithms/extract/chord.hpp"
 #include "core/modules.hpp"
@@ -15,13 +13,11 @@ namespace {
 
 using namespace extract;
 
-enum class Threshold { constant, linear };
-
 class Iepf final : public LineExtractor {
  public:
   struct Params {
     double threshold_m = 0.10;
-    Threshold threshold = Threshold::constant;
+    Growth threshold = Growth::constant;
     double threshold_per_m = 0.01;
     Fit fit = Fit::tls;  // the least squares that both papers put behind the grouping
     bool share_breaks = true;
@@ -32,20 +28,17 @@ class Iepf final : public LineExtractor {
 
     static auto fields() {
       return std::tuple_cat(
-          std::tuple{field("threshold_m", &Params::threshold_m, at_least(0), "m",
-                           "largest distance of a point from the chord of its line"),
-                     choice("threshold", &Params::threshold,
-                            {{Threshold::constant, "constant"}, {Threshold::linear, "linear"}},
-                            "threshold_m, or threshold_m + threshold_per_m * r at the range r of the farthest point"),
-                     field("threshold_per_m", &Params::threshold_per_m, at_least(0), "m/m",
-                           "growth of the linear threshold with range"),
-                     field("share_breaks", &Params::share_breaks,
+          threshold_fields<Params>(
+              "largest distance of a point from the chord of its line",
+              "threshold_m, or threshold_m + threshold_per_m * r at the range r of the farthest point"),
+          std::tuple{field("share_breaks", &Params::share_breaks,
                            "whether both lines at a break point are fitted to it; it supports the second in any case")},
           fit_field<Params>(), support_fields<Params>(), gap_fields<Params>());
     }
   };
 
-  explicit Iepf(const Params& params) : params_(params) {}
+  explicit Iepf(const Params& params)
+      : params_(params), threshold_(params.threshold_m, params.threshold, params.threshold_per_m) {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
     trace.stage("pre");
@@ -70,11 +63,7 @@ class Iepf final : public LineExtractor {
       pending.pop_back();
       if (run.last - run.first >= 2) {
         const Farthest far = farthest_from_chord(points.points, run);
-        double t = params_.threshold_m;
-        if (params_.threshold == Threshold::linear)
-          t += params_.threshold_per_m *
-               scan.ranges[static_cast<std::size_t>(points.beams[static_cast<std::size_t>(far.index)])];
-        if (far.exceeds(t)) {
+        if (far.exceeds(threshold_.at(scan, points.beams[static_cast<std::size_t>(far.index)]))) {
           pending.push_back({far.index, run.last});
           pending.push_back({run.first, far.index});  // on top: lines come out in scan order
           continue;
@@ -86,6 +75,7 @@ class Iepf final : public LineExtractor {
   }
 
   Params params_;
+  RangeThreshold threshold_;
 };
 
 const bool registered = Registry<LineExtractor>::add<Iepf>(

@@ -2,12 +2,9 @@
 // within their uncertainty the points belong to one line. Arras & Siegwart 1997, "Feature extraction and scene
 // interpretation for map-based navigation and map building", section 2; Nguyen et al., Autonomous Robots 23, 2007, the
 // algorithm "Line-Regression". Collinear neighbours are merged.
-#include <algorithm>
 #include <tuple>
 
-#include "algorithms/extract/breakpoints.hpp"
-#include "algorithms/extract/noise_scale.hpp"
-#include "core/modules.hpp"
+#include "algorithms/extract/contour_extractor.hpp"
 #include "core/portable_math.hpp"
 #include "core/registry.hpp"
 
@@ -16,7 +13,7 @@ namespace {
 
 using namespace extract;
 
-class LineRegression final : public LineExtractor {
+class LineRegression final : public ContourExtractor {
  public:
   struct Params {
     int window = 9;
@@ -35,26 +32,15 @@ class LineRegression final : public LineExtractor {
                      field("fidelity", &Params::fidelity, above(0), "",
                            "largest squared Mahalanobis distance of the lines two half windows on either side of a "
                            "point from each other, two degrees of freedom")},
-          noise_fields<Params>(), lambda_field<Params>(), merge_gap_field<Params>(), support_fields<Params>());
+          contour_fields<Params>());
     }
   };
 
-  explicit LineRegression(const Params& params) : params_(params), breakpoint_(params.lambda_rad) {}
-
-  ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
-    const ScanPoints points = valid_points(scan);
-    const std::vector<double> tolerance = tolerances(scan, points, {params_.sigmas, params_.floor_m});
-    trace.stage("segment");
-    std::vector<PointRun> runs;
-    for (const PointRun& contour : runs_between_breakpoints(scan, points, breakpoint_))
-      segment(points, tolerance, contour, runs);
-    trace.stage("merge");
-    runs = merge_neighbours(points.points, tolerance, runs, params_.merge_gap_m);
-    trace.stage("post");
-    return lines_of_disjoint_runs(scan, points, tolerance, runs, params_.merge_gap_m,
-                                  {params_.min_points, params_.min_length_m});
-  }
+  explicit LineRegression(const Params& p)
+      : ContourExtractor({p.sigmas, p.floor_m, p.lambda_rad, p.merge_gap_m, p.min_points, p.min_length_m}),
+        window_(p.window),
+        fidelity_(p.fidelity),
+        sigmas_(p.sigmas) {}
 
  private:
   // Squared Mahalanobis distance of the lines of two windows, in (offset at the point between them, angle). The line of
@@ -80,33 +66,32 @@ class LineRegression final : public LineExtractor {
     return det > 0 ? (c11 * offset * offset - 2 * c01 * offset * angle + c00 * angle * angle) / det : 0.0;
   }
 
-  void segment(const ScanPoints& points, std::span<const double> tolerance, const PointRun& contour,
-               std::vector<PointRun>& runs) const {
-    const int half = params_.window / 2 + 1;  // of a window about a point, the point in both halves
+  void cut(std::span<const Vec2> points, std::span<const double> tolerance, const PointRun& contour,
+           std::vector<PointRun>& runs) const override {
+    const int half = window_ / 2 + 1;  // of a window about a point, the point in both halves
     const auto window = [&](int first) {
-      return std::span(points.points).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(half));
+      return points.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(half));
     };
     // Peaks of disagreement above the threshold are the corners; the highest of each stretch is the break.
     int first = contour.first;
     int peak = -1;
-    double highest = params_.fidelity;
+    double highest = fidelity_;
     for (int i = contour.first + half - 1; i + half - 1 <= contour.last; ++i) {
       const PointMoments a = PointMoments::of(window(i - half + 1));
       const PointMoments b = PointMoments::of(window(i));
       const LineFit left = fit_line(a), right = fit_line(b);
       const auto k = static_cast<std::size_t>(i);
-      const double sigma = tolerance[k] / params_.sigmas;
-      const double d =
-          left.degenerate || right.degenerate ? 0.0 : disagreement(left, a, right, b, points.points[k], sigma);
+      const double sigma = tolerance[k] / sigmas_;
+      const double d = left.degenerate || right.degenerate ? 0.0 : disagreement(left, a, right, b, points[k], sigma);
       if (d > highest) {
         highest = d;
         peak = i;
       }
-      if (peak >= 0 && (d <= params_.fidelity || i - peak >= half)) {
+      if (peak >= 0 && (d <= fidelity_ || i - peak >= half)) {
         runs.push_back({first, peak - 1});
         first = peak;
         peak = -1;
-        highest = params_.fidelity;
+        highest = fidelity_;
       }
     }
     if (peak > first) {
@@ -116,8 +101,9 @@ class LineRegression final : public LineExtractor {
     runs.push_back({first, contour.last});
   }
 
-  Params params_;
-  AdaptiveBreakpoint breakpoint_;
+  int window_;
+  double fidelity_;
+  double sigmas_;
 };
 
 const bool registered = Registry<LineExtractor>::add<LineRegression>(

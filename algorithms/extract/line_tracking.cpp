@@ -15,8 +15,6 @@ namespace {
 
 using namespace extract;
 
-enum class Threshold { constant, linear };
-
 // Sums over the points of the line under way, about its first point: no cancellation, one update per point.
 class TrackedLine {
  public:
@@ -64,7 +62,7 @@ class LineTracking final : public LineExtractor {
  public:
   struct Params {
     double threshold_m = 0.10;
-    Threshold threshold = Threshold::constant;
+    Growth threshold = Growth::constant;
     double threshold_per_m = 0.01;
     Fit fit = Fit::tls;
     int min_points = 2;
@@ -73,19 +71,15 @@ class LineTracking final : public LineExtractor {
     int max_missing_beams = -1;
 
     static auto fields() {
-      return std::tuple_cat(
-          std::tuple{field("threshold_m", &Params::threshold_m, at_least(0), "m",
-                           "a line ends at the first point farther than this from the line of the points before"),
-                     choice("threshold", &Params::threshold,
-                            {{Threshold::constant, "constant"}, {Threshold::linear, "linear"}},
-                            "threshold_m, or threshold_m + threshold_per_m * r at the candidate's range r"),
-                     field("threshold_per_m", &Params::threshold_per_m, at_least(0), "m/m",
-                           "growth of the linear threshold with range")},
-          fit_field<Params>(), support_fields<Params>(), gap_fields<Params>());
+      return std::tuple_cat(threshold_fields<Params>(
+                                "a line ends at the first point farther than this from the line of the points before",
+                                "threshold_m, or threshold_m + threshold_per_m * r at the candidate's range r"),
+                            fit_field<Params>(), support_fields<Params>(), gap_fields<Params>());
     }
   };
 
-  explicit LineTracking(const Params& params) : params_(params) {}
+  explicit LineTracking(const Params& params)
+      : params_(params), threshold_(params.threshold_m, params.threshold, params.threshold_per_m) {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
     trace.stage("pre");
@@ -108,18 +102,16 @@ class LineTracking final : public LineExtractor {
 
  private:
   void track(const Scan& scan, const ScanPoints& points, const PointRun& whole, std::vector<PointRun>& runs) const {
-    const double per_m = params_.threshold == Threshold::linear ? params_.threshold_per_m : 0.0;
     int i = whole.first;
     while (i <= whole.last) {
-      TrackedLine line(points.points[static_cast<std::size_t>(i)]);
-      line.add(points.points[static_cast<std::size_t>(i)]);
-      if (i < whole.last) line.add(points.points[static_cast<std::size_t>(i + 1)]);
+      const auto first = static_cast<std::size_t>(i);
+      TrackedLine line(points.points[first]);
+      line.add(points.points[first]);
+      if (i < whole.last) line.add(points.points[first + 1]);
       int j = i + 2;
       for (; j <= whole.last; ++j) {
         const auto k = static_cast<std::size_t>(j);
-        const double t =
-            params_.threshold_m + (per_m > 0 ? per_m * scan.ranges[static_cast<std::size_t>(points.beams[k])] : 0.0);
-        if (line.farther(points.points[k], t)) break;
+        if (line.farther(points.points[k], threshold_.at(scan, points.beams[k]))) break;
         line.add(points.points[k]);
       }
       const int last = j <= whole.last ? j - 1 : whole.last;
@@ -129,6 +121,7 @@ class LineTracking final : public LineExtractor {
   }
 
   Params params_;
+  RangeThreshold threshold_;
 };
 
 const bool registered = Registry<LineExtractor>::add<LineTracking>(

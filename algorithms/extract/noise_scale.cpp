@@ -11,10 +11,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-std::span<const Vec2> part(std::span<const Vec2> points, const PointRun& run) {
-  return points.subspan(at(run.first), at(run.size()));
-}
-
 bool full_turn(const ScanGeometry& g) {
   return g.beams() > 2 && std::fabs(g.angle_step()) * (g.beams() + 0.5) >= kTwoPi;
 }
@@ -56,7 +52,7 @@ std::vector<PointRun> merge_neighbours(std::span<const Vec2> points, std::span<c
       if (k + 1 == current.size()) break;
       const PointRun both{current[k].first, current[k + 1].last};
       const double gap = (points[at(current[k + 1].first)] - points[at(current[k].last)]).norm();
-      if (gap > max_gap_m || has_clear_break(points, tolerance, both, fit_group(part(points, both), Fit::tls)))
+      if (gap > max_gap_m || has_clear_break(points, tolerance, both, fit_group(points_of(points, both), Fit::tls)))
         continue;
       merged.back() = both;
       ++k;
@@ -75,8 +71,8 @@ ScanLines lines_of_disjoint_runs(const Scan& scan, const ScanPoints& points, std
   if (runs.size() > 1 && full_turn(scan.sensor.geometry)) {
     const PointRun& head = runs.front();
     const PointRun& tail = runs.back();
-    PointMoments both = PointMoments::of(part(points.points, tail));
-    both.add(PointMoments::of(part(points.points, head)));
+    PointMoments both = PointMoments::of(points_of(points.points, tail));
+    both.add(PointMoments::of(points_of(points.points, head)));
     const LineFit line = fit_line(both);
     const double gap = (points.points[at(head.first)] - points.points[at(tail.last)]).norm();
     if (!line.degenerate && gap <= max_gap_m && !has_clear_break(points.points, tolerance, head, line) &&

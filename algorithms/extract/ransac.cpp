@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "algorithms/extract/consensus.hpp"
-#include "algorithms/extract/noise_scale.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
@@ -35,11 +34,8 @@ class Ransac final : public LineExtractor {
           std::tuple{field("seed", &Params::seed, between(0, 2147483647), "", "of the random pairs"),
                      field("trials", &Params::trials, between(1, 10000), "", "pairs tried for every line"),
                      field("neighbourhood", &Params::neighbourhood, between(0.001, 1), "",
-                           "the points of a pair are at most this share of the remaining points apart"),
-                     field("max_gap_m", &Params::max_gap_m, above(0), "m",
-                           "a support ends where its neighbouring points are farther apart"),
-                     field("max_lines", &Params::max_lines, between(1, 10000), "", "lines of a scan at most")},
-          noise_fields<Params>(), support_fields<Params>());
+                           "the points of a pair are at most this share of the remaining points apart")},
+          consensus_fields<Params>());
     }
   };
 

@@ -20,7 +20,7 @@ using Lines = std::vector<SmfLine>;
 SmfLine line_of(std::span<const Vec2> points, Group support) {
   SmfLine line;
   line.support = std::move(support);
-  for (const int j : line.support) line.moments.add(points[static_cast<std::size_t>(j)]);
+  line.moments = moments_of(points, line.support);
   return line;
 }
 

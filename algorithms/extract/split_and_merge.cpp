@@ -4,12 +4,8 @@
 //
 // Whether a piece is straight is asked of its least-squares line, where to cut it of its chord: at a corner the
 // least-squares line is as far from the ends as from the vertex, the chord is not.
-#include <algorithm>
-
-#include "algorithms/extract/breakpoints.hpp"
 #include "algorithms/extract/chord.hpp"
-#include "algorithms/extract/noise_scale.hpp"
-#include "core/modules.hpp"
+#include "algorithms/extract/contour_extractor.hpp"
 #include "core/registry.hpp"
 
 namespace scanbench {
@@ -17,32 +13,14 @@ namespace {
 
 using namespace extract;
 
-class SplitAndMerge final : public LineExtractor {
+class SplitAndMerge final : public ContourExtractor {
  public:
-  struct Params {
-    double sigmas = 3.0;
-    double floor_m = 0.01;
-    double lambda_rad = radians(10.0);
-    double merge_gap_m = 0.3;
-    int min_points = 5;
-    double min_length_m = 0.1;
+  using ContourExtractor::ContourExtractor;
 
-    static auto fields() {
-      return std::tuple_cat(noise_fields<Params>(), lambda_field<Params>(), merge_gap_field<Params>(),
-                            support_fields<Params>());
-    }
-  };
-
-  explicit SplitAndMerge(const Params& params) : params_(params), breakpoint_(params.lambda_rad) {}
-
-  ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
-    const ScanPoints points = valid_points(scan);
-    const std::vector<double> tolerance = tolerances(scan, points, {params_.sigmas, params_.floor_m});
-    trace.stage("segment");
-    std::vector<PointRun> pending = runs_between_breakpoints(scan, points, breakpoint_);
-    std::reverse(pending.begin(), pending.end());  // a stack, the first contour on top
-    std::vector<PointRun> runs;
+ private:
+  void cut(std::span<const Vec2> points, std::span<const double> tolerance, const PointRun& contour,
+           std::vector<PointRun>& runs) const override {
+    std::vector<PointRun> pending{contour};
     while (!pending.empty()) {
       const PointRun run = pending.back();
       pending.pop_back();
@@ -50,27 +28,15 @@ class SplitAndMerge final : public LineExtractor {
         runs.push_back(run);
         continue;
       }
-      const int cut = farthest_from_chord(points.points, run).index;
-      pending.push_back({cut + 1, run.last});
-      pending.push_back({run.first, cut});
+      const int farthest = farthest_from_chord(points, run).index;
+      pending.push_back({farthest + 1, run.last});
+      pending.push_back({run.first, farthest});  // on top: runs come out in scan order
     }
-    trace.stage("merge");
-    runs = merge_neighbours(points.points, tolerance, runs, params_.merge_gap_m);
-    trace.stage("post");
-    return lines_of_disjoint_runs(scan, points, tolerance, runs, params_.merge_gap_m,
-                                  {params_.min_points, params_.min_length_m});
   }
 
- private:
-  bool straight(const ScanPoints& points, std::span<const double> tolerance, const PointRun& run) const {
-    if (run.size() < 3) return true;
-    const auto own =
-        std::span(points.points).subspan(static_cast<std::size_t>(run.first), static_cast<std::size_t>(run.size()));
-    return !has_clear_break(points.points, tolerance, run, fit_group(own, Fit::tls));
+  static bool straight(std::span<const Vec2> points, std::span<const double> tolerance, const PointRun& run) {
+    return run.size() < 3 || !has_clear_break(points, tolerance, run, fit_group(points_of(points, run), Fit::tls));
   }
-
-  Params params_;
-  AdaptiveBreakpoint breakpoint_;
 };
 
 const bool registered = Registry<LineExtractor>::add<SplitAndMerge>(

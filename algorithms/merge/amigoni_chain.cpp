@@ -18,18 +18,10 @@ class AmigoniChain final : public SegmentMerger {
     double max_angle_deg = 10.0;
     double max_distance_m = 0.20;
     double max_gap_m = 0.0;
-    static auto fields() {
-      return std::tuple{field("max_angle_deg", &Params::max_angle_deg, between(0, 90), "deg",
-                              "largest difference of direction of two matching segments"),
-                        field("max_distance_m", &Params::max_distance_m, at_least(0), "m",
-                              "largest distance of their midpoints across their common direction"),
-                        field("max_gap_m", &Params::max_gap_m, at_least(0), "m",
-                              "largest gap between their projections; 0: they must overlap")};
-    }
+    static auto fields() { return merge::match_fields<Params>(); }
   };
 
-  explicit AmigoniChain(const Params& p)
-      : rules_{.angle_rad = radians(p.max_angle_deg), .distance_m = p.max_distance_m, .gap_m = p.max_gap_m} {}
+  explicit AmigoniChain(const Params& p) : rules_(merge::match_rules(p)) {}
 
   MergeResult merge(const MergeInput& input, Trace& trace) const override {
     trace.stage("match");

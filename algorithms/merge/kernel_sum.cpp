@@ -73,8 +73,7 @@ Shift CandidateList::shift(Float3 t, float squared_cutoff) const {
     const Float4 dz = b.z - tz;
     const Float4 squared = dx * dx + dy * dy + dz * dz;
     const auto inside = squared <= cut;  // lanes of all ones or all zeros
-    const Float4 w =
-        std::bit_cast<Float4>(std::bit_cast<Word4>(gaussian_lanes(squared)) & std::bit_cast<Word4>(inside));
+    const auto w = std::bit_cast<Float4>(std::bit_cast<Word4>(gaussian_lanes(squared)) & std::bit_cast<Word4>(inside));
     mass += w;
     sx += w * dx;
     sy += w * dy;
@@ -100,7 +99,7 @@ ShiftAndCovariance CandidateList::shift_and_covariance(Float3 t, float squared_c
     const Float4 squared = dx * dx + dy * dy + dz * dz;
     const auto inside = std::bit_cast<Word4>(squared <= cut);
     const Float4 full = gaussian_lanes(squared);
-    const Float4 w = std::bit_cast<Float4>(std::bit_cast<Word4>(full) & inside);
+    const auto w = std::bit_cast<Float4>(std::bit_cast<Word4>(full) & inside);
     density += std::bit_cast<Float4>(std::bit_cast<Word4>(full - at_cutoff) & inside);
 
     const Float4 wx = w * dx;

@@ -5,11 +5,13 @@
 
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "algorithms/merge/joint_space.hpp"
 #include "algorithms/merge/point_grid.hpp"
 #include "core/modules.hpp"
+#include "core/params.hpp"
 
 namespace scanbench::merge {
 
@@ -18,6 +20,23 @@ struct MatchRules {
   double distance_m;  ///< largest distance of the midpoints across the common direction
   double gap_m;       ///< largest gap along it; 0: they must touch
 };
+
+/// Fields for Params with the members max_angle_deg, max_distance_m and max_gap_m.
+template <class P>
+auto match_fields() {
+  return std::tuple{field("max_angle_deg", &P::max_angle_deg, between(0, 90), "deg",
+                          "largest difference of direction of two matching segments"),
+                    field("max_distance_m", &P::max_distance_m, at_least(0), "m",
+                          "largest distance of their midpoints across their common direction"),
+                    field("max_gap_m", &P::max_gap_m, at_least(0), "m",
+                          "largest gap between their projections; 0: they must overlap")};
+}
+
+/// The rules that such Params state.
+template <class P>
+MatchRules match_rules(const P& p) {
+  return {.angle_rad = radians(p.max_angle_deg), .distance_m = p.max_distance_m, .gap_m = p.max_gap_m};
+}
 
 /// A segment that stands for others: the sums that its line is made of, and its extent.
 struct Representative {

@@ -159,6 +159,7 @@ std::vector<double> cluster_directions_of(const Clustering& clustering) {
   for (std::size_t i = 0; i < clustering.cluster.size(); ++i)
     of_members[static_cast<std::size_t>(clustering.cluster[i])].push_back(clustering.end[i].z());
   std::vector<double> result;
+  result.reserve(of_members.size());
   for (const auto& directions : of_members) result.push_back(merge::mean_direction(directions));
   return result;
 }

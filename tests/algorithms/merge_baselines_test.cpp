@@ -4,28 +4,18 @@
 #include <cmath>
 #include <limits>
 
-#include "core/modules.hpp"
-#include "core/registry.hpp"
 #include "core/rng.hpp"
 #include "tests/algorithms/merge_spiral.hpp"
+#include "tests/support/merging.hpp"
 
 namespace scanbench {
 namespace {
 
+using testing::apart;
+using testing::line;
+using testing::merge;
+
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-MergeResult merge(const std::string& name, const std::vector<MapLine>& lines, const ParamSet& params = {}) {
-  Trace trace;
-  return Registry<SegmentMerger>::make(name, params)->merge({lines, {}}, trace);
-}
-
-MapLine line(double x1, double y1, double x2, double y2) {
-  return {.segment = {{x1, y1}, {x2, y2}}};
-}
-
-double apart(const Segment& s, const Segment& t) {
-  return std::min(std::max((s.a - t.a).norm(), (s.b - t.b).norm()), std::max((s.a - t.b).norm(), (s.b - t.a).norm()));
-}
 
 class MergeBaseline : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, MergeBaseline, ::testing::Values("amigoni_chain", "greedy_pairs"));

@@ -6,32 +6,22 @@
 #include <limits>
 #include <map>
 
-#include "core/modules.hpp"
-#include "core/registry.hpp"
 #include "core/rng.hpp"
 #include "tests/algorithms/merge_spiral.hpp"
+#include "tests/support/merging.hpp"
 
 namespace scanbench {
 namespace {
+
+using testing::apart;
+using testing::line;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 MergeResult merge(const std::vector<MapLine>& lines, const ParamSet& params = {},
                   const std::vector<Vec2>& points = {}) {
-  Trace trace;
-  return Registry<SegmentMerger>::make("mean_shift", params)->merge({lines, points}, trace);
-}
-
-MapLine line(double x1, double y1, double x2, double y2) {
-  return {.segment = {{x1, y1}, {x2, y2}}};
-}
-
-/// Largest distance of corresponding ends, whichever way round the segments are.
-double apart(const Segment& s, const Segment& t) {
-  const double same = std::max((s.a - t.a).norm(), (s.b - t.b).norm());
-  const double turned = std::max((s.a - t.b).norm(), (s.b - t.a).norm());
-  return std::min(same, turned);
+  return testing::merge("mean_shift", lines, params, points);
 }
 
 const ParamSet kStrict{{"labelling", std::string("strict")}, {"split_length_sigma", 1000.0}};

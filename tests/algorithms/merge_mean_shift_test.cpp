@@ -5,37 +5,27 @@
 #include <cmath>
 #include <limits>
 
-#include "core/modules.hpp"
-#include "core/registry.hpp"
 #include "core/rng.hpp"
+#include "tests/support/merging.hpp"
 
 namespace scanbench {
 namespace {
+
+using testing::apart;
+using testing::line;
 
 constexpr double kSigma = 0.20;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 MergeResult merge(const std::vector<MapLine>& lines, const ParamSet& params = {},
                   const std::vector<Vec2>& points = {}) {
-  Trace trace;
-  return Registry<SegmentMerger>::make("mean_shift", params)->merge({lines, points}, trace);
-}
-
-MapLine line(double x1, double y1, double x2, double y2) {
-  return {.segment = {{x1, y1}, {x2, y2}}};
+  return testing::merge("mean_shift", lines, params, points);
 }
 
 /// A line by centre, direction and length.
 MapLine centred(const Vec2& centre, double direction_rad, double length = 0.3) {
   const Vec2 half = 0.5 * length * Vec2(std::cos(direction_rad), std::sin(direction_rad));
   return {.segment = {centre - half, centre + half}};
-}
-
-/// Largest distance of corresponding ends, whichever way round the segments are.
-double apart(const Segment& s, const Segment& t) {
-  const double same = std::max((s.a - t.a).norm(), (s.b - t.b).norm());
-  const double turned = std::max((s.a - t.b).norm(), (s.b - t.a).norm());
-  return std::min(same, turned);
 }
 
 /// Lines of a room seen several times with noise: walls of many lengths and directions.

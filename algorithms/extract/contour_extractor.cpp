@@ -1,0 +1,21 @@
+// Contours, cuts, merging, lines. Nguyen et al. 2007.
+#include "algorithms/extract/contour_extractor.hpp"
+
+namespace scanbench::extract {
+
+ScanLines ContourExtractor::extract(const Scan& scan, Trace& trace) const {
+  trace.stage("pre");
+  const ScanPoints points = valid_points(scan);
+  const std::vector<double> tolerance = tolerances(scan, points, {params_.sigmas, params_.floor_m});
+  trace.stage("segment");
+  std::vector<PointRun> runs;
+  for (const PointRun& contour : runs_between_breakpoints(scan, points, breakpoint_))
+    cut(points.points, tolerance, contour, runs);
+  trace.stage("merge");
+  runs = merge_neighbours(points.points, tolerance, runs, params_.merge_gap_m);
+  trace.stage("post");
+  return lines_of_disjoint_runs(scan, points, tolerance, runs, params_.merge_gap_m,
+                                {params_.min_points, params_.min_length_m});
+}
+
+}  // namespace scanbench::extract
