@@ -1,6 +1,8 @@
 // Contours, cuts, merging, lines. Nguyen et al. 2007.
 #include "algorithms/extract/contour_extractor.hpp"
 
+#include "algorithms/extract/covariance.hpp"
+
 namespace scanbench::extract {
 
 ScanLines ContourExtractor::extract(const Scan& scan, Trace& trace) const {
@@ -14,8 +16,10 @@ ScanLines ContourExtractor::extract(const Scan& scan, Trace& trace) const {
   trace.stage("merge");
   runs = merge_neighbours(points.points, tolerance, runs, params_.merge_gap_m);
   trace.stage("post");
-  return lines_of_disjoint_runs(scan, points, tolerance, runs, params_.merge_gap_m,
-                                {params_.min_points, params_.min_length_m});
+  ScanLines lines = lines_of_disjoint_runs(scan, points, tolerance, runs, params_.merge_gap_m,
+                                           {params_.min_points, params_.min_length_m});
+  if (tests_every_point()) add_covariances(scan, points, lines);
+  return lines;
 }
 
 }  // namespace scanbench::extract

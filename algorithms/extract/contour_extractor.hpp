@@ -39,6 +39,8 @@ class ContourExtractor : public LineExtractor {
   /// tolerance[k] is the largest distance of points[k] from its line.
   virtual void cut(std::span<const Vec2> points, std::span<const double> tolerance, const PointRun& contour,
                    std::vector<PointRun>& runs) const = 0;
+  /// Whether cut() holds the points against their tolerance: lines then have covariances.
+  virtual bool tests_every_point() const { return true; }
 
  private:
   Params params_;

@@ -10,6 +10,7 @@
 
 #include "algorithms/extract/breakpoints.hpp"
 #include "algorithms/extract/chord.hpp"
+#include "algorithms/extract/covariance.hpp"
 #include "algorithms/extract/noise_scale.hpp"
 #include "core/modules.hpp"
 #include "core/portable_math.hpp"
@@ -99,8 +100,10 @@ class Em final : public LineExtractor {
       if (cold && owner == before) break;
     }
     trace.stage("post");
-    return lines_of_groups(scan, points, owner, static_cast<int>(components.size()), Fit::tls,
-                           {params_.min_points, params_.min_length_m});
+    ScanLines result = lines_of_groups(scan, points, owner, static_cast<int>(components.size()), Fit::tls,
+                                       {params_.min_points, params_.min_length_m});
+    add_covariances(scan, points, result);
+    return result;
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "algorithms/extract/consensus.hpp"
+#include "algorithms/extract/covariance.hpp"
 #include "core/modules.hpp"
 #include "core/portable_math.hpp"
 #include "core/registry.hpp"
@@ -101,7 +102,10 @@ class Hough final : public LineExtractor {
     if (points.size() > 0) lines = group_points(points, tolerance, group);
     for (int& g : group) g = g == kSpent ? -1 : g;
     trace.stage("post");
-    return lines_of_groups(scan, points, group, lines, Fit::tls, {params_.min_points, params_.min_length_m});
+    ScanLines result =
+        lines_of_groups(scan, points, group, lines, Fit::tls, {params_.min_points, params_.min_length_m});
+    add_covariances(scan, points, result);
+    return result;
   }
 
  private:

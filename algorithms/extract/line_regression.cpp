@@ -101,6 +101,8 @@ class LineRegression final : public ContourExtractor {
     runs.push_back({first, contour.last});
   }
 
+  bool tests_every_point() const override { return false; }  // windows, against each other
+
   int window_;
   double fidelity_;
   double sigmas_;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "algorithms/extract/consensus.hpp"
+#include "algorithms/extract/covariance.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
@@ -56,7 +57,10 @@ class Ransac final : public LineExtractor {
       for (const int i : best) group[static_cast<std::size_t>(i)] = lines;
     }
     trace.stage("post");
-    return lines_of_groups(scan, points, group, lines, Fit::tls, {params_.min_points, params_.min_length_m});
+    ScanLines result =
+        lines_of_groups(scan, points, group, lines, Fit::tls, {params_.min_points, params_.min_length_m});
+    add_covariances(scan, points, result);
+    return result;
   }
 
  private:
