@@ -12,7 +12,7 @@ PointMoments PointMoments::of(std::span<const Vec2> points) {
   if (points.empty()) return m;
   const std::size_t n = points.size();
   const std::size_t paired = n - n % 2;
-  const Vec2 origin = points.front();  // so that equal points have moments of exactly zero
+  const Vec2& origin = points.front();  // so that equal points have moments of exactly zero
   // Two sums each, of the even and of the odd points: an addition need not wait for the one before it.
   Vec2 even = Vec2::Zero(), odd = Vec2::Zero();
   for (std::size_t i = 0; i < paired; i += 2) {

@@ -68,7 +68,7 @@ constexpr std::array<double, 9> kAtanOfEighths = {0.0,
 
 // atan t for t in [0, 1]: the nearest eighth, then the series of the remainder, |u| <= 1/16.
 double atan_unit(double t) {
-  const int k = static_cast<int>(t * 8.0 + 0.5);
+  const int k = static_cast<int>(t * 8.0 + 0.5);  // NOLINT(bugprone-incorrect-roundings): any near eighth will do
   const double c = k / 8.0;
   const double u = (t - c) / (1.0 + t * c);
   const double z = u * u;
