@@ -28,6 +28,7 @@ struct StageTime {
 struct PipelineResult {
   std::vector<ScanLines> lines;          ///< per frame, sensor frame
   std::vector<Pose2> world_from_sensor;  ///< per frame, as estimated; empty if no slot estimates or uses poses
+  bool has_map = false;                  ///< a slot makes a map, which may come out empty
   LineMap map;                           ///< empty if no slot makes one
   std::vector<MergeLabel> merge_labels;
   std::vector<StageTime> times;

@@ -1,6 +1,7 @@
 // Scans and the lines found in them: all that a line extractor sees and says.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <span>
@@ -62,6 +63,7 @@ struct Frame {
   double stamp_s = 0.0;
   std::vector<double> ranges;
   Pose2 odom_from_sensor;
+  std::vector<Segment> lines{};  ///< given in place of ranges, sensor frame: a set of lines instead of scans
 };
 
 /// All that an algorithm may see of a recording.
@@ -70,6 +72,10 @@ struct ScanSet {
   std::vector<Frame> frames;
 
   Scan scan(std::size_t frame) const { return {sensor, frames[frame].ranges, frames[frame].stamp_s}; }
+  /// Lines stand in place of ranges: there is nothing to extract.
+  bool has_given_lines() const {
+    return std::ranges::any_of(frames, [](const Frame& frame) { return !frame.lines.empty(); });
+  }
 };
 
 }  // namespace scanbench

@@ -56,6 +56,16 @@ void add_input(Sha256& hash, const RecordedInput& input) {
   add_params(hash, input.sensor_params);
 }
 
+void add_input(Sha256& hash, const LinesInput& input) {
+  hash.part("input", "lines");
+  if (input.world) add_world(hash, *input.world);
+  add_params(hash, input.params);
+  for (const auto& frame : input.frames) {
+    hash.part("frame", std::to_string(frame.size()));
+    for (const Segment& line : frame) add_points(hash, "line", {line.a, line.b});
+  }
+}
+
 }  // namespace
 
 std::string input_address(const Scenario& scenario) {

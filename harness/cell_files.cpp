@@ -171,7 +171,7 @@ void write_result(const fs::path& cell, const PipelineSpec& pipeline, const Pipe
     }
     write_staged_file(cell / "poses.csv", csv.str());
   }
-  if (has_slot(pipeline, "map") || has_slot(pipeline, "merge")) write_map(cell, result.map);
+  if (result.has_map) write_map(cell, result.map);
   if (has_slot(pipeline, "merge")) {
     CsvWriter csv(kMergeColumns);
     for (const auto& l : result.merge_labels) {
@@ -199,7 +199,8 @@ PipelineResult load_result(const fs::path& cell) {
       throw ConfigError((cell / "poses.csv").string() + ": " + std::to_string(csv.rows()) + " poses for " +
                         std::to_string(result.lines.size()) + " frames");
   }
-  if (fs::exists(cell / "map.csv")) {
+  result.has_map = fs::exists(cell / "map.csv");
+  if (result.has_map) {
     const CsvTable csv = table(cell / "map.csv", kMapColumns);
     const bool covariance = csv.has(kCovarianceColumns.front());
     for (std::size_t r = 0; r < csv.rows(); ++r) {

@@ -109,6 +109,8 @@ std::vector<std::string> export_formats() {
 }
 
 std::string export_text(const Recording& recording, std::string_view format) {
+  if (format != "tum" && recording.observed.has_given_lines())
+    throw ConfigError("a recording of lines holds no scans to export as " + std::string(format) + "; allowed: tum");
   if (format == "carmen") return carmen_text(recording);
   if (format == "csv") return csv_text(recording);
   if (format == "tum") return tum_poses(recording);

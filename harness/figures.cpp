@@ -1,6 +1,8 @@
 // Recording and results from files, through the registered figures, to files.
 #include "harness/figures.hpp"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "core/registry.hpp"
@@ -8,6 +10,7 @@
 #include "harness/cell_files.hpp"
 #include "harness/recording_folder.hpp"
 #include "harness/run_folder.hpp"
+#include "harness/scenario_modules.hpp"
 #include "render/figure.hpp"
 
 namespace scanbench::harness {
@@ -30,6 +33,27 @@ std::vector<LoadedResult> finished_results(const fs::path& run, const Scenario& 
   return results;
 }
 
+/// The values of metrics.csv of all finished cells, pipeline by pipeline.
+std::vector<render::MeasuredPipeline> measured_pipelines(const fs::path& run, const Scenario& scenario) {
+  std::vector<render::MeasuredPipeline> all;
+  for (const auto& pipeline : scenario.pipelines) {
+    render::MeasuredPipeline measured{.pipeline = pipeline.name, .slots = {}, .units = {}, .metrics = {}};
+    for (const auto& slot : pipeline.slots) {
+      measured.slots[slot.kind + " " + slot.module] = slot.params;
+      for (const auto& spec : find_module(slot.kind, slot.module).params)
+        measured.units[slot.kind + "." + spec.name] = spec.unit;
+    }
+    for (const std::uint64_t seed : scenario.seeds) {
+      const fs::path cell = cell_path(run, {scenario.name, pipeline.name, seed});
+      if (!fs::exists(cell / "metrics.csv")) continue;
+      for (const auto& row : load_metrics(cell))
+        if (row.subject == "all" && std::isfinite(row.value)) measured.metrics[row.metric].push_back(row.value);
+    }
+    all.push_back(std::move(measured));
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenario, bool pdf,
@@ -40,6 +64,7 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenar
   const Recording recording = load_recording(folder);
   const std::vector<LoadedResult> results = finished_results(run, scenario, seed);
   render::FigureInput input{.title = scenario.name, .recording = recording, .waypoints = {}, .results = {}};
+  input.measured = measured_pipelines(run, scenario);
   if (std::holds_alternative<SimulatedInput>(scenario.input)) {
     const sim::SimulationInput simulated = simulation_input(scenario, seed);
     input.waypoints = simulated.trajectory.waypoints;

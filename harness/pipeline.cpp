@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <span>
 
 #include "core/error.hpp"
 #include "core/modules.hpp"
@@ -170,6 +172,7 @@ class Chain {
       listener_.end();
     }
     result_.map = mapper->map();
+    result_.has_map = true;
     check_map(result_.map, "map");
   }
 
@@ -210,6 +213,7 @@ class Chain {
                             std::to_string(merged.map.lines.size()) + " map lines");
     }
     result_.map = std::move(merged.map);
+    result_.has_map = true;
     result_.merge_labels = std::move(labels);
   }
 
@@ -231,18 +235,27 @@ std::vector<ScanLines> extract_all(const LineExtractor& extractor, const ScanSet
   return lines;
 }
 
-void check_chain(const PipelineSpec& pipeline) {
+/// Lines that are given in place of scans, as an extractor would have found them.
+std::vector<ScanLines> given_lines(const ScanSet& scans) {
+  std::vector<ScanLines> lines(scans.frames.size());
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    for (const Segment& segment : scans.frames[k].lines)
+      lines[k].lines.push_back({.segment = segment, .line = line_through(segment.a, segment.b), .covariance = {}});
+  return lines;
+}
+
+void check_chain(const PipelineSpec& pipeline, bool scans) {
   static const std::map<std::string, int, std::less<>> kPlaces{
       {"extract", 0}, {"align", 1}, {"match", 1}, {"map", 2}, {"merge", 2}};
   int last = -1;
   for (const auto& slot : pipeline.slots) {
     const auto place = kPlaces.find(slot.kind);
-    if (place == kPlaces.end() || place->second <= last || (last < 0 && place->second != 0))
-      throw ConfigError("pipeline '" + pipeline.name + "': the slot '" + slot.kind +
-                        "' cannot stand here; allowed: extract -> (align | match) -> (map | merge)");
+    if (place == kPlaces.end() || place->second <= last || (last < 0 && (place->second == 0) != scans))
+      throw ConfigError("pipeline '" + pipeline.name + "': the slot '" + slot.kind + "' cannot stand here; allowed: " +
+                        (scans ? "extract -> " : "") + "(align | match) -> (map | merge)");
     last = place->second;
   }
-  if (last < 0) throw ConfigError("pipeline '" + pipeline.name + "' has no slots; the first must be extract");
+  if (last < 0) throw ConfigError("pipeline '" + pipeline.name + "' has no slots");
 }
 
 }  // namespace
@@ -252,27 +265,33 @@ bool has_slot(const PipelineSpec& pipeline, std::string_view kind) {
 }
 
 PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Journal* journal) {
-  check_chain(pipeline);
-  const auto extractor = Registry<LineExtractor>::make(pipeline.slots.front().module, pipeline.slots.front().params);
-  const int beams = scans.sensor.geometry.beams();
+  const bool given = scans.has_given_lines();
+  check_chain(pipeline, !given);
+  const std::span<const ModuleChoice> behind_lines = std::span(pipeline.slots).subspan(given ? 0 : 1);
+  std::unique_ptr<LineExtractor> extractor;
+  if (!given) extractor = Registry<LineExtractor>::make(pipeline.slots.front().module, pipeline.slots.front().params);
+  const auto all_lines = [&](Listener& listener) {
+    return given ? given_lines(scans) : extract_all(*extractor, scans, listener);
+  };
 
   PipelineRun run;
   NobodyListens nobody;
   StopwatchListener stopwatch(run.result.times);
-  run.result.lines = extract_all(*extractor, scans, nobody);
+  run.result.lines = all_lines(nobody);
+  const int beams = scans.sensor.geometry.beams();
   for (std::size_t k = 0; k < run.result.lines.size(); ++k) check_lines(run.result.lines[k], beams, k);
-  extract_all(*extractor, scans, stopwatch);
+  all_lines(stopwatch);
 
   Chain chain(scans, run.result, stopwatch);
-  for (std::size_t i = 1; i < pipeline.slots.size(); ++i) chain.run(pipeline.slots[i]);
+  for (const ModuleChoice& slot : behind_lines) chain.run(slot);
   run.remarks = chain.remarks();
 
   if (journal != nullptr) {
     JournalListener listener(*journal);
     PipelineResult again;
-    again.lines = extract_all(*extractor, scans, listener);
+    again.lines = all_lines(listener);
     Chain journaled(scans, again, listener);
-    for (std::size_t i = 1; i < pipeline.slots.size(); ++i) journaled.run(pipeline.slots[i]);
+    for (const ModuleChoice& slot : behind_lines) journaled.run(slot);
   }
   return run;
 }

@@ -25,7 +25,8 @@ struct PipelineRun {
 /// True if the pipeline has a slot of this kind.
 bool has_slot(const PipelineSpec& pipeline, std::string_view kind);
 
-/// `extract` runs on every frame; `align` gets all scans and their odometry; `match` chains consecutive scans, each
+/// `extract` runs on every frame, unless the scan set holds lines in place of scans: the chain then begins behind it.
+/// `align` gets all scans and their odometry; `match` chains consecutive scans, each
 /// guess being the odometry between them (which stands where the matcher says no_match); `map` gets scan after scan
 /// with its pose; `merge` gets the lines and the valid points placed in the world. Poses are those of `align` or
 /// `match`, else the odometry.

@@ -1,4 +1,4 @@
-// Recording <-> walls.csv, frames.csv, rotations.npy, ranges.npy, true_ranges.npy, wall_ids.npy, scan.json.
+// Recording <-> walls.csv, frames.csv, lines.csv, rotations.npy, ranges.npy, true_ranges.npy, wall_ids.npy, scan.json.
 #include "harness/recording_folder.hpp"
 
 #include <cmath>
@@ -102,6 +102,28 @@ std::string frames_csv(const Recording& recording) {
   return csv.str();
 }
 
+std::string lines_csv(const ScanSet& scans) {
+  CsvWriter csv({"frame", "line", "x1_m", "y1_m", "x2_m", "y2_m"});
+  for (std::size_t k = 0; k < scans.frames.size(); ++k)
+    for (std::size_t i = 0; i < scans.frames[k].lines.size(); ++i) {
+      const Segment& s = scans.frames[k].lines[i];
+      csv.integer(static_cast<long long>(k)).integer(static_cast<long long>(i));
+      csv.number(s.a.x()).number(s.a.y()).number(s.b.x()).number(s.b.y()).end_row();
+    }
+  return csv.str();
+}
+
+void read_lines(const CsvTable& csv, ScanSet& scans) {
+  for (std::size_t r = 0; r < csv.rows(); ++r) {
+    const int frame = csv.index(r, "frame");
+    if (frame < 0 || static_cast<std::size_t>(frame) >= scans.frames.size())
+      csv.refuse(r, "frame " + std::to_string(frame) + " is not in frames.csv");
+    const Segment line{{csv.number(r, "x1_m"), csv.number(r, "y1_m")}, {csv.number(r, "x2_m"), csv.number(r, "y2_m")}};
+    if (!line.a.allFinite() || !line.b.allFinite()) csv.refuse(r, "the line is not finite");
+    scans.frames[static_cast<std::size_t>(frame)].lines.push_back(line);
+  }
+}
+
 /// All files but scan.json.
 Files data_files(const Recording& recording) {
   const auto& frames = recording.observed.frames;
@@ -127,6 +149,7 @@ Files data_files(const Recording& recording) {
   files.emplace_back("frames.csv", frames_csv(recording));
   files.emplace_back("rotations.npy", npy_bytes(rotations, frames.size(), 4));
   files.emplace_back("ranges.npy", npy_bytes(ranges, frames.size(), beams));
+  if (recording.observed.has_given_lines()) files.emplace_back("lines.csv", lines_csv(recording.observed));
   if (recording.truth) {
     files.emplace_back("walls.csv", walls_csv(*recording.truth));
     files.emplace_back("true_ranges.npy", npy_bytes(recording.truth->ranges, frames.size(), beams));
@@ -251,8 +274,12 @@ Recording load_recording(const fs::path& folder) {
     const double* rotation = exact ? &rotations.values[4 * k] : nullptr;
     recording.observed.frames.push_back({frames.number(k, "t_s"),
                                          {row, row + static_cast<std::ptrdiff_t>(beams)},
-                                         pose_from(frames, k, "odom", exact ? rotation + 2 : nullptr)});
+                                         pose_from(frames, k, "odom", exact ? rotation + 2 : nullptr),
+                                         {}});
   }
+  if (fs::exists(folder / "lines.csv"))
+    read_lines({bytes_of("lines.csv"), folder / "lines.csv", {"frame", "line", "x1_m", "y1_m", "x2_m", "y2_m"}},
+               recording.observed);
   if (fs::exists(folder / "walls.csv")) {
     Truth truth;
     const CsvTable walls(bytes_of("walls.csv"), folder / "walls.csv",

@@ -86,6 +86,15 @@ std::string input_text(const Scenario& scenario) {
                        simulated->world.walls.size(), simulated->sensor_preset, simulated->trajectory.module,
                        scenario.seeds.size(), scenario.seeds.size() == 1 ? "" : "s");
   }
+  if (const auto* lines = std::get_if<LinesInput>(&scenario.input)) {
+    if (!lines->file.empty())
+      return fmt::format("Lines of {}{}.", lines->file.filename().string(),
+                         lines->world ? ", with world " + lines->world->name + " as the truth"
+                                      : ". There is no truth: metrics that need it are absent");
+    return fmt::format("{} copies of the {} walls of world {}, {} seed{}.", lines->copies.copies,
+                       lines->world->walls.size(), lines->world->name, scenario.seeds.size(),
+                       scenario.seeds.size() == 1 ? "" : "s");
+  }
   const auto& recorded = std::get<RecordedInput>(scenario.input);
   return fmt::format("Recorded log {} ({}). There is no truth: metrics that need it are absent.",
                      recorded.log.filename().string(), recorded.format);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "harness/line_set.hpp"
 #include "harness/log.hpp"
 #include "harness/scenario_modules.hpp"
 #include "harness/scenario_reader.hpp"
@@ -32,10 +33,13 @@ class ScenarioReader {
     scenario_.seeds = read_seeds(map_);
     if (const YamlNode* recording = map_.find("recording"))
       read_recorded(*recording);
+    else if (const YamlNode* lines = map_.find("lines"))
+      read_lines(*lines);
     else
       read_simulated();
     if (scenario_.seeds.empty()) scenario_.seeds = {1};
-    if (const YamlNode* node = map_.find("pipelines")) scenario_.pipelines = read_pipelines(*node);
+    const bool scans = !std::holds_alternative<LinesInput>(scenario_.input);
+    if (const YamlNode* node = map_.find("pipelines")) scenario_.pipelines = read_pipelines(*node, scans);
     if (const YamlNode* node = map_.find("metrics")) scenario_.metrics = read_choices(*node, "metrics");
     if (const YamlNode* node = map_.find("figures")) scenario_.figures = read_choices(*node, "figure");
     if (const YamlNode* node = map_.find("published"))
@@ -57,30 +61,33 @@ class ScenarioReader {
 
   void read_simulated() {
     SimulatedInput input;
-    read_world_section(input);
+    LoadedWorld loaded = read_world_section(
+        map_.require("world", "{file: PATH}, or the keys of a world file; or a recording, or lines"));
+    input.world = std::move(loaded.world);
+    input.world_text = std::move(loaded.text);
     const YamlNode& sensor = map_.require("sensor", "{preset: NAME}, with any of its fields beside it");
     read_sensor(sensor, sim::sensor_param_specs(), input.sensor_preset, input.sensor_params, input.sensor);
     read_trajectory(map_.require("trajectory", "{kind: NAME, ...}"), input);
     scenario_.input = std::move(input);
   }
 
-  void read_world_section(SimulatedInput& input) {
-    const YamlNode& node = map_.require("world", "{file: PATH}, or the keys of a world file; or a recording");
-    YamlMap world(node, "world");
-    if (const YamlNode* file = world.find("file")) {
-      input.world_file = world.text("file", "a path");
-      world.done();
-      LoadedWorld loaded = load_world(resolve_path(*file, input.world_file, scenario_.path));
-      input.world = std::move(loaded.world);
-      input.world_text = std::move(loaded.text);
+  /// `text` is empty for a world that is written into the scenario.
+  LoadedWorld read_world_section(const YamlNode& node) {
+    YamlMap map(node, "world");
+    LoadedWorld loaded;
+    if (const YamlNode* file = map.find("file")) {
+      const std::string as_written = map.text("file", "a path");
+      map.done();
+      loaded = load_world(resolve_path(*file, as_written, scenario_.path));
       if (loaded.dropped > 0)
         scenario_.notes.push_back(
-            fmt::format("{}: {} segments without length were passed over", input.world_file, loaded.dropped));
+            fmt::format("{}: {} segments without length were passed over", as_written, loaded.dropped));
     } else {
-      input.world = read_world(world, scenario_.name);
-      world.done();
-      at_param(node, [&] { sim::validate(input.world); });
+      loaded.world = read_world(map, scenario_.name);
+      map.done();
+      at_param(node, [&] { sim::validate(loaded.world); });
     }
+    return loaded;
   }
 
   static void read_sensor(const YamlNode& node, const std::vector<ParamSpec>& specs, std::string& preset,
@@ -127,11 +134,7 @@ class ScenarioReader {
   }
 
   void read_recorded(const YamlNode& node) {
-    for (const char* key : {"world", "trajectory"})
-      if (const YamlNode* other = map_.find(key))
-        throw PlacedError(
-            other->mark,
-            fmt::format("both recording and {}; allowed: a recording, or world, sensor and trajectory", key));
+    refuse_beside("recording", {"lines", "world", "trajectory"}, "a recording, or world, sensor and trajectory");
     RecordedInput input;
     YamlMap map(node, "recording");
     const YamlNode& log = map.require("log", "a file's path");
@@ -151,11 +154,44 @@ class ScenarioReader {
       input.sensor_preset = "custom";
       input.sensor = sim::make_sensor("custom", {}, &input.sensor_params);
     }
+    refuse_many_seeds("a recorded log");
+    scenario_.input = std::move(input);
+  }
+
+  void read_lines(const YamlNode& node) {
+    refuse_beside("lines", {"sensor", "trajectory"}, "lines and world, or world, sensor and trajectory");
+    LinesInput input;
+    YamlMap map(node, "lines");
+    if (const YamlNode* file = map.find("file")) {
+      input.file_as_written = map.text("file", "a path");
+      map.done();
+      input.file = resolve_path(*file, input.file_as_written, scenario_.path);
+      input.frames = load_line_set(input.file);
+      refuse_many_seeds("a file of lines");
+      if (const YamlNode* world = map_.find("world")) input.world = read_world_section(*world).world;
+    } else {
+      const auto params = make_params<LineCopiesParams>(map.params(param_specs<LineCopiesParams>()));
+      map.done();
+      input.params = to_param_set(params);
+      input.copies = params.copies_of();
+      input.world = read_world_section(
+                        map_.require("world", "{file: PATH}, or the keys of a world file: the walls that are copied"))
+                        .world;
+    }
+    scenario_.input = std::move(input);
+  }
+
+  void refuse_beside(std::string_view what, std::initializer_list<const char*> others, std::string_view allowed) {
+    for (const char* key : others)
+      if (const YamlNode* other = map_.find(key))
+        throw PlacedError(other->mark, fmt::format("both {} and {}; allowed: {}", what, key, allowed));
+  }
+
+  void refuse_many_seeds(std::string_view what) {
     if (scenario_.seeds.size() > 1)
       throw PlacedError(map_.find("seeds")->mark,
-                        fmt::format("seeds has {} values, but a recorded log has no chance in it; allowed: one seed",
-                                    scenario_.seeds.size()));
-    scenario_.input = std::move(input);
+                        fmt::format("seeds has {} values, but {} has no chance in it; allowed: one seed",
+                                    scenario_.seeds.size(), what));
   }
 
   const YamlNode& root_;
@@ -172,6 +208,11 @@ std::vector<ParamSpec> recorded_sensor_specs() {
   std::erase_if(specs,
                 [](const ParamSpec& spec) { return std::ranges::find(kOfTheLog, spec.name) != kOfTheLog.end(); });
   return specs;
+}
+
+bool has_chance(const Scenario& scenario) {
+  if (const auto* lines = std::get_if<LinesInput>(&scenario.input)) return lines->file.empty();
+  return std::holds_alternative<SimulatedInput>(scenario.input);
 }
 
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& path,

@@ -17,13 +17,17 @@
 //   limits: {seconds: 600, memory_mib: 4096}     # of a cell; memory also of a recording before it starts
 //
 // A log takes the place of world, sensor and trajectory: `recording: {log: FILE, format: carmen, ...}` with the options
-// of its format (harness/log.hpp); `sensor` beside it gives noise and timing, which algorithms may ask for. In paths of
-// worlds and logs, ${SCANBENCH_DATA} stands for that environment variable.
+// of its format (harness/log.hpp); `sensor` beside it gives noise and timing, which algorithms may ask for. Lines take
+// the place of sensor and trajectory, and pipelines then have no extract: `lines: {copies: 10, rotation_sigma_deg: 1,
+// shift_sigma_m: 0.02}` are as many copies of the world's walls; `lines: {file: FILE}` is a set of one's own
+// (harness/line_set.hpp), of which a `world` is the truth. In paths, ${SCANBENCH_DATA} stands for that environment
+// variable.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -31,6 +35,7 @@
 
 #include "core/params.hpp"
 #include "core/recording.hpp"
+#include "sim/line_copies.hpp"
 #include "sim/simulate.hpp"
 
 namespace scanbench::harness {
@@ -53,8 +58,7 @@ struct PipelineSpec {
 
 /// Scans come from a simulated world ...
 struct SimulatedInput {
-  std::string world_file;  ///< as written in the scenario; empty: the world is written into the scenario
-  std::string world_text;  ///< bytes of that file, unpacked
+  std::string world_text;  ///< bytes of the world's file, unpacked; empty: the world is written into the scenario
   sim::World world;
   std::string sensor_preset;
   ParamSet sensor_params;  ///< effective
@@ -76,6 +80,16 @@ struct RecordedInput {
   SensorModel sensor;
 };
 
+/// ... or there are no scans, but lines: copies of the world's walls, or those of a file.
+struct LinesInput {
+  std::optional<sim::World> world;           ///< the truth; present for copies
+  std::filesystem::path file;                ///< empty: copies
+  std::string file_as_written;               ///< in the scenario, with ${SCANBENCH_DATA}
+  std::vector<std::vector<Segment>> frames;  ///< what the file holds
+  ParamSet params;                           ///< of the copies, in the units of the scenario; effective
+  sim::LineCopies copies;
+};
+
 struct Limits {
   double seconds = 600.0;                          ///< per cell, wall time
   double memory_bytes = 4.0 * 1024 * 1024 * 1024;  ///< per cell, and of a recording before it starts
@@ -86,7 +100,7 @@ struct Scenario {
   std::filesystem::path path;
   std::string text;  ///< the file's bytes
   std::string about;
-  std::variant<SimulatedInput, RecordedInput> input;
+  std::variant<SimulatedInput, RecordedInput, LinesInput> input;
   std::vector<std::uint64_t> seeds;
   std::vector<PipelineSpec> pipelines;
   std::vector<ModuleChoice> metrics;
@@ -110,6 +124,9 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& path
 /// The scenario with every default written out, the world in it, in one canonical form; loading it again, from any
 /// folder, gives the same scenario, the same bytes of this text and of every artefact.
 std::string effective_yaml(const Scenario& scenario);
+
+/// True if the recording depends on the seed: it is simulated, not read.
+bool has_chance(const Scenario& scenario);
 
 /// What simulate() gets; its trajectory has the waypoints that figures show. Only for scenarios with a simulated world.
 sim::SimulationInput simulation_input(const Scenario& scenario, std::uint64_t seed);

@@ -25,7 +25,7 @@ YamlNode choices_node(const std::vector<ModuleChoice>& choices) {
   return list;
 }
 
-void add_simulated(YamlNode& root, const SimulatedInput& input) {
+void add_input(YamlNode& root, const SimulatedInput& input) {
   yaml_add(root, "world", to_yaml(input.world));
   YamlNode& sensor = yaml_add(root, "sensor", yaml_map());
   yaml_add(sensor, "preset", yaml_text(input.sensor_preset));
@@ -37,19 +37,30 @@ void add_simulated(YamlNode& root, const SimulatedInput& input) {
   yaml_add(trajectory, "sweep", yaml_plain(input.sweep ? "true" : "false"));
 }
 
-void add_recorded(YamlNode& root, const RecordedInput& input) {
+/// A path with the variable holds anywhere; any other is made absolute, for this text is read from another folder.
+YamlNode path_node(const std::filesystem::path& path, const std::string& as_written) {
+  const bool portable = as_written.starts_with("${");
+  return yaml_text(portable ? as_written : std::filesystem::absolute(path).lexically_normal().string());
+}
+
+void add_input(YamlNode& root, const RecordedInput& input) {
   YamlNode& recording = yaml_add(root, "recording", yaml_map());
-  // A path with the variable holds anywhere; any other is made absolute, for this text is read from another folder.
-  const bool portable = input.log_as_written.starts_with("${");
-  yaml_add(
-      recording, "log",
-      yaml_text(portable ? input.log_as_written : std::filesystem::absolute(input.log).lexically_normal().string()));
+  yaml_add(recording, "log", path_node(input.log, input.log_as_written));
   yaml_add(recording, "format", yaml_text(input.format));
   add_params(recording, input.params);
   YamlNode& sensor = yaml_add(root, "sensor", yaml_map());
   yaml_add(sensor, "preset", yaml_text(input.sensor_preset));
   for (const auto& spec : recorded_sensor_specs())
     yaml_add(sensor, spec.name, to_yaml(input.sensor_params.at(spec.name)));
+}
+
+void add_input(YamlNode& root, const LinesInput& input) {
+  if (input.world) yaml_add(root, "world", to_yaml(*input.world));
+  YamlNode& lines = yaml_add(root, "lines", yaml_map());
+  if (input.file.empty())
+    add_params(lines, input.params);
+  else
+    yaml_add(lines, "file", path_node(input.file, input.file_as_written));
 }
 
 }  // namespace
@@ -59,10 +70,7 @@ std::string effective_yaml(const Scenario& scenario) {
   yaml_add(root, "schema", yaml_plain("1"));
   yaml_add(root, "name", yaml_text(scenario.name));
   yaml_add(root, "about", yaml_text(scenario.about));
-  if (const auto* simulated = std::get_if<SimulatedInput>(&scenario.input))
-    add_simulated(root, *simulated);
-  else
-    add_recorded(root, std::get<RecordedInput>(scenario.input));
+  std::visit([&](const auto& input) { add_input(root, input); }, scenario.input);
   YamlNode& seeds = yaml_add(root, "seeds", yaml_sequence());
   for (const std::uint64_t seed : scenario.seeds) seeds.items.push_back(yaml_plain(std::to_string(seed)));
   YamlNode& pipelines = yaml_add(root, "pipelines", yaml_sequence());

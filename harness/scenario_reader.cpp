@@ -47,7 +47,7 @@ ModuleChoice read_module(const YamlNode& node, const std::string& kind, const st
   return choice;
 }
 
-PipelineSpec read_pipeline(const YamlNode& node) {
+PipelineSpec read_pipeline(const YamlNode& node, bool scans) {
   YamlMap map(node, "a pipeline");
   PipelineSpec pipeline;
   pipeline.name = map.text("name", "a name for tables and figures");
@@ -62,7 +62,15 @@ PipelineSpec read_pipeline(const YamlNode& node) {
   }
   map.done();
   const auto& [extract, align, match, mapper, merge] = nodes;
-  if (extract == nullptr)
+  if (!scans && extract != nullptr)
+    throw PlacedError(extract->mark,
+                      fmt::format("pipeline {} has 'extract', but there are no scans, only lines; allowed: align or "
+                                  "match, then map or merge",
+                                  pipeline.name));
+  if (!scans && pipeline.slots.empty())
+    throw PlacedError(
+        node.mark, fmt::format("pipeline {} has no slot; allowed: align or match, then map or merge", pipeline.name));
+  if (scans && extract == nullptr)
     throw PlacedError(
         node.mark, fmt::format("pipeline {} has no 'extract'; allowed: extract, then align or match, then map or merge",
                                pipeline.name));
@@ -105,10 +113,10 @@ std::vector<std::uint64_t> read_seeds(YamlMap& map) {
   return seeds;
 }
 
-std::vector<PipelineSpec> read_pipelines(const YamlNode& node) {
+std::vector<PipelineSpec> read_pipelines(const YamlNode& node, bool scans) {
   std::vector<PipelineSpec> pipelines;
   for (const auto& item : read_list(node, "pipelines", "a list of {name, extract, ...}")) {
-    pipelines.push_back(read_pipeline(item));
+    pipelines.push_back(read_pipeline(item, scans));
     if (std::ranges::count(pipelines, pipelines.back().name, &PipelineSpec::name) > 1)
       throw PlacedError(item.mark,
                         fmt::format("a second pipeline is called {}; allowed: different names", pipelines.back().name));

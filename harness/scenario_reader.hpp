@@ -13,8 +13,9 @@ namespace scanbench::harness {
 /// The value of `seed` or `seeds`, whichever stands in the map; empty if neither does. Throws PlacedError.
 std::vector<std::uint64_t> read_seeds(YamlMap& map);
 
-/// A list of pipelines. Throws PlacedError.
-std::vector<PipelineSpec> read_pipelines(const YamlNode& node);
+/// A list of pipelines; they begin with `extract` where there are scans, and have none where lines are given. Throws
+/// PlacedError.
+std::vector<PipelineSpec> read_pipelines(const YamlNode& node, bool scans);
 
 /// A list of names or {name, params}; kind is `metrics` or `figure`. Throws PlacedError.
 std::vector<ModuleChoice> read_choices(const YamlNode& node, const std::string& kind);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "core/registry.hpp"
+#include "harness/line_set.hpp"
 #include "harness/log.hpp"
 #include "harness/scenario.hpp"
 #include "harness/text_file.hpp"
@@ -70,6 +71,9 @@ Recording make_recording(const Scenario& scenario, std::uint64_t seed, int threa
                          const std::function<void(double)>& progress) {
   if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
     return read_log(recorded->log, recorded->format, recorded->params, recorded->sensor, scenario.limits.memory_bytes);
+  if (const auto* lines = std::get_if<LinesInput>(&scenario.input))
+    return lines->file.empty() ? sim::line_copies(*lines->world, lines->copies, seed)
+                               : line_set_recording(lines->frames, lines->world ? &*lines->world : nullptr);
   const sim::SimulationInput input = input_within_memory(scenario, seed);
   try {
     return sim::simulate(input, threads, progress);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/params.hpp"
+#include "sim/line_copies.hpp"
 #include "sim/simulate.hpp"
 
 namespace scanbench::harness {
@@ -44,6 +45,26 @@ struct OdometryParams {
             .rotation_per_rad = rotation_per_rad,
             .pose_position_sigma_m = pose_position_sigma_m,
             .pose_heading_sigma_rad = radians(pose_heading_sigma_deg)};
+  }
+};
+
+/// sim::LineCopies in the units of the file.
+struct LineCopiesParams {
+  std::int64_t copies = 10;
+  double rotation_sigma_deg = 0.0;
+  double shift_sigma_m = 0.0;
+  static auto fields() {
+    using P = LineCopiesParams;
+    return std::tuple{field("copies", &P::copies, between(1, 10000), "", "how often every wall is there"),
+                      field("rotation_sigma_deg", &P::rotation_sigma_deg, at_least(0), "deg",
+                            "standard deviation of the turn of a copy about the world's origin"),
+                      field("shift_sigma_m", &P::shift_sigma_m, at_least(0), "m",
+                            "standard deviation of each coordinate of a copy's shift")};
+  }
+  sim::LineCopies copies_of() const {
+    return {.copies = static_cast<int>(copies),
+            .rotation_sigma_rad = radians(rotation_sigma_deg),
+            .shift_sigma_m = shift_sigma_m};
   }
 };
 

@@ -32,8 +32,9 @@ void read_suite(const YamlNode& root, const std::vector<std::string>& sets, Suit
     if (std::ranges::find(suite.scenarios, scenario.name, &Scenario::name) != suite.scenarios.end())
       throw PlacedError(node.mark,
                         fmt::format("a second scenario is called {}; allowed: different names", scenario.name));
-    if (!seeds.empty() && std::holds_alternative<SimulatedInput>(scenario.input)) scenario.seeds = seeds;
-    if (pipelines != nullptr) scenario.pipelines = read_pipelines(*pipelines);
+    if (!seeds.empty() && has_chance(scenario)) scenario.seeds = seeds;
+    const bool scans = !std::holds_alternative<LinesInput>(scenario.input);
+    if (pipelines != nullptr) scenario.pipelines = read_pipelines(*pipelines, scans);
     if (metrics != nullptr) scenario.metrics = read_choices(*metrics, "metrics");
     if (figures != nullptr) scenario.figures = read_choices(*figures, "figure");
     if (published != nullptr) scenario.published_file = published_file;

@@ -5,6 +5,7 @@
 // D_S and D_M are means over the same points: those within mean + 2 standard deviations of the distance to the scans'
 // lines.
 #include <cmath>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/registry.hpp"
@@ -39,6 +40,8 @@ class MapPoints : public MetricFamily {
              "bytes of the ranges and poses as recorded per byte of the map's end points"},
             {"scan_points", "", neither, 0.0, "valid scan points"},
             {"scan_lines", "", neither, 0.0, "lines of all scans"},
+            {"clusters1", "", neither, 0.0, "clusters of the first phase that hold the largest part of some line"},
+            {"clusters2", "", neither, 0.0, "clusters of the second phase that hold the largest part of some line"},
             {"map_lines", "", lower_is_better, 0.5, "lines of the map"}};
   }
 
@@ -86,15 +89,27 @@ class MapPoints : public MetricFamily {
     rows.add("D_M", kAll, to_map);
     rows.add("inliers", kAll, to_scans.count() > 0 ? ratio(number(to_scans.count()), number(n_points)) : kUndefined,
              n_points);
-    rows.add("compression", kAll, ratio(2.0 * number(n_points), 4.0 * number(map_lines.size())), std::ssize(map_lines));
-    rows.add("compression_bytes", kAll, ratio(recorded, stored), std::ssize(map_lines));
+    const bool scanned = n_points > 0;  // of lines without points there is nothing to compress
+    rows.add("compression", kAll, scanned ? ratio(2.0 * number(n_points), 4.0 * number(map_lines.size())) : kUndefined,
+             std::ssize(map_lines));
+    rows.add("compression_bytes", kAll, scanned ? ratio(recorded, stored) : kUndefined, std::ssize(map_lines));
     rows.add("scan_points", kAll, number(n_points), std::ssize(poses));
     rows.add("scan_lines", kAll, number(scan_lines.size()), std::ssize(poses));
+    rows.add("clusters1", kAll, clusters(input.result, &MergeLabel::cluster1), std::ssize(scan_lines));
+    rows.add("clusters2", kAll, clusters(input.result, &MergeLabel::cluster2), std::ssize(scan_lines));
     rows.add("map_lines", kAll, number(map_lines.size()), std::ssize(poses));
     return rows.take();
   }
 
  private:
+  /// Different labels of a phase; undefined for a merger that has no such phase.
+  static double clusters(const PipelineResult& result, int MergeLabel::*cluster) {
+    std::set<int> labels;
+    for (const MergeLabel& label : result.merge_labels) labels.insert(label.*cluster);
+    labels.erase(-1);
+    return labels.empty() ? kUndefined : static_cast<double>(labels.size());
+  }
+
   Params params_;
 };
 

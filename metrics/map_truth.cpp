@@ -130,10 +130,7 @@ class MapTruth : public MetricFamily {
             {"visible_m", "m", neither, 0.0, "visible length of all walls"}};
   }
 
-  bool applies(const MetricInput& input) const override {
-    const bool has_map = !input.result.map.lines.empty() || !input.result.merge_labels.empty();
-    return has_map && consistent(input);
-  }
+  bool applies(const MetricInput& input) const override { return input.result.has_map && consistent(input); }
 
   std::vector<MetricRow> evaluate(const MetricInput& input) const override {
     SCANBENCH_ASSERT(consistent(input));

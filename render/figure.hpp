@@ -1,6 +1,7 @@
 // Figures: views of a recording and of the results on it, as scenes that any backend draws.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,14 @@ struct RoundThing {
   double radius_m = 0;
 };
 
+/// What one pipeline scored over all seeds of a run, with what it was set to.
+struct MeasuredPipeline {
+  std::string pipeline;
+  std::map<std::string, ParamSet> slots;               ///< "merge mean_shift" and the like, with all parameters
+  std::map<std::string, std::string> units;            ///< of parameters, "merge.sigma_m" and the like
+  std::map<std::string, std::vector<double>> metrics;  ///< of the subject "all", a finite value per seed
+};
+
 struct FigureInput {
   std::string title;  ///< the scenario's name
   const Recording& recording;
@@ -31,7 +40,8 @@ struct FigureInput {
   std::vector<std::vector<Vec2>> body_paths{};  ///< of bodies that move through the world
   /// Does a way lead from each pose to the next? False: the sensor was put down at each of them.
   bool continuous = true;
-  std::vector<NamedResult> results;  ///< in the scenario's order; a method keeps its colour by its place here
+  std::vector<NamedResult> results;          ///< in the scenario's order; a method keeps its colour by its place here
+  std::vector<MeasuredPipeline> measured{};  ///< in the scenario's order
 };
 
 struct NamedScene {

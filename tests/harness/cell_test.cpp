@@ -96,6 +96,17 @@ TEST(CellFiles, HaveTheNamesAndColumnsOfTheContract) {
   const PipelineSpec extract = testing::extract_with("p", "test_line");
   write_result(alone.path(), extract, run_pipeline(extract, recording.observed).result);
   EXPECT_THAT(testing::listing(alone.path()), ElementsAre("labels.npy", "lines.csv", "timing.csv"));
+  EXPECT_FALSE(load_result(alone.path()).has_map);
+}
+
+TEST(CellFiles, TellAnEmptyMapFromNone) {
+  const testing::TemporaryFolder folder;
+  PipelineResult nothing_merged;
+  nothing_merged.has_map = true;
+  write_result(folder.path(), full_pipeline(false), nothing_merged);
+  const PipelineResult loaded = load_result(folder.path());
+  EXPECT_TRUE(loaded.has_map);
+  EXPECT_TRUE(loaded.map.lines.empty());
 }
 
 TEST(CellFiles, KeepStatusAndMetrics) {
@@ -164,6 +175,25 @@ TEST(CellAddress, ChangesWithEverythingThatTheResultDependsOn) {
   Scenario renamed = base;
   renamed.about = "another text about the same";
   EXPECT_EQ(address(renamed), address(base));
+}
+
+TEST(CellAddress, ChangesWithLinesTheirFramesTheCopiesAndTheTruth) {
+  Scenario base = testing::scenario_with("s", {});
+  LinesInput input;
+  input.world.emplace().walls = {{"a", {{0, 0}, {1, 0}}}};
+  input.params = {{"copies", std::int64_t{3}}};
+  input.frames = {{{{0, 0}, {1, 0}}, {{0, 1}, {1, 1}}}};
+  std::vector<LinesInput> others(4, input);
+  others[0].world.reset();
+  others[1].params["copies"] = std::int64_t{4};
+  others[2].frames[0][1].b.x() = 2;
+  others[3].frames = {{{{0, 0}, {1, 0}}}, {{{0, 1}, {1, 1}}}};
+  base.input = input;
+  for (const auto& other : others) {
+    Scenario changed = base;
+    changed.input = other;
+    EXPECT_NE(input_address(changed), input_address(base));
+  }
 }
 
 TEST(CellAddress, FollowsTheBytesOfALog) {

@@ -105,6 +105,14 @@ TEST(Export, TumIsTimePositionAndQuaternion) {
   EXPECT_NEAR(qw, std::sqrt(0.5), 1e-15);
 }
 
+TEST(Export, LinesAreNoScans) {
+  Recording lines;
+  lines.observed.frames.resize(1);
+  lines.observed.frames[0].lines = {{{0, 0}, {1, 0}}};
+  EXPECT_THAT(config_refusal([&] { export_text(lines, "carmen"); }), testing::HasSubstr("holds no scans"));
+  EXPECT_NO_THROW(export_text(lines, "tum"));
+}
+
 TEST(Export, UnknownFormatsAreRefused) {
   EXPECT_THAT(config_refusal([] { export_text({}, "carmn"); }), testing::HasSubstr("did you mean 'carmen'?"));
 }

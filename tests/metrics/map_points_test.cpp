@@ -67,6 +67,24 @@ TEST(MapPoints, WithoutAMapOrLinesTheDistancesAreUndefined) {
   expect_undefined(rows, "D_M");
 }
 
+TEST(MapPoints, ClustersAreCountedByTheirLinesAndDroppedLinesAreOfNone) {
+  MadeUpRun run = cross_run({});
+  for (const char* metric : {"clusters1", "clusters2"}) expect_undefined(evaluate("map_points", run), metric);
+  run.result.merge_labels = {{0, 0, 4, 7, 0}, {0, 1, 4, 8, 0}, {0, 2, 6, 9, 1}, {0, 3, -1, -1, -1}};
+  const auto rows = evaluate("map_points", run);
+  expect_value(rows, "clusters1", "all", 2, 0);
+  expect_value(rows, "clusters2", "all", 3, 0);
+}
+
+TEST(MapPoints, OfLinesWithoutScansThereIsNothingToCompress) {
+  MadeUpRun run = cross_run({});
+  for (double& range : run.observed.frames[0].ranges) range = std::numeric_limits<double>::infinity();
+  run.result.map.lines = {map_line({1, -1}, {1, 1})};
+  const auto rows = evaluate("map_points", run);
+  for (const char* metric : {"compression", "compression_bytes"}) expect_undefined(rows, metric);
+  expect_value(rows, "map_lines", "all", 1, 1);
+}
+
 TEST(MapPoints, NeedsPosesButNoTruth) {
   MadeUpRun run = cross_run({});
   EXPECT_TRUE(family("map_points")->applies(run.input_without_truth()));

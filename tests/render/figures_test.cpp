@@ -25,7 +25,13 @@ struct Case {
   FigureInput input(const NamedPoints& waypoints) const {
     FigureInput in{.title = "abcdef", .recording = recording, .waypoints = waypoints, .results = {}};
     const std::vector<std::string> names{"iepf", "line_tracking", "smf", "ransac", "hough"};
-    for (std::size_t i = 0; i < results.size(); ++i) in.results.push_back({names[i], &results[i]});
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      in.results.push_back({names[i], &results[i]});
+      in.measured.push_back({.pipeline = names[i],
+                             .slots = {{"extract some", {{"threshold_m", 0.1 * static_cast<double>(i)}}}},
+                             .units = {{"extract.threshold_m", "m"}},
+                             .metrics = {{"f1", {0.8, 0.9 + 0.01 * static_cast<double>(i)}}}});
+    }
     return in;
   }
 };
@@ -140,6 +146,33 @@ TEST(Map, HasAPanelForEachPipelineWithAMapAndKeepsItsColour) {
   ASSERT_EQ(scenes.size(), 1u);
   ASSERT_EQ(scenes[0].scene.panels.size(), 2u);  // the second of three has none
   EXPECT_EQ(std::get<Lines>(scenes[0].scene.panels[1].items[1]).stroke.color, method_style(2).color);
+}
+
+// Three widths of one method in any order, one pipeline of another, and one without a value.
+TEST(Sweep, DrawsTheMeanAndTheBandOfPipelinesThatDifferInOneParameter) {
+  const Recording none;
+  FigureInput input{.title = "t", .recording = none, .waypoints = {}, .results = {}};
+  const auto add = [&](const std::string& name, const std::string& slot, double x, std::vector<double> values) {
+    input.measured.push_back(
+        {.pipeline = name, .slots = {{slot, {{"x", x}, {"k", 1.0}}}}, .units = {{"merge.x", "m"}}, .metrics = {}});
+    if (!values.empty()) input.measured.back().metrics["n"] = std::move(values);
+  };
+  add("wide_20", "merge a", 20, {1, 2, 6});
+  add("wide_05", "merge a", 5, {4});
+  add("wide_10", "merge a", 10, {7, 9});
+  add("lonely", "merge b", 3, {5});
+  add("mute", "merge a", 30, {});
+  const auto scenes =
+      Registry<Figure>::make("sweep", {{"parameters", std::string("merge.x, merge.y")}, {"metric", std::string("n")}})
+          ->draw(input);
+  ASSERT_EQ(scenes.size(), 1U);
+  ASSERT_EQ(scenes[0].scene.panels.size(), 1U);  // nobody has a y
+  const Panel& panel = scenes[0].scene.panels[0];
+  EXPECT_EQ(panel.x.label, "merge.x [m]");
+  EXPECT_EQ(std::get<Polygon>(panel.items.at(0)).points,
+            (std::vector<Vec2>{{5, 4}, {10, 7}, {20, 1}, {20, 6}, {10, 9}, {5, 4}}));
+  EXPECT_EQ(std::get<Polyline>(panel.items.at(1)).points, (std::vector<Vec2>{{5, 4}, {10, 8}, {20, 3}}));
+  EXPECT_EQ(scenes[0].scene.legend.at(0).text, "wide");
 }
 
 }  // namespace

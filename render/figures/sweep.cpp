@@ -1,0 +1,191 @@
+// A metric against a parameter that pipelines of one kind are set to: the mean over the seeds, and the band between the
+// smallest and the largest value. A panel per parameter, a curve per kind of pipeline.
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "core/registry.hpp"
+#include "render/figures/common.hpp"
+
+namespace scanbench::render {
+namespace {
+
+struct Sample {
+  double x = 0.0;
+  double low = 0.0;
+  double mean = 0.0;
+  double high = 0.0;
+};
+
+/// Pipelines that differ in one parameter only.
+struct Curve {
+  std::string name;
+  std::vector<Sample> samples;  ///< by x
+};
+
+std::vector<std::string> words_of(std::string text) {
+  std::ranges::replace(text, ',', ' ');
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+/// The value of "slot.parameter", and all other settings as a text that tells kinds of pipelines apart.
+struct Setting {
+  std::optional<double> value;
+  std::string others;
+};
+
+Setting setting_of(const MeasuredPipeline& measured, const std::string& parameter) {
+  Setting setting;
+  for (const auto& [slot, params] : measured.slots) {
+    setting.others += slot + ";";
+    const std::string kind = slot.substr(0, slot.find(' '));
+    for (const auto& [name, value] : params) {
+      const bool varied = kind + "." + name == parameter;
+      if (const auto* number = std::get_if<double>(&value); varied && number != nullptr)
+        setting.value = *number;
+      else if (const auto* whole = std::get_if<std::int64_t>(&value); varied && whole != nullptr)
+        setting.value = static_cast<double>(*whole);
+      else
+        setting.others += name + "=" + to_text(value) + ";";
+    }
+  }
+  return setting;
+}
+
+/// What the names have in common, without the separators and digits that the values begin with.
+std::string common_name(const std::string& a, const std::string& b) {
+  std::string name = a.substr(0, static_cast<std::size_t>(std::ranges::mismatch(a, b).in1 - a.begin()));
+  const auto end = name.find_last_not_of("_-.0123456789");
+  return end == std::string::npos ? a : name.substr(0, end + 1);
+}
+
+class Sweep : public Figure {
+ public:
+  struct Params {
+    std::string parameters = "extract.threshold_m";
+    std::string metric = "f1";
+    std::vector<double> target{};
+    static auto fields() {
+      return std::tuple{field("parameters", &Params::parameters,
+                              "what is varied, a panel each: names like extract.threshold_m or [a list of them]"),
+                        field("metric", &Params::metric, "what is shown against it, of the subject all"),
+                        field("target", &Params::target, any_number(), "", "values to draw a dashed line at")};
+    }
+  };
+
+  explicit Sweep(const Params& params) : params_(params) {}
+
+  std::vector<NamedScene> draw(const FigureInput& input) const override {
+    Scene scene{.title = input.title + ": " + params_.metric};
+    std::vector<std::string> names;  // a curve keeps its looks from panel to panel
+    std::size_t seeds = 0;
+    for (const MeasuredPipeline& measured : input.measured)
+      if (const auto* values = values_of(measured)) seeds = std::max(seeds, values->size());
+    for (const std::string& parameter : words_of(params_.parameters)) {
+      const std::vector<Curve> curves = curves_over(parameter, input.measured);
+      if (curves.empty()) continue;
+      for (const Curve& curve : curves)
+        if (std::ranges::find(names, curve.name) == names.end()) names.push_back(curve.name);
+      scene.panels.push_back(panel_of(axis_label(parameter, input.measured), curves, names));
+    }
+    if (scene.panels.empty()) return {};
+    if (scene.panels.size() > 1) scene.width_in = kDoubleColumnIn;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto [color, dash, marker] = method_style(i);
+      scene.legend.push_back(
+          {.text = names[i], .stroke = Stroke{color, 1.2, dash}, .marker = marker, .marker_color = color});
+    }
+    std::string over_seeds;
+    if (seeds > 1) {
+      scene.legend.push_back({.text = "smallest to largest", .fill = lighten(kGrey, 0.7)});
+      over_seeds = fmt::format(", mean over {} seeds and band between the smallest and the largest value", seeds);
+    }
+    return {{"sweep",
+             fmt::format("{}: {} against {}{}.", input.title, params_.metric,
+                         fmt::join(words_of(params_.parameters), " and "), over_seeds),
+             std::move(scene)}};
+  }
+
+ private:
+  const std::vector<double>* values_of(const MeasuredPipeline& measured) const {
+    const auto found = measured.metrics.find(params_.metric);
+    return found == measured.metrics.end() || found->second.empty() ? nullptr : &found->second;
+  }
+
+  /// Curves of two points at least, in the order of their first pipelines.
+  std::vector<Curve> curves_over(const std::string& parameter, const std::vector<MeasuredPipeline>& all) const {
+    std::vector<Curve> curves;
+    std::vector<std::string> kinds;
+    for (const MeasuredPipeline& measured : all) {
+      const Setting setting = setting_of(measured, parameter);
+      const auto* values = values_of(measured);
+      if (!setting.value || values == nullptr) continue;
+      const auto at = static_cast<std::size_t>(std::ranges::find(kinds, setting.others) - kinds.begin());
+      if (at == kinds.size()) {
+        kinds.push_back(setting.others);
+        curves.push_back({measured.pipeline, {}});
+      }
+      const auto [low, high] = std::ranges::minmax(*values);
+      const double mean = std::accumulate(values->begin(), values->end(), 0.0) / static_cast<double>(values->size());
+      curves[at].name = common_name(curves[at].name, measured.pipeline);
+      curves[at].samples.push_back({*setting.value, low, mean, high});
+    }
+    std::erase_if(curves, [](const Curve& curve) { return curve.samples.size() < 2; });
+    for (Curve& curve : curves) std::ranges::sort(curve.samples, {}, &Sample::x);
+    return curves;
+  }
+
+  static std::string axis_label(const std::string& parameter, const std::vector<MeasuredPipeline>& all) {
+    for (const MeasuredPipeline& measured : all)
+      if (const auto unit = measured.units.find(parameter); unit != measured.units.end() && !unit->second.empty())
+        return fmt::format("{} [{}]", parameter, unit->second);
+    return parameter;
+  }
+
+  Panel panel_of(const std::string& label, const std::vector<Curve>& curves,
+                 const std::vector<std::string>& names) const {
+    Panel panel{.x = {.label = label}, .y = {.label = params_.metric}, .equal_aspect = false};
+    const auto style_of = [&](const Curve& curve) {
+      return method_style(static_cast<std::size_t>(std::ranges::find(names, curve.name) - names.begin()));
+    };
+    for (const Curve& curve : curves) {  // bands lie below all curves
+      Polygon band{.fill = lighten(style_of(curve).color, 0.7)};
+      for (const Sample& s : curve.samples) band.points.emplace_back(s.x, s.low);
+      for (std::size_t i = curve.samples.size(); i-- > 0;)
+        band.points.emplace_back(curve.samples[i].x, curve.samples[i].high);
+      panel.items.emplace_back(std::move(band));
+    }
+    const double first =
+        std::ranges::min(curves, {}, [](const Curve& c) { return c.samples.front().x; }).samples.front().x;
+    const double last =
+        std::ranges::max(curves, {}, [](const Curve& c) { return c.samples.back().x; }).samples.back().x;
+    for (const double target : params_.target)
+      panel.items.emplace_back(
+          Polyline{.points = {{first, target}, {last, target}}, .stroke = {kBlack, 0.6, Dash::dashed}});
+    for (const Curve& curve : curves) {
+      const auto [color, dash, marker] = style_of(curve);
+      Polyline line{.stroke = {color, 1.2, dash}};
+      for (const Sample& s : curve.samples) line.points.emplace_back(s.x, s.mean);
+      Points marks{.points = line.points, .marker = marker, .color = color, .size_pt = 3.6};
+      panel.items.emplace_back(std::move(line));
+      panel.items.emplace_back(std::move(marks));
+    }
+    return panel;
+  }
+
+  Params params_;
+};
+
+const bool registered =
+    Registry<Figure>::add<Sweep>({.name = "sweep",
+                                  .summary = "a metric against a parameter of the pipelines, with its band over seeds",
+                                  .reference = ""});
+
+}  // namespace
+}  // namespace scanbench::render
