@@ -2,13 +2,14 @@
 // noise model, each line estimated by maximum likelihood in the coordinates of the beams. Ours; derivation, exactness
 // and results in docs/algorithms/optimal.md.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "algorithms/extract/groups.hpp"
+#include "algorithms/extract/line_ends.hpp"
 #include "algorithms/extract/optimal_line.hpp"
 #include "algorithms/extract/optimal_segmentation.hpp"
+#include "algorithms/extract/scan_model.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 
@@ -16,24 +17,9 @@ namespace scanbench::extract {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const double kRootTwoPi = std::sqrt(kTwoPi);
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
-}
-
-// Of real sensors none always answers; with this, two missing beams do not end a wall, three do.
-constexpr double kLeastDropout = 0.01;
-
-// Range around reading i without the noise of one reading and without a spurious neighbour: median of five.
-double smoothed(std::span<const double> ranges, std::size_t i) {
-  const std::size_t n = ranges.size();
-  if (n < 5) return ranges[i];
-  const std::size_t begin = std::min(i < 2 ? 0 : i - 2, n - 5);
-  std::array<double, 5> w;
-  std::copy_n(ranges.begin() + static_cast<std::ptrdiff_t>(begin), 5, w.begin());
-  std::nth_element(w.begin(), w.begin() + 2, w.end());
-  return w[2];
 }
 
 struct Line {
@@ -45,10 +31,10 @@ struct Line {
 class Extraction {
  public:
   Extraction(const Scan& scan, const SensorNoise& noise, int max_lines)
-      : scan_(scan), noise_(noise), max_lines_(max_lines), points_(without_spurious(valid_points(scan))) {}
+      : scan_(scan), noise_(noise), max_lines_(max_lines), model_(scan, noise) {}
 
   ScanLines run(SupportRules rules, Trace& trace) {
-    if (points_.size() < 2) return lines_of_runs(scan_, points_, {}, Fit::tls, rules);
+    if (model_.size() < 2) return lines_of_runs(scan_, model_.points(), {}, Fit::tls, rules);
     trace.stage("segment");
     segment();
     trace.stage("fit");
@@ -60,69 +46,17 @@ class Extraction {
     }
     fit();
     place_corners();
+    weigh_ends();
     trace.scalar("optimal_description_nats", cost_);
     return result(rules);
   }
 
  private:
-  // Leaves out single and paired readings far in front of their neighbours, if the sensor gives spurious returns: to a
-  // line they say nothing, and it goes on behind them.
-  ScanPoints without_spurious(ScanPoints in) {
-    for (const Vec2& p : in.points) ranges_.push_back(p.norm());
-    if (!(noise_.spurious_probability > 0) || in.size() < 5) return in;
-    ScanPoints kept;
-    std::vector<double> kept_ranges;
-    for (std::size_t i = 0; i < in.size(); ++i) {
-      const double around = smoothed(ranges_, i);
-      const double sigma = reading_sigma(noise_, around, 0.0);
-      // Shorter as a draw from spurious returns, uniform up to the wall, than as an error of the reading.
-      const double nats = std::log(1.0 / noise_.spurious_probability) + std::log(around / (sigma * kRootTwoPi));
-      if (around - ranges_[i] > sigma * std::sqrt(2.0 * std::max(nats, 2.0))) continue;
-      kept.beams.push_back(in.beams[i]);
-      kept.points.push_back(in.points[i]);
-      kept_ranges.push_back(ranges_[i]);
-    }
-    ranges_ = std::move(kept_ranges);
-    return kept;
-  }
-
-  // Code length of one line going on from point i-1 to point i across beams that did not answer.
-  double gap_cost(std::size_t i) const {
-    int missing = 0;
-    for (int b = points_.beams[i - 1] + 1; b < points_.beams[i]; ++b) missing += !scan_.valid(b);
-    if (missing == 0) return 0.0;
-    const Vec2 chord = points_.points[i] - points_.points[i - 1];
-    const Vec2 d = scan_.sensor.geometry.direction(points_.beams[i]);
-    const double cos_incidence = std::fabs(cross(chord, d)) / std::max(chord.norm(), 1e-12);
-    const double oblique = 1.0 - std::min(cos_incidence, 1.0);
-    const double p = std::clamp(noise_.dropout_probability + noise_.dropout_grazing * oblique * oblique, kLeastDropout,
-                                1.0 - kLeastDropout);
-    const double nats = -missing * std::log(p);
-    // An opening, described by the places where it begins and ends, would be the shorter story.
-    return nats > 2.0 * place_cost() ? kInfinity : nats;
-  }
-
-  // Code length of a place in the scan.
-  double place_cost() const { return std::log(static_cast<double>(points_.size())); }
-
   void segment() {
-    const std::size_t n = points_.size();
-    std::vector<SegmentationPoint> in(n);
-    const double span = std::max(*std::max_element(ranges_.begin(), ranges_.end()), 1.0);
-    for (std::size_t i = 0; i < n; ++i) {
-      const bool known = !walls_.empty() && walls_[i].range > 0;
-      const double r = known ? walls_[i].range : smoothed(ranges_, i);
-      const double sigma = reading_sigma(noise_, r, known ? walls_[i].slope : 0.0);
-      SegmentationPoint& p = in[i];
-      p.direction = scan_.sensor.geometry.direction(points_.beams[i]);
-      p.inverse_range = 1.0 / ranges_[i];
-      p.weight = ranges_[i] * r * r * r / (sigma * sigma);
-      p.line_cost = std::log(sigma * kRootTwoPi);
-      p.clutter_cost = std::log(2.0 * span);
-      p.gap_cost = i > 0 ? gap_cost(i) : 0.0;
-    }
-    // The places where a line begins and ends; its two parameters are LineCost's log(points), half a log each.
-    const LineCost line_cost{2.0 * place_cost()};
+    const std::vector<SegmentationPoint> in = model_.segmentation_points(walls_);
+    // Where a line ends, and where it begins: most often where the line before ends, counted as half a place. Its two
+    // parameters are LineCost's log(points), half a log each.
+    const LineCost line_cost{1.5 * model_.place_cost()};
     const Segmentation best =
         max_lines_ > 0 ? optimal_segmentation_at_most(in, max_lines_) : optimal_segmentation(in, line_cost);
     cost_ = best.cost;
@@ -131,10 +65,13 @@ class Extraction {
       if (run.size() >= 3) lines_.push_back({run, {}});
   }
 
-  std::optional<BeamLine> fit(const PointRun& run, const std::optional<Vec2>& start = {}) {
+  void read(const PointRun& run) {
     readings_.clear();
-    for (int i = run.first; i <= run.last; ++i)
-      readings_.push_back({scan_.sensor.geometry.direction(points_.beams[at(i)]), ranges_[at(i)]});
+    for (int i = run.first; i <= run.last; ++i) readings_.push_back({model_.direction(at(i)), model_.ranges()[at(i)]});
+  }
+
+  std::optional<BeamLine> fit(const PointRun& run, const std::optional<Vec2>& start = {}) {
+    read(run);
     return fit_beam_line(readings_, noise_, start);
   }
 
@@ -143,11 +80,11 @@ class Extraction {
   }
 
   void know_walls() {
-    walls_.assign(points_.size(), {});
+    walls_.assign(model_.size(), {});
     for (const Line& line : lines_) {
       if (!line.fit) continue;
       for (int i = line.run.first; i <= line.run.last; ++i) {
-        const Vec2 d = scan_.sensor.geometry.direction(points_.beams[at(i)]);
+        const Vec2 d = model_.direction(at(i));
         const double r = line.fit->range(d);
         walls_[at(i)] = {r, r * r * cross(line.fit->theta, d)};
       }
@@ -155,11 +92,11 @@ class Extraction {
   }
 
   double squared_error(const BeamLine& line, int i) const {
-    const Vec2 d = scan_.sensor.geometry.direction(points_.beams[at(i)]);
+    const Vec2 d = model_.direction(at(i));
     const double u = line.theta.dot(d);
     if (!(u > 0)) return kInfinity;
     const double r = 1.0 / u;
-    const double e = (ranges_[at(i)] - r) / reading_sigma(noise_, r, r * r * cross(line.theta, d));
+    const double e = (model_.ranges()[at(i)] - r) / reading_sigma(noise_, r, r * r * cross(line.theta, d));
     return e * e;
   }
 
@@ -176,9 +113,7 @@ class Extraction {
 
   bool place_corner(Line& a, Line& b) {
     if (a.run.last + 1 != b.run.first || !a.fit || !b.fit) return false;
-    const auto a_is_nearer = [&](int i) {
-      return (a.fit->theta - b.fit->theta).dot(scan_.sensor.geometry.direction(points_.beams[at(i)])) > 0;
-    };
+    const auto a_is_nearer = [&](int i) { return (a.fit->theta - b.fit->theta).dot(model_.direction(at(i))) > 0; };
     const bool before = a_is_nearer(a.run.first);
     if (a_is_nearer(b.run.last) == before) return false;  // a step, not a corner
     int cut = b.run.first;                                // first point of b
@@ -188,12 +123,53 @@ class Extraction {
     double loss = 0.0;
     for (int i = b.run.first; i < cut; ++i) loss += squared_error(*a.fit, i) - squared_error(*b.fit, i);
     for (int i = cut; i < b.run.first; ++i) loss += squared_error(*b.fit, i) - squared_error(*a.fit, i);
-    if (!(0.5 * loss < place_cost())) return false;
+    if (!(0.5 * loss < model_.place_cost())) return false;
     a.run.last = cut - 1;
     b.run.first = cut;
     a.fit = fit(a.run, a.fit->theta);
     b.fit = fit(b.run, b.fit->theta);
     return true;
+  }
+
+  // Whether the two lines, neighbours in the scan, meet between their far ends.
+  bool meet(const Line& a, const Line& b) const {
+    const auto a_is_nearer = [&](int i) { return (a.fit->theta - b.fit->theta).dot(model_.direction(at(i))) > 0; };
+    return a_is_nearer(a.run.first) != a_is_nearer(b.run.last);
+  }
+
+  // What lies beyond an end that is not a corner. Where beams are missing between, nothing is known.
+  std::optional<Beyond> beyond(std::size_t k, bool last) const {
+    const Line& line = lines_[k];
+    const int own = last ? line.run.last : line.run.first;
+    const int next = own + (last ? 1 : -1);
+    if (next < 0 || next >= static_cast<int>(model_.size())) return std::nullopt;
+    if (std::abs(model_.points().beams[at(next)] - model_.points().beams[at(own)]) > 1) return std::nullopt;
+    const std::size_t other = last ? k + 1 : k - 1;
+    if (other < lines_.size() && lines_[other].run.first <= next && next <= lines_[other].run.last) {
+      if (!lines_[other].fit) return std::nullopt;
+      if (last ? meet(line, lines_[other]) : meet(lines_[other], line)) return std::nullopt;
+      return Beyond{.line = lines_[other].fit, .range_m = 0.0};
+    }
+    return Beyond{.line = {}, .range_m = model_.ranges()[at(next)]};
+  }
+
+  // The readings at the ends of a line may be those of something else.
+  void weigh_ends() {
+    std::vector<UncertainLine> weighed;
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      if (!lines_[k].fit) {
+        weighed.emplace_back();
+        continue;
+      }
+      read(lines_[k].run);
+      weighed.push_back(with_uncertain_ends(*lines_[k].fit, readings_, noise_, {beyond(k, false), beyond(k, true)}, 3));
+    }
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      if (!lines_[k].fit) continue;
+      lines_[k].fit = weighed[k].line;
+      lines_[k].run.first += weighed[k].foreign[0];
+      lines_[k].run.last -= weighed[k].foreign[1];
+    }
   }
 
   ScanLines result(SupportRules rules) {
@@ -202,7 +178,7 @@ class Extraction {
     std::vector<int> line_of_first_beam(at(scan_.beams()), -1);
     for (std::size_t k = 0; k < lines_.size(); ++k) {
       const PointRun& run = lines_[k].run;
-      const std::span support = std::span(points_.points).subspan(at(run.first), at(run.size()));
+      const std::span support = std::span(model_.points().points).subspan(at(run.first), at(run.size()));
       LineFit line = fit_group(support, Fit::tls);
       if (const auto& beam_line = lines_[k].fit) {
         line.normal = beam_line->normal();
@@ -213,9 +189,9 @@ class Extraction {
       }
       runs.push_back(run);
       fits.push_back(line);
-      line_of_first_beam[at(points_.beams[at(run.first)])] = static_cast<int>(k);
+      line_of_first_beam[at(model_.points().beams[at(run.first)])] = static_cast<int>(k);
     }
-    ScanLines out = lines_of_runs(scan_, points_, runs, fits, rules);
+    ScanLines out = lines_of_runs(scan_, model_.points(), runs, fits, rules);
     for (LineFeature& line : out.lines) {
       const auto& fitted = lines_[at(line_of_first_beam[at(line.first_beam)])].fit;
       if (fitted) line.covariance = line_covariance(*fitted, line.segment.midpoint());
@@ -223,17 +199,11 @@ class Extraction {
     return out;
   }
 
-  struct Wall {
-    double range = 0.0;  ///< 0: unknown
-    double slope = 0.0;  ///< change of range per radian of bearing
-  };
-
   const Scan& scan_;
   const SensorNoise& noise_;
   int max_lines_;
-  std::vector<double> ranges_;  // of points_
-  ScanPoints points_;
-  std::vector<Wall> walls_;
+  ScanModel model_;
+  std::vector<KnownWall> walls_;
   std::vector<Line> lines_;
   std::vector<BeamReading> readings_;
   double cost_ = 0.0;
