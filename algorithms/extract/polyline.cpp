@@ -34,6 +34,7 @@ std::size_t at(int i) {
 struct FittedChain {
   ChainFit fit;
   std::vector<int> points;
+  double cost = 0.0;  ///< code length of its returns, apart from missing beams
 };
 
 class Extraction {
@@ -87,12 +88,13 @@ class Extraction {
     std::vector<double> ranges(model_.size());
     for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = model_.smoothed_range(i);
     double squares = 0.0, count = 1.0;
-    for (const auto& [fit, points] : chains) {
-      squares += 2.0 * fit.half_squares;
-      count += static_cast<double>(points.size());
-      for (const int i : points) {
-        const double bearing = within(fit.chain, readings_[at(i)].bearing_rad);
-        ranges[at(i)] = 1.0 / fit.chain.inverse_range(fit.chain.wall_at(bearing), bearing);
+    for (const FittedChain& c : chains) {
+      squares += 2.0 * c.fit.half_squares;
+      count += static_cast<double>(c.points.size());
+      for (const int i : c.points) {
+        const Chain& chain = c.fit.chain;
+        const double bearing = within(chain, readings_[at(i)].bearing_rad);
+        ranges[at(i)] = 1.0 / chain.inverse_range(chain.wall_at(bearing), bearing);
       }
     }
     const double misfit = std::max(std::sqrt(squares / count), 1.0);  // in standard deviations
@@ -105,9 +107,9 @@ class Extraction {
   double description(const std::vector<FittedChain>& chains) const {
     double cost = 0.0;
     for (const SegmentationPoint& p : points_) cost += p.clutter_cost;
-    for (const auto& [fit, points] : chains) {
-      cost += fit.half_squares + vertex_cost_ * static_cast<double>(fit.chain.vertices.size());
-      for (const int i : points) cost += points_[at(i)].line_cost - points_[at(i)].clutter_cost;
+    for (const FittedChain& chain : chains) {
+      cost += chain.cost + vertex_cost_ * static_cast<double>(chain.fit.chain.vertices.size());
+      for (const int i : chain.points) cost -= points_[at(i)].clutter_cost;
     }
     return cost;
   }
@@ -182,7 +184,7 @@ class Extraction {
     const int first = closed ? 0 : grid.front().point;
     const int last = closed ? n - 1 : grid.back().point;
     for (int i = first; i <= last; ++i) result.points.push_back(i);
-    const std::span readings = std::span(readings_).subspan(at(first), at(last - first + 1));
+    std::vector<BearingReading> readings(readings_.begin() + first, readings_.begin() + last + 1);
     result.fit = fit_chain(start, readings);
     if (noise_.bearing_sigma_rad > 0) {  // it counts as much as the walls are oblique, which is known now
       for (BearingReading& z : readings) {
@@ -193,6 +195,8 @@ class Extraction {
       }
       result.fit = fit_chain(result.fit.chain, readings);
     }
+    result.cost = result.fit.half_squares;
+    for (const BearingReading& z : readings) result.cost += std::log(z.sigma_m * std::sqrt(kTwoPi));
     return result;
   }
 

