@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "harness/benchmark.hpp"
 #include "harness/scenario.hpp"
 
 namespace scanbench::app {
@@ -38,9 +40,11 @@ void add_inspection(Context& context);  ///< check, list, describe
 void add_recordings(Context& context);  ///< simulate, export
 void add_results(Context& context);     ///< score, compare, figures, report
 
-/// Scenarios of scenario and suite files, in order; `name` receives the first file's name without ending.
+/// Scenarios of scenario and suite files, in order; `name` receives the first file's name without ending, `benchmark`
+/// what a suite that stands alone ranks.
 std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
-                                           std::string* name = nullptr);
+                                           std::string* name = nullptr,
+                                           std::optional<harness::BenchmarkSpec>* benchmark = nullptr);
 
 /// `--seed` as it was written, "1,2,3"; empty: the scenarios' own. Throws ConfigError for anything but whole numbers
 /// that a scenario file may have.

@@ -63,12 +63,14 @@ int describe(const std::string& name, bool all, bool markdown, bool json) {
 }  // namespace
 
 std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
-                                           std::string* name) {
+                                           std::string* name, std::optional<harness::BenchmarkSpec>* benchmark) {
   std::vector<harness::Scenario> scenarios;
   for (const auto& file : files) {
     if (name != nullptr && name->empty()) *name = fs::path(file).stem().string();
     if (harness::is_suite(file)) {
-      for (auto& scenario : harness::load_suite(file, sets).scenarios) scenarios.push_back(std::move(scenario));
+      harness::Suite suite = harness::load_suite(file, sets);
+      for (auto& scenario : suite.scenarios) scenarios.push_back(std::move(scenario));
+      if (benchmark != nullptr && files.size() == 1) *benchmark = suite.benchmark;
     } else {
       scenarios.push_back(harness::load_scenario(file, sets));
       if (name != nullptr && files.size() == 1) *name = scenarios.back().name;

@@ -9,7 +9,6 @@
 #include "app/progress.hpp"
 #include "harness/run_report.hpp"
 #include "harness/runner.hpp"
-#include "harness/scenario_tables.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -30,9 +29,8 @@ std::size_t terminal_width() {
 }
 
 void print_tables(const harness::ReportInput& input) {
-  for (const auto& scenario : input.scenarios)
-    for (const auto& table : harness::scenario_tables(scenario, input.rows, harness::TableDetail::summary))
-      fmt::print("{}\n", harness::to_terminal(table, use_color(), terminal_width()));
+  for (const auto& table : harness::closing_tables(input))
+    fmt::print("{}\n", harness::to_terminal(table, use_color(), terminal_width()));
 }
 
 void print_json(const harness::RunResult& result) {
@@ -56,7 +54,8 @@ void note_cell(Progress& progress, const harness::CellResult& cell) {
 
 int run(const Options& options, const std::vector<std::string>& argv) {
   std::string name;
-  const auto scenarios = load_inputs(options.files, options.sets, &name);
+  std::optional<harness::BenchmarkSpec> benchmark;
+  const auto scenarios = load_inputs(options.files, options.sets, &name, &benchmark);
   for (const auto& scenario : scenarios)
     for (const auto& note : scenario.notes)
       if (!options.quiet) fmt::print(stderr, "{}: note: {}\n", scenario.name, note);
@@ -70,6 +69,7 @@ int run(const Options& options, const std::vector<std::string>& argv) {
   run_options.resume = options.resume;
   run_options.journal = options.journal;
   run_options.argv = argv;
+  run_options.benchmark = benchmark;
   run_options.progress = [&](const harness::RunProgress& now) {
     if (now.cell != nullptr) note_cell(progress, *now.cell);
     const double total = static_cast<double>(now.total);

@@ -75,20 +75,24 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenar
   }
   for (const auto& loaded : results) input.results.push_back({loaded.pipeline, &loaded.result});
 
-  make_folders(run / "figures");
   std::vector<FigureFile> files;
   for (std::size_t i = 0; i < scenario.figures.size(); ++i) {
     const auto& choice = scenario.figures[i];
     if (progress) progress(static_cast<double>(i) / static_cast<double>(scenario.figures.size()), choice.module);
     for (const auto& drawn : Registry<render::Figure>::make(choice.module, choice.params)->draw(input)) {
       const std::string name = scenario.name + "_" + drawn.name;
-      write_file_atomically(run / "figures" / (name + ".svg"), render::to_svg(drawn.scene));
-      write_file_atomically(run / "figures" / (name + ".png"), render::to_png(drawn.scene));
-      if (pdf) write_file_atomically(run / "figures" / (name + ".pdf"), render::to_pdf(drawn.scene));
+      write_figure(run, name, drawn.scene, pdf);
       files.push_back({scenario.name, name, drawn.caption});
     }
   }
   return files;
+}
+
+void write_figure(const fs::path& run, const std::string& name, const render::Scene& scene, bool pdf) {
+  make_folders(run / "figures");
+  write_file_atomically(run / "figures" / (name + ".svg"), render::to_svg(scene));
+  write_file_atomically(run / "figures" / (name + ".png"), render::to_png(scene));
+  if (pdf) write_file_atomically(run / "figures" / (name + ".pdf"), render::to_pdf(scene));
 }
 
 void save_figure_index(const fs::path& run, const std::vector<FigureFile>& figures) {

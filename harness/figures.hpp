@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/scenario.hpp"
+#include "render/scene.hpp"
 
 namespace scanbench::harness {
 
@@ -21,6 +22,9 @@ struct FigureFile {
 /// SVG and PNG, and as PDF with `pdf`. Throws ConfigError if files are missing or cannot be written.
 std::vector<FigureFile> draw_figures(const std::filesystem::path& run, const Scenario& scenario, bool pdf = false,
                                      const std::function<void(double, const std::string&)>& progress = {});
+
+/// Writes run/figures/<name>.svg and .png, and .pdf with `pdf`.
+void write_figure(const std::filesystem::path& run, const std::string& name, const render::Scene& scene, bool pdf);
 
 /// figures/index.json: which figure belongs to which scenario, with its caption.
 void save_figure_index(const std::filesystem::path& run, const std::vector<FigureFile>& figures);

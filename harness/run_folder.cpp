@@ -96,7 +96,8 @@ bool is_run_file(const fs::path& relative) {
     return std::ranges::count(names, last) > 0;
   };
   if (parts.size() == 1)
-    return one_of({"manifest.json", "scenario.yaml", "effective.yaml", "summary.csv", "report.html", "report.md"});
+    return one_of({"manifest.json", "scenario.yaml", "effective.yaml", "summary.csv", "benchmark.json", "report.html",
+                   "report.md"});
   const std::string& first = parts.front();
   const std::string ending = relative.extension().string();
   if (first == "figures") return ending == ".png" || ending == ".svg" || ending == ".pdf" || last == "index.json";
@@ -107,7 +108,7 @@ bool is_run_file(const fs::path& relative) {
                                         "true_ranges.npy", "wall_ids.npy"});
   if (first == "cells")
     return parts.size() == 5 && one_of({"status.json", "lines.csv", "labels.npy", "map.csv", "poses.csv",
-                                        "merge_labels.csv", "trace.csv", "timing.csv", "metrics.csv"});
+                                        "merge_labels.csv", "trace.csv", "timing.csv", "metrics.csv", "matches.csv"});
   return false;
 }
 

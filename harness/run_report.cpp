@@ -3,8 +3,11 @@
 
 #include "harness/agreement.hpp"
 #include "harness/atomic_file.hpp"
+#include "harness/benchmark_figures.hpp"
+#include "harness/benchmark_report.hpp"
 #include "harness/cell_files.hpp"
 #include "harness/run_folder.hpp"
+#include "harness/scenario_tables.hpp"
 
 namespace scanbench::harness {
 
@@ -50,6 +53,8 @@ ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& 
 void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenarios, bool pdf,
                       const std::function<void(double, const std::string&)>& progress) {
   std::vector<FigureFile> figures;
+  const auto benchmark = load_benchmark(run);
+  if (benchmark) figures = draw_benchmark_figures(run, scenarios, *benchmark, pdf, progress);
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     const auto part = [&](double share, const std::string& what) {
       if (progress) progress((static_cast<double>(i) + share) / static_cast<double>(scenarios.size()), what);
@@ -60,9 +65,19 @@ void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenario
   refresh_manifest(run);
 }
 
+std::vector<Table> closing_tables(const ReportInput& input) {
+  if (const auto benchmark = load_benchmark(input.run))
+    return {ranking_table(rank_pipelines(input.scenarios, input.rows, *benchmark), *benchmark)};
+  std::vector<Table> tables;
+  for (const auto& scenario : input.scenarios)
+    for (auto& table : scenario_tables(scenario, input.rows, TableDetail::summary)) tables.push_back(std::move(table));
+  return tables;
+}
+
 void write_reports(const fs::path& run, const ReportInput& input) {
-  write_file_atomically(run / "report.html", report_html(input));
-  write_file_atomically(run / "report.md", report_markdown(input));
+  const auto benchmark = load_benchmark(run);
+  write_file_atomically(run / "report.html", benchmark ? benchmark_html(input, *benchmark) : report_html(input));
+  write_file_atomically(run / "report.md", benchmark ? benchmark_markdown(input, *benchmark) : report_markdown(input));
   write_agreement(run, input);
   refresh_manifest(run);
 }

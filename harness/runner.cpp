@@ -149,6 +149,7 @@ class Run {
     for (const auto& scenario : scenarios_) manifest_.scenarios.push_back(scenario.name);
     for (const auto& cell : cells_) manifest_.cells.push_back(cell.result.key);
     write_manifest(run, manifest_);  // first of all files: with it the folder is ours
+    if (options_.benchmark) write_file_atomically(run / "benchmark.json", benchmark_json(*options_.benchmark));
     if (scenarios_.size() == 1) {
       write_file_atomically(run / "scenario.yaml", scenarios_.front().text);
       write_file_atomically(run / "effective.yaml", services_.effective_yaml(scenarios_.front()));
@@ -291,8 +292,10 @@ class Run {
                       run_pipeline(*cell.pipeline, recording.observed, options_.journal ? &journal : nullptr);
                   write_result(folder, *cell.pipeline, run.result);
                   if (options_.journal) write_staged_file(folder / "trace.csv", journal.csv());
-                  const auto rows = score_cell(cell.scenario->metrics, recording, folder);
-                  write_staged_file(folder / "metrics.csv", metrics_csv(rows));
+                  const Scores scores = score_cell(cell.scenario->metrics, recording, folder);
+                  write_staged_file(folder / "metrics.csv", metrics_csv(scores.rows));
+                  for (const auto& table : scores.tables)
+                    write_staged_file(folder / (table.name + ".csv"), metric_table_csv(table));
                   return run.remarks;
                 },
                 {cell.scenario->limits.seconds, cell.scenario->limits.memory_bytes, 1});

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "harness/benchmark.hpp"
 #include "harness/cell_files.hpp"
 #include "harness/run_folder.hpp"
 #include "harness/scenario.hpp"
@@ -36,6 +38,7 @@ struct RunOptions {
   bool resume = false;
   bool journal = false;                ///< trace.csv in every cell
   std::vector<std::string> argv = {};  ///< for the manifest
+  std::optional<BenchmarkSpec> benchmark = {};
   std::function<void(const RunProgress&)> progress = {};
 };
 

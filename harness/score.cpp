@@ -2,6 +2,7 @@
 #include "harness/score.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "core/error.hpp"
@@ -14,26 +15,54 @@
 namespace scanbench::harness {
 namespace fs = std::filesystem;
 
-std::vector<metrics::MetricRow> evaluate_metrics(const std::vector<ModuleChoice>& families, const Recording& recording,
-                                                 const PipelineResult& result) {
-  const metrics::MetricInput input{recording.observed, recording.truth ? &*recording.truth : nullptr, result};
-  std::vector<metrics::MetricRow> rows;
+namespace {
+
+metrics::MetricInput metric_input(const Recording& recording, const PipelineResult& result) {
+  return {recording.observed, recording.truth ? &*recording.truth : nullptr, result};
+}
+
+/// Calls `use` with every chosen family that can say something of the input.
+template <class Use>
+void for_each_family(const std::vector<ModuleChoice>& families, const metrics::MetricInput& input, Use use) {
   for (const auto& choice : families) {
     const auto family = Registry<metrics::MetricFamily>::make(choice.module, choice.params);
-    if (!family->applies(input)) continue;
-    const auto more = family->evaluate(input);
-    rows.insert(rows.end(), more.begin(), more.end());
+    if (family->applies(input)) use(*family);
   }
+}
+
+template <class T>
+void append(std::vector<T>& all, std::vector<T> more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+}  // namespace
+
+std::vector<metrics::MetricRow> evaluate_metrics(const std::vector<ModuleChoice>& families, const Recording& recording,
+                                                 const PipelineResult& result) {
+  const metrics::MetricInput input = metric_input(recording, result);
+  std::vector<metrics::MetricRow> rows;
+  for_each_family(families, input, [&](const auto& family) { append(rows, family.evaluate(input)); });
   return rows;
 }
 
-std::vector<metrics::MetricRow> score_cell(const std::vector<ModuleChoice>& families, const Recording& recording,
-                                           const fs::path& cell) {
+Scores score_cell(const std::vector<ModuleChoice>& families, const Recording& recording, const fs::path& cell) {
   const PipelineResult result = load_result(cell);
   if (result.lines.size() != recording.observed.frames.size())
     throw ConfigError(cell.string() + ": " + std::to_string(result.lines.size()) + " frames; the recording has " +
                       std::to_string(recording.observed.frames.size()));
-  return evaluate_metrics(families, recording, result);
+  Scores scores{evaluate_metrics(families, recording, result), {}};
+  const metrics::MetricInput input = metric_input(recording, result);
+  for_each_family(families, input, [&](const auto& family) { append(scores.tables, family.tables(input)); });
+  return scores;
+}
+
+std::string metric_table_csv(const metrics::MetricTable& table) {
+  CsvWriter csv(table.columns);
+  for (const auto& row : table.rows) {
+    for (const double value : row) csv.number(value);
+    csv.end_row();
+  }
+  return csv.str();
 }
 
 std::string summary_header() {
@@ -59,6 +88,7 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
                       const std::function<void(double, const std::string&)>& progress) {
   const Manifest manifest = load_manifest(run);
   std::string summary = summary_header();
+  std::size_t scored = 0;
   std::vector<std::pair<fs::path, std::string>> files;  // written when all are known: whoever stops it changes nothing
   std::map<std::pair<std::string, std::uint64_t>, Recording> recordings;  // at most one at a time
   for (std::size_t i = 0; i < manifest.cells.size(); ++i) {
@@ -74,14 +104,16 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
       recordings.clear();
       recordings.emplace(source, load_recording(recording_path(run, key.scenario, key.seed)));
     }
-    const auto rows = score_cell(scenario->metrics, recordings.at(source), cell);
-    files.emplace_back(cell / "metrics.csv", metrics_csv(rows));
-    summary += summary_lines(key, rows);
+    const Scores scores = score_cell(scenario->metrics, recordings.at(source), cell);
+    files.emplace_back(cell / "metrics.csv", metrics_csv(scores.rows));
+    for (const auto& table : scores.tables) files.emplace_back(cell / (table.name + ".csv"), metric_table_csv(table));
+    summary += summary_lines(key, scores.rows);
+    ++scored;
   }
   for (const auto& [path, text] : files) write_file_atomically(path, text);
   write_file_atomically(run / "summary.csv", summary);
   refresh_manifest(run);
-  return files.size();
+  return scored;
 }
 
 }  // namespace scanbench::harness

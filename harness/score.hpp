@@ -18,19 +18,28 @@ namespace scanbench::harness {
 std::vector<metrics::MetricRow> evaluate_metrics(const std::vector<ModuleChoice>& families, const Recording& recording,
                                                  const PipelineResult& result);
 
-/// The same, the result read from the cell's folder. `recording` is what load_recording() gives: bit for bit what was
-/// saved.
-std::vector<metrics::MetricRow> score_cell(const std::vector<ModuleChoice>& families, const Recording& recording,
-                                           const std::filesystem::path& cell);
+/// Rows and tables of one cell.
+struct Scores {
+  std::vector<metrics::MetricRow> rows;
+  std::vector<metrics::MetricTable> tables;
+};
+
+/// The same and the families' tables, the result read from the cell's folder. `recording` is what load_recording()
+/// gives: bit for bit what was saved.
+Scores score_cell(const std::vector<ModuleChoice>& families, const Recording& recording,
+                  const std::filesystem::path& cell);
+
+/// A table as a file of the cell, <name>.csv.
+std::string metric_table_csv(const metrics::MetricTable& table);
 
 /// First line of summary.csv, and the lines of one cell.
 std::string summary_header();
 std::string summary_lines(const CellKey& key, const std::vector<metrics::MetricRow>& rows);
 
 /// Scores the finished cells of a run again, with the metrics of the given scenarios, and rewrites metrics.csv,
-/// summary.csv and the manifest's list. Returns how many cells were scored. Throws ConfigError if a cell's scenario is
-/// not among them or a file is missing. `progress` is told of each cell before it is scored; nothing is written before
-/// all are, so that whatever it throws leaves the run as it was.
+/// the tables, summary.csv and the manifest's list. Returns how many cells were scored. Throws ConfigError if a cell's
+/// scenario is not among them or a file is missing. `progress` is told of each cell before it is scored; nothing is
+/// written before all are, so that whatever it throws leaves the run as it was.
 std::size_t score_run(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
                       const std::function<void(double, const std::string&)>& progress = {});
 

@@ -95,6 +95,34 @@ Interval mean_interval(std::span<const double> all) {
   return {mean, std::min(t.low, bootstrap.low), std::max(t.high, bootstrap.high), count};
 }
 
+double paired_p_value(std::span<const double> all) {
+  const std::vector<double> values = finite(all);
+  if (values.size() < 2) return kNaN;
+  const auto n = static_cast<double>(values.size());
+  const double mean = mean_of(values);
+  double squares = 0.0;
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  if (squares == 0.0) return mean == 0.0 ? 1.0 : 0.0;
+  const double t = mean / std::sqrt(squares / (n - 1.0) / n);
+  const boost::math::students_t distribution(n - 1.0);
+  return 2.0 * boost::math::cdf(boost::math::complement(distribution, std::fabs(t)));
+}
+
+std::vector<double> holm_adjusted(std::span<const double> p_values) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < p_values.size(); ++i)
+    if (std::isfinite(p_values[i])) order.push_back(i);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p_values[i]; });
+  std::vector<double> adjusted(p_values.begin(), p_values.end());
+  double largest = 0.0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const double corrected = static_cast<double>(order.size() - k) * p_values[order[k]];
+    largest = std::min(1.0, std::max(largest, corrected));
+    adjusted[order[k]] = largest;
+  }
+  return adjusted;
+}
+
 double median(std::span<const double> all) {
   std::vector<double> values = finite(all);
   if (values.empty()) return kNaN;

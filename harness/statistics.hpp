@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace scanbench::harness {
 
@@ -19,6 +20,14 @@ struct Interval {
 /// The wider, at each end, of Student's t interval and a seeded bias-corrected and accelerated bootstrap (Efron 1987):
 /// the percentile bootstrap alone covers too little below some twenty seeds. NaN values are left out.
 Interval mean_interval(std::span<const double> values);
+
+/// Two-sided p-value of Student's t test that the mean of the differences of pairs is zero. NaN for fewer than two
+/// values; 0 or 1 for differences without spread. NaN values are left out.
+double paired_p_value(std::span<const double> differences);
+
+/// p-values corrected for being many, in the same order: Holm, "A simple sequentially rejective multiple test
+/// procedure", Scandinavian Journal of Statistics 1979. NaN values are no tests and stay.
+std::vector<double> holm_adjusted(std::span<const double> p_values);
 
 double median(std::span<const double> values);  ///< NaN values left out; NaN for none
 

@@ -12,6 +12,10 @@ std::string marked(const TableCell& cell) {
   return cell.best ? cell.text + "*" : cell.text;
 }
 
+std::string with_spread(const std::string& text, const TableCell& cell) {
+  return cell.spread.empty() ? text : text + " " + cell.spread;
+}
+
 // Code points, not bytes: enough for the Latin and Greek letters and signs in our headings.
 std::size_t display_width(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -50,7 +54,8 @@ std::string flat_head(const TableColumn& column) {
 
 std::size_t column_width(const Table& table, std::size_t column) {
   std::size_t width = display_width(table.columns[column].head);
-  for (const auto& row : table.rows) width = std::max(width, display_width(marked(row.cells[column])));
+  for (const auto& row : table.rows)
+    width = std::max(width, display_width(with_spread(marked(row.cells[column]), row.cells[column])));
   return width;
 }
 
@@ -71,7 +76,9 @@ std::string part_to_terminal(const Table& table, bool color) {
   for (std::size_t c = 0; c < heads + table.columns.size(); ++c) {
     std::size_t width = display_width(c < heads ? table.row_heads[c] : table.columns[c - heads].head);
     for (const auto& row : table.rows)
-      width = std::max(width, display_width(c < heads ? row.heads[c] : marked(row.cells[c - heads])));
+      width = std::max(
+          width,
+          display_width(c < heads ? row.heads[c] : with_spread(marked(row.cells[c - heads]), row.cells[c - heads])));
     widths.push_back(width);
   }
   const auto faint = [&](const std::string& text, bool on) {
@@ -108,7 +115,9 @@ std::string part_to_terminal(const Table& table, bool color) {
     line.clear();
     for (std::size_t c = 0; c < heads; ++c) line += faint(padded(row.heads[c], widths[c], false), row.published) + "  ";
     for (std::size_t c = 0; c < row.cells.size(); ++c)
-      line += faint(padded(marked(row.cells[c]), widths[heads + c], true), row.cells[c].published) + separator(c);
+      line += faint(padded(with_spread(marked(row.cells[c]), row.cells[c]), widths[heads + c], true),
+                    row.cells[c].published) +
+              separator(c);
     out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   if (!table.caption.empty()) out += table.caption + "\n";
@@ -168,7 +177,8 @@ std::string to_markdown(const Table& table) {
   for (const auto& row : table.rows) {
     out += "|";
     for (const auto& head : row.heads) out += " " + head + " |";
-    for (const auto& cell : row.cells) out += " " + (cell.best ? "**" + cell.text + "**" : cell.text) + " |";
+    for (const auto& cell : row.cells)
+      out += " " + with_spread(cell.best ? "**" + cell.text + "**" : cell.text, cell) + " |";
     out += "\n";
   }
   if (!table.caption.empty()) out += "\n" + table.caption + "\n";
@@ -202,8 +212,9 @@ std::string to_html(const Table& table) {
     for (std::size_t c = 0; c < row.cells.size(); ++c) {
       const bool first = c == 0 || table.columns[c].group != table.columns[c - 1].group;
       const auto& cell = row.cells[c];
-      out += fmt::format("<td class=\"{}{}{}\">{}</td>", cell.best ? "best " : "", cell.published ? "published " : "",
-                         first ? "first" : "", html_escaped(marked(cell)));
+      const std::string spread = cell.spread.empty() ? "" : "<small>" + html_escaped(cell.spread) + "</small>";
+      out += fmt::format("<td class=\"{}{}{}\">{}{}</td>", cell.best ? "best " : "", cell.published ? "published " : "",
+                         first ? "first" : "", html_escaped(marked(cell)), spread);
     }
     out += "</tr>\n";
   }

@@ -10,6 +10,7 @@ struct TableCell {
   std::string text;
   bool best = false;       ///< the best of its row or column
   bool published = false;  ///< from a paper, not computed here
+  std::string spread{};    ///< "± 0.12": behind the text, below it in HTML; may be empty
 };
 
 struct TableColumn {

@@ -8,6 +8,7 @@
 // below 1 beyond its interval means that an extractor saw the truth or used the beams of two runs of a wall for one
 // line.
 #include <cmath>
+#include <optional>
 
 #include <Eigen/LU>
 
@@ -51,12 +52,26 @@ struct Ratio {
   }
 };
 
+/// A found line that is true, with enough beams.
+struct Match {
+  std::size_t frame;
+  std::size_t line;
+  const LineFeature& found;
+  TrueLine truth;
+  PolarLine true_line;
+  std::optional<Eigen::Matrix2d> bound;
+
+  Eigen::Vector2d error_at(const Vec2& point) const { return line_error(found.line, true_line, point); }
+};
+
 class Efficiency : public MetricFamily {
  public:
   struct Params {
     int min_beams = 20;
+    bool matches = false;
     static auto fields() {
-      return std::tuple{field("min_beams", &Params::min_beams, at_least(9), "", "fewest returns of a true line")};
+      return std::tuple{field("min_beams", &Params::min_beams, at_least(9), "", "fewest returns of a true line"),
+                        field("matches", &Params::matches, "write matches.csv: error and bound of every matched line")};
     }
   };
 
@@ -80,31 +95,20 @@ class Efficiency : public MetricFamily {
 
   std::vector<MetricRow> evaluate(const MetricInput& input) const override {
     SCANBENCH_ASSERT(applies(input));
-    const Surfaces surfaces = join_walls(input.truth->walls);
     Ratio offset, angle;
     Mean nees;
-    for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
-      const Scan scan = input.observed.scan(f);
-      const std::vector<TrueLine> truths = true_lines(input, f, surfaces, TrueLineRule{});
-      const std::vector<LineFeature>& found = input.result.lines[f].lines;
-      const LineMatching matching = match_lines(found, truths, MatchRule{});
-      for (std::size_t k = 0; k < found.size(); ++k) {
-        if (matching.outcome[k] != Outcome::true_line) continue;
-        const TrueLine& t = truths[static_cast<std::size_t>(matching.truth[k])];
-        if (t.beams < params_.min_beams) continue;
-        const PolarLine true_line = line_through(t.segment.a, t.segment.b);
-        if (const auto bound = line_bound(scan, t)) {
-          const Eigen::Vector2d e = line_error(found[k].line, true_line, t.segment.midpoint());
-          offset.add(e[0], (*bound)(0, 0));
-          angle.add(e[1], (*bound)(1, 1));
-        }
-        if (!found[k].covariance) continue;
-        const Eigen::Matrix2d& c = *found[k].covariance;
-        if (!(c(0, 0) > 0 && c.determinant() > 0)) continue;
-        const Eigen::Vector2d e = line_error(found[k].line, true_line, found[k].segment.midpoint());
-        nees.add(e.dot(c.inverse() * e));
+    for_each_match(input, [&](const Match& match) {
+      if (match.bound) {
+        const Eigen::Vector2d e = match.error_at(match.truth.segment.midpoint());
+        offset.add(e[0], (*match.bound)(0, 0));
+        angle.add(e[1], (*match.bound)(1, 1));
       }
-    }
+      if (!match.found.covariance) return;
+      const Eigen::Matrix2d& c = *match.found.covariance;
+      if (!(c(0, 0) > 0 && c.determinant() > 0)) return;
+      const Eigen::Vector2d e = match.error_at(match.found.segment.midpoint());
+      nees.add(e.dot(c.inverse() * e));
+    });
 
     Rows rows(describe());
     for (const auto& [metric, r] : {std::pair("efficiency_offset", &offset), std::pair("efficiency_angle", &angle)}) {
@@ -124,7 +128,43 @@ class Efficiency : public MetricFamily {
     return rows.take();
   }
 
+  std::vector<MetricTable> tables(const MetricInput& input) const override {
+    if (!params_.matches) return {};
+    MetricTable table{"matches",
+                      {"frame", "line", "first_beam", "last_beam", "beams", "range_m", "length_m", "offset_m",
+                       "angle_rad", "bound_offset_m", "bound_angle_rad"},
+                      {}};
+    for_each_match(input, [&](const Match& match) {
+      const TrueLine& t = match.truth;
+      const Vec2 middle = t.segment.midpoint();
+      const Eigen::Vector2d e = match.error_at(middle);
+      const auto sigma = [&](int i) { return match.bound ? std::sqrt((*match.bound)(i, i)) : kUndefined; };
+      table.rows.push_back({static_cast<double>(match.frame), static_cast<double>(match.line),
+                            static_cast<double>(t.first_beam), static_cast<double>(t.last_beam),
+                            static_cast<double>(t.beams), middle.norm(), t.segment.length(), e[0], e[1], sigma(0),
+                            sigma(1)});
+    });
+    return {table};
+  }
+
  private:
+  template <class Visit>
+  void for_each_match(const MetricInput& input, Visit visit) const {
+    const Surfaces surfaces = join_walls(input.truth->walls);
+    for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
+      const Scan scan = input.observed.scan(f);
+      const std::vector<TrueLine> truths = true_lines(input, f, surfaces, TrueLineRule{});
+      const std::vector<LineFeature>& found = input.result.lines[f].lines;
+      const LineMatching matching = match_lines(found, truths, MatchRule{});
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        if (matching.outcome[k] != Outcome::true_line) continue;
+        const TrueLine& t = truths[static_cast<std::size_t>(matching.truth[k])];
+        if (t.beams < params_.min_beams) continue;
+        visit(Match{f, k, found[k], t, line_through(t.segment.a, t.segment.b), line_bound(scan, t)});
+      }
+    }
+  }
+
   Params params_;
 };
 

@@ -42,6 +42,13 @@ struct MetricInput {
   const PipelineResult& result;
 };
 
+/// Observations behind the rows, one a line, as a file of the cell: <name>.csv.
+struct MetricTable {
+  std::string name;
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;  ///< as many values as there are columns
+};
+
 /// A family of metrics computed together: borges2000, siadat1997, segments, ... Registered in Registry<MetricFamily>.
 class MetricFamily {
  public:
@@ -51,6 +58,8 @@ class MetricFamily {
   /// False: the family cannot say anything about this input (no truth, no map); then it is absent, not zero.
   virtual bool applies(const MetricInput& input) const = 0;
   virtual std::vector<MetricRow> evaluate(const MetricInput& input) const = 0;
+  /// Tables that its parameters ask for.
+  virtual std::vector<MetricTable> tables(const MetricInput&) const { return {}; }
 };
 
 }  // namespace scanbench::metrics

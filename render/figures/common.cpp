@@ -110,14 +110,18 @@ void set_ranges_to_hold(Panel& panel, const std::vector<Vec2>& points) {
   if (!panel.y.range) panel.y.range = {low.y() - margin, high.y() + margin};
 }
 
+Color method_color(const std::vector<NamedResult>& results, std::size_t i) {
+  return method_style(results.size() > kColoredMethods ? 0 : i).color;
+}
+
 void add_method_legend(const std::vector<NamedResult>& results, double width_pt, Scene& scene) {
-  if (results.size() > 4) {
-    scene.legend.push_back({.text = "lines found", .stroke = Stroke{method_style(0).color, width_pt, Dash::solid}});
+  if (results.size() > kColoredMethods) {
+    scene.legend.push_back({.text = "lines found", .stroke = Stroke{method_color(results, 0), width_pt, Dash::solid}});
     return;
   }
   for (std::size_t i = 0; i < results.size(); ++i)
     scene.legend.push_back(
-        {.text = results[i].pipeline, .stroke = Stroke{method_style(i).color, width_pt, Dash::solid}});
+        {.text = results[i].pipeline, .stroke = Stroke{method_color(results, i), width_pt, Dash::solid}});
 }
 
 Scene small_multiples(std::size_t panels) {

@@ -56,6 +56,12 @@ void set_robust_ranges(Panel& panel, const std::vector<Vec2>& points);
 /// Ranges that hold the points with a margin, where set_robust_ranges() set none. Without finite points: none.
 void set_ranges_to_hold(Panel& panel, const std::vector<Vec2>& points);
 
+/// How many methods have a colour each; more share one, for their panels tell them apart.
+inline constexpr std::size_t kColoredMethods = 4;
+
+/// The colour of method i of the results: what add_method_legend() says.
+Color method_color(const std::vector<NamedResult>& results, std::size_t i);
+
 /// A swatch per method in its colour; one for all, "lines found", if there are more than four.
 void add_method_legend(const std::vector<NamedResult>& results, double width_pt, Scene& scene);
 

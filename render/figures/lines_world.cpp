@@ -29,7 +29,7 @@ class LinesWorld : public Figure {
       const PlacedFrames placed = place_frames(recording, result);
       Panel panel;
       add_path(input, placed.world_from_sensor, path_stroke, panel);
-      Lines lines{.stroke = {method_style(i).color, 0.6, Dash::solid}};
+      Lines lines{.stroke = {method_color(input.results, i), 0.6, Dash::solid}};
       std::size_t found = 0;
       for (std::size_t f = 0; f < std::min(result->lines.size(), placed.world_from_sensor.size()); ++f) {
         found += result->lines[f].lines.size();

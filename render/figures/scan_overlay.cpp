@@ -34,7 +34,7 @@ class ScanOverlay : public Figure {
         panel.items.emplace_back(
             Lines{true_walls(recording, recording.truth->world_from_sensor[frame].inverse()), wall_stroke});
       panel.items.emplace_back(Points{.points = points, .color = kBlack, .size_pt = 1.1});
-      Lines lines{.stroke = {method_style(i).color, 1.3, Dash::solid}};
+      Lines lines{.stroke = {method_color(input.results, i), 1.3, Dash::solid}};
       if (frame < result->lines.size())
         for (const LineFeature& line : result->lines[frame].lines) lines.segments.push_back(line.segment);
       panel.title = pipeline + ": " + counted(lines.segments.size(), "line");

@@ -178,7 +178,28 @@ TEST(ShippedSuites, LoadWithTheirSeeds) {
     EXPECT_FALSE(load_suite(file).scenarios.empty());
   }
   EXPECT_FALSE(is_suite(source_dir() / "scenarios/abcdef.yaml"));
-  EXPECT_EQ(load_suite(source_dir() / "scenarios/suites/extractors.yaml").scenarios[0].seeds.size(), 20U);
+}
+
+TEST(ShippedSuites, RunClearOfWalls) {
+  for (const auto& file : yaml_files(source_dir() / "scenarios/scenes"))
+    EXPECT_EQ(config_refusal([&] { check_scenario(load_scenario(file)); }), "") << file;
+}
+
+TEST(ShippedSuites, ExtractorsAreComparedOnEveryWorldSensorAndNoise) {
+  const Suite suite = load_suite(source_dir() / "scenarios/suites/extractors.yaml");
+  ASSERT_EQ(suite.scenarios.size(), 4U * 3U * 3U);
+  ASSERT_TRUE(suite.benchmark.has_value());
+  EXPECT_EQ(suite.benchmark->about, suite.about);
+  for (const auto& scenario : suite.scenarios) {
+    const SensorNoise& noise = std::get<SimulatedInput>(scenario.input).sensor.noise;
+    EXPECT_EQ(noise.sigma_relative, 0.0) << scenario.name;
+    EXPECT_EQ(noise.quantum_m, 0.0) << scenario.name;
+    // Thresholds are multiples of the noise.
+    for (const auto& pipeline : scenario.pipelines)
+      if (pipeline.name == "iepf")
+        EXPECT_NEAR(std::get<double>(pipeline.slots[0].params.at("threshold_m")) / noise.sigma_m,
+                    std::get<double>(suite.scenarios[0].pipelines[2].slots[0].params.at("threshold_m")) / 0.01, 1e-9);
+  }
 }
 
 TEST(Suite, ReplacesPipelinesMetricsAndPublishedValues) {
@@ -223,6 +244,32 @@ TEST(Modules, EveryKindListsAndFindsItsModules) {
     for (const auto& name : module_names(kind)) EXPECT_EQ(find_module(kind, name).info.name, name);
   EXPECT_THAT(config_refusal([] { find_module("extract", "iep"); }), HasSubstr("did you mean 'iepf'?"));
   EXPECT_THAT(config_refusal([] { module_names("extractor"); }), HasSubstr("did you mean 'extract'?"));
+}
+
+TEST(Suite, TakesEveryScenarioAtEveryCombinationOfLevels) {
+  const TemporaryFolder folder;
+  folder.write("one.yaml", kSmall);
+  const auto file = folder.write("s.yaml", R"(schema: 1
+scenarios: [one.yaml]
+factors:
+  beams: {few: {sensor.beams: 91, sensor.angle_step_deg: 3}, many: {sensor.preset: urg_04lx}}
+  noise: {1cm: {sensor.sigma_m: 0.01, pipelines.lt.extract.params.threshold_m: 0.03}, 5cm: {sensor.sigma_m: 0.05}}
+pipelines: [{name: lt, extract: {module: line_tracking, params: {threshold_m: 0.2}}}]
+)");
+  const Suite suite = load_suite(file, {"pipelines.lt.extract.params.min_points=7"});
+  ASSERT_EQ(suite.scenarios.size(), 4U);
+  const std::vector<std::string> names{"one-few-1cm", "one-few-5cm", "one-many-1cm", "one-many-5cm"};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Scenario& s = suite.scenarios[i];
+    EXPECT_EQ(s.name, names[i]);
+    const SensorModel& sensor = std::get<SimulatedInput>(s.input).sensor;
+    EXPECT_EQ(sensor.geometry.beams(), i < 2 ? 91 : 682);
+    EXPECT_EQ(sensor.noise.sigma_m, i % 2 == 0 ? 0.01 : 0.05);
+    const ParamSet& params = s.pipelines.at(0).slots.at(0).params;
+    EXPECT_EQ(std::get<double>(params.at("threshold_m")), i % 2 == 0 ? 0.03 : 0.2);
+    EXPECT_EQ(std::get<std::int64_t>(params.at("min_points")), 7);
+  }
+  EXPECT_FALSE(suite.benchmark.has_value());
 }
 
 }  // namespace

@@ -84,5 +84,30 @@ TEST(PearsonCorrelation, IsOneForAnyRisingLine) {
   EXPECT_TRUE(std::isnan(pearson_correlation(std::array{1.0, 1.0}, std::array{1.0, 2.0})));
 }
 
+TEST(PairedPValue, IsStudentsInClosedForm) {
+  // Two degrees of freedom: p = 1 - t / sqrt(t^2 + 2), here t = 2 sqrt 3. One: p = 1 - 2 atan(t) / pi, here t = 1.
+  EXPECT_NEAR(paired_p_value(std::array{1.0, 2.0, 3.0}), 1 - std::sqrt(12.0 / 14.0), 1e-12);
+  EXPECT_NEAR(paired_p_value(std::array{-1.0, -2.0, -3.0}), 1 - std::sqrt(12.0 / 14.0), 1e-12);
+  EXPECT_NEAR(paired_p_value(std::array{0.0, 2.0, std::nan("")}), 0.5, 1e-12);
+}
+
+TEST(PairedPValue, HasAnAnswerForFewAndForEqualDifferences) {
+  EXPECT_TRUE(std::isnan(paired_p_value({})));
+  EXPECT_TRUE(std::isnan(paired_p_value(std::array{1.0})));
+  EXPECT_EQ(paired_p_value(std::array{0.0, 0.0}), 1.0);
+  EXPECT_EQ(paired_p_value(std::array{0.5, 0.5}), 0.0);
+}
+
+TEST(HolmAdjusted, MultipliesTheSmallestByTheirNumberAndNeverFalls) {
+  // Sorted 0.01, 0.03, 0.04: times 3, 2, 1; the last may not be below the one before.
+  const auto p = holm_adjusted(std::array{0.01, 0.04, std::nan(""), 0.03});
+  ASSERT_EQ(p.size(), 4u);
+  EXPECT_DOUBLE_EQ(p[0], 0.03);
+  EXPECT_DOUBLE_EQ(p[1], 0.06);
+  EXPECT_TRUE(std::isnan(p[2]));
+  EXPECT_DOUBLE_EQ(p[3], 0.06);
+  EXPECT_EQ(holm_adjusted(std::array{0.9, 0.8})[1], 1.0);
+}
+
 }  // namespace
 }  // namespace scanbench::harness

@@ -1,4 +1,6 @@
 // efficiency: the bound against numerical derivatives and a Monte-Carlo maximum-likelihood estimate, errors by hand.
+#include <algorithm>
+
 #include <Eigen/LU>
 
 #include "core/rng.hpp"
@@ -242,6 +244,40 @@ TEST(Efficiency, NeedsTruthAndGivesAllRowsForAnEmptyRun) {
   const auto rows = evaluate("efficiency", run);
   EXPECT_EQ(rows.size(), 5u);
   for (const auto& r : rows) expect_undefined(rows, r.metric);
+}
+
+TEST(Efficiency, WritesMatchesWhenAskedTo) {
+  SensorNoise noise;
+  noise.sigma_m = 0.02;
+  MadeUpRun run = fan(noise, 2);
+  const auto truth = only_true_line(run);
+  const Eigen::Matrix2d bound = *line_bound(run.observed.scan(0), truth);
+  const Vec2 shift = 0.03 * kWall.normal();
+  add_line(run, 1, line_between({0, 0}, {0.1, 0}), {});  // matches nothing
+  add_line(run, 1, line_between(truth.segment.a + shift, truth.segment.b + shift), {});
+  EXPECT_TRUE(family("efficiency")->tables(run.input()).empty());
+
+  const auto tables = family("efficiency", {{"matches", true}})->tables(run.input());
+  ASSERT_EQ(tables.size(), 1u);
+  EXPECT_EQ(tables[0].name, "matches");
+  ASSERT_EQ(tables[0].rows.size(), 1u);
+  ASSERT_EQ(tables[0].rows[0].size(), tables[0].columns.size());
+  const auto value = [&](std::string_view column) {
+    const auto found = std::ranges::find(tables[0].columns, column);
+    EXPECT_NE(found, tables[0].columns.end()) << column;
+    return tables[0].rows[0][static_cast<std::size_t>(found - tables[0].columns.begin())];
+  };
+  EXPECT_EQ(value("frame"), 1);
+  EXPECT_EQ(value("line"), 1);
+  EXPECT_EQ(value("first_beam"), 0);
+  EXPECT_EQ(value("last_beam"), 40);
+  EXPECT_EQ(value("beams"), 41);
+  EXPECT_DOUBLE_EQ(value("range_m"), truth.segment.midpoint().norm());
+  EXPECT_DOUBLE_EQ(value("length_m"), truth.segment.length());
+  EXPECT_NEAR(value("offset_m"), 0.03, 1e-12);
+  EXPECT_NEAR(value("angle_rad"), 0.0, 1e-12);
+  EXPECT_DOUBLE_EQ(value("bound_offset_m"), std::sqrt(bound(0, 0)));
+  EXPECT_DOUBLE_EQ(value("bound_angle_rad"), std::sqrt(bound(1, 1)));
 }
 
 }  // namespace

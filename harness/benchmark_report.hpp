@@ -1,0 +1,14 @@
+// The page of a benchmark: what was run, the ranking, four figures, what the columns mean, what it does not show.
+#pragma once
+
+#include <string>
+
+#include "harness/benchmark.hpp"
+#include "harness/report.hpp"
+
+namespace scanbench::harness {
+
+std::string benchmark_html(const ReportInput& input, const BenchmarkSpec& spec);
+std::string benchmark_markdown(const ReportInput& input, const BenchmarkSpec& spec);
+
+}  // namespace scanbench::harness

@@ -1,0 +1,38 @@
+// Small multiples of curves: one panel a method, the others' curves faint behind it. A dozen methods stay apart without
+// a legend of a dozen colours, and every panel can still be held against all.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "render/scene.hpp"
+
+namespace scanbench::render {
+
+/// Points in the order of x, each with the interval [low, high] about it.
+struct FacetCurve {
+  std::vector<Vec2> points{};
+  std::vector<std::array<double, 3>> intervals{};  ///< x, low, high
+};
+
+struct Facet {
+  std::string title{};
+  std::vector<FacetCurve> curves{};  ///< at most two: discs, then hollow squares
+  std::vector<Vec2> reference{};     ///< a line to hold them against; may be empty
+};
+
+struct FacetChart {
+  std::string title{};
+  Axis x{};
+  Axis y{};
+  std::vector<Facet> facets{};
+  std::vector<std::string> curve_names{};  ///< for the legend, as many as a facet has curves
+  std::string reference_name{};            ///< empty: no reference
+  std::string others_name{};               ///< empty: the first curves of the other facets are not drawn
+};
+
+/// Four columns at the width of two text columns. Facets that have no points keep their place.
+Scene facet_scene(const FacetChart& chart);
+
+}  // namespace scanbench::render
