@@ -9,6 +9,7 @@
 #include "app/progress.hpp"
 #include "harness/run_report.hpp"
 #include "harness/runner.hpp"
+#include "harness/scenario_tables.hpp"
 
 namespace scanbench::app {
 namespace {

@@ -120,7 +120,9 @@ TEST(Benchmark, TableMarksTheBestOfEveryColumn) {
       EXPECT_EQ(table.rows[2].cells[c].text, "2.500");
       EXPECT_TRUE(table.rows[2].cells[c].best);
     }
-    if (table.columns[c].head == "F1 − next") EXPECT_THAT(table.rows[0].cells[c].spread, HasSubstr("n.s."));
+    if (table.columns[c].head == "F1 − next") {
+      EXPECT_THAT(table.rows[0].cells[c].spread, HasSubstr("n.s."));
+    }
   }
 }
 
