@@ -9,6 +9,7 @@
 #include "core/rng.hpp"
 #include "tests/algorithms/merge_spiral.hpp"
 #include "tests/support/merging.hpp"
+#include "tests/support/trace_recorder.hpp"
 
 namespace scanbench {
 namespace {
@@ -125,18 +126,9 @@ TEST(MeanShift, TrimsShortOvershootsAtIntersections) {
   EXPECT_LT(nearest({{1, -1}, {1, 1}}), 1e-6);  // no overshoot: a crossing
 }
 
-class Recorder : public Trace {
- public:
-  bool recording() const override { return true; }
-  void write(std::string_view name, std::span<const double> row) override {
-    rows[std::string(name)].emplace_back(row.begin(), row.end());
-  }
-  std::map<std::string, std::vector<std::vector<double>>> rows;
-};
-
 TEST(MeanShift, LeavesATraceThatFiguresCanBeDrawnFrom) {
   const auto lines = testing::spiral();
-  Recorder recorder;
+  testing::TraceRecorder recorder;
   const auto merger = Registry<SegmentMerger>::make("mean_shift", {{"split_length_sigma", 10.0}});
   const MergeResult traced = merger->merge({lines, {}}, recorder);
   Trace silent;

@@ -50,6 +50,22 @@ TEST(Bytes, OneJobTwoJobsAndAnInterruptedRunThatIsResumedGiveTheSame) {
   EXPECT_THAT(differences(expected, results(folder / "cut")), IsEmpty());
 }
 
+// Lines in place of scans, merged.
+TEST(Bytes, OfTheSpiralAreTheSameForAnyNumberOfJobsAndFromTheEffectiveScenario) {
+  const Folder folder;
+  const std::string spiral = places::source_dir() / "scenarios/lakaemper2009_spiral.yaml";
+  const auto into = [&](const std::string& file, const std::string& out, const char* jobs) {
+    return run({"run", file, "--seed", "1,2", "--only", "mean_shift_020", "--no-figures", "-q", "--jobs", jobs, "--out",
+                (folder / out).string()});
+  };
+  ASSERT_EQ(into(spiral, "one", "1").code, 0);
+  ASSERT_EQ(into(spiral, "two", "2").code, 0);
+  ASSERT_EQ(into((folder / "one/effective.yaml").string(), "again", "1").code, 0);
+  const auto expected = results(folder / "one");
+  EXPECT_THAT(differences(expected, results(folder / "two")), IsEmpty());
+  EXPECT_THAT(differences(expected, results(folder / "again")), IsEmpty());
+}
+
 TEST(Bytes, AnotherSeedGivesOtherRanges) {
   const Folder folder;
   ASSERT_EQ(run(abcdef_run(folder / "run", {"--seed", "1,2"})).code, 0);

@@ -129,6 +129,29 @@ TEST(Pipeline, JournalHasARowForEveryWriteWithItsSlotFrameAndStage) {
   EXPECT_EQ(run.result.map.lines[0].segment, plain.map.lines[0].segment);  // listening changes nothing
 }
 
+TEST(Pipeline, BeginsBehindExtractWhereLinesAreGiven) {
+  ScanSet lines;
+  lines.frames.resize(2);
+  lines.frames[0].lines = {{{0, 0}, {1, 0}}, {{0, 1}, {1, 1}}};
+  lines.frames[1].lines = {{{0, 0}, {1, 0}}};
+  lines.frames[1].odom_from_sensor = Pose2(5, 0, 0);
+  PipelineSpec pipeline{.name = "p", .slots = {{"merge", "test_merge", {}}}, .published = ""};
+  Journal journal;
+  const PipelineResult result = run_pipeline(pipeline, lines, &journal).result;
+  ASSERT_EQ(result.lines.size(), 2u);
+  EXPECT_EQ(result.lines[0].lines[1].segment, lines.frames[0].lines[1]);
+  EXPECT_EQ(result.lines[0].lines[1].line, (PolarLine{1.0, kPi / 2}));
+  ASSERT_EQ(result.map.lines.size(), 1u);
+  EXPECT_EQ(result.map.lines[0].segment, (Segment{{0, 0}, {6, 0}}));  // placed by the second frame's pose
+  EXPECT_EQ(result.map.lines[0].members, 3);
+  ASSERT_EQ(result.merge_labels.size(), 3u);
+  EXPECT_EQ(result.merge_labels[2].frame, 1);
+  EXPECT_THAT(journal.csv(), HasSubstr("merge,-1,cluster,points,0"));
+
+  pipeline.slots.insert(pipeline.slots.begin(), {"extract", "test_line", {}});
+  EXPECT_THROW(run_pipeline(pipeline, lines), ConfigError);
+}
+
 TEST(Pipeline, RefusesChainsThatMakeNoSense) {
   EXPECT_THROW(run_slots({}), ConfigError);
   EXPECT_THROW(run_slots({{"merge", "test_merge"}}), ConfigError);

@@ -10,6 +10,7 @@
 #include "harness/csv.hpp"
 #include "harness/npy.hpp"
 #include "run_support.hpp"
+#include "sim/line_copies.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -72,6 +73,25 @@ TEST(RecordingFolder, HasTheFilesAndColumnsOfTheContract) {
   EXPECT_THAT(testing::listing(r), ElementsAre("frames.csv", "ranges.npy", "rotations.npy", "scan.json"));
   const CsvTable frames(read_file(r / "frames.csv"), "f");
   EXPECT_EQ(frames.text(0, "true_x_m") + frames.text(0, "true_y_m") + frames.text(0, "true_yaw_rad"), "");
+}
+
+TEST(RecordingFolder, GivesBackLinesThatStandInPlaceOfScans) {
+  const testing::TemporaryFolder folder;
+  const fs::path r = folder.path() / "r";
+  sim::World world;
+  world.walls = {{"a", {{0, 0}, {1.1, 0}}}, {"b", {{0, 1}, {0.3, 1}}}};
+  const Recording saved = sim::line_copies(world, {.copies = 3, .rotation_sigma_rad = 0.1, .shift_sigma_m = 0.2}, 4);
+  save_recording(r, saved);
+  EXPECT_THAT(testing::listing(r), ElementsAre("frames.csv", "lines.csv", "ranges.npy", "rotations.npy", "scan.json",
+                                               "true_ranges.npy", "wall_ids.npy", "walls.csv"));
+  const Recording loaded = load_recording(r);
+  EXPECT_EQ(recording_files(loaded), recording_files(saved));
+  ASSERT_EQ(loaded.observed.frames.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(loaded.observed.frames[k].lines, saved.observed.frames[k].lines);
+    EXPECT_EQ(loaded.observed.frames[k].odom_from_sensor, saved.observed.frames[k].odom_from_sensor);
+  }
+  EXPECT_NE(recording_hash(sim::line_copies(world, {.copies = 3}, 4)), recording_hash(saved));
 }
 
 TEST(RecordingFolder, HashChangesWithEveryPartAndNotOtherwise) {
