@@ -75,12 +75,12 @@ std::string input_address(const Scenario& scenario) {
 }
 
 std::string cell_address(const std::string& input, const std::vector<ModuleChoice>& metrics,
-                         const PipelineSpec& pipeline, std::uint64_t seed, bool journal) {
+                         const PipelineSpec& pipeline, std::uint64_t seed, const TraceChoice& trace) {
   Sha256 hash;
   hash.part("schema", "1").part("code", code_version()).part("input", input).part("seed", std::to_string(seed));
   for (const auto& slot : pipeline.slots) add_choice(hash, slot);
   for (const auto& choice : metrics) add_choice(hash, choice);
-  return hash.part("journal", journal ? "yes" : "no").hex();
+  return hash.part("trace", trace.text()).hex();
 }
 
 }  // namespace scanbench::harness

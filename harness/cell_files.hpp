@@ -7,6 +7,7 @@
 
 #include "core/result.hpp"
 #include "harness/scenario.hpp"
+#include "harness/traces.hpp"
 #include "harness/worker.hpp"
 #include "metrics/metric.hpp"
 
@@ -39,8 +40,8 @@ std::vector<metrics::MetricRow> load_metrics(const std::filesystem::path& cell);
 std::string input_address(const Scenario& scenario);
 
 /// SHA-256 over everything that a cell's bytes depend on: the input, the seed, the pipeline's resolved parameters, the
-/// chosen metrics and the running program.
+/// chosen metrics, the rows of the trace that are kept, and the running program.
 std::string cell_address(const std::string& input, const std::vector<ModuleChoice>& metrics,
-                         const PipelineSpec& pipeline, std::uint64_t seed, bool journal);
+                         const PipelineSpec& pipeline, std::uint64_t seed, const TraceChoice& trace);
 
 }  // namespace scanbench::harness

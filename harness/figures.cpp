@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 struct LoadedResult {
   std::string pipeline;
   PipelineResult result;
+  TraceRows trace;
 };
 
 std::vector<LoadedResult> finished_results(const fs::path& run, const Scenario& scenario, std::uint64_t seed) {
@@ -28,7 +29,7 @@ std::vector<LoadedResult> finished_results(const fs::path& run, const Scenario& 
   for (const auto& pipeline : scenario.pipelines) {
     const fs::path cell = cell_path(run, {scenario.name, pipeline.name, seed});
     if (!fs::exists(cell / "status.json") || load_status(cell).outcome.status != CellStatus::ok) continue;
-    results.push_back({pipeline.name, load_result(cell)});
+    results.push_back({pipeline.name, load_result(cell), load_trace(cell, traces_drawn(scenario, pipeline.name))});
   }
   return results;
 }
@@ -56,6 +57,14 @@ std::vector<render::MeasuredPipeline> measured_pipelines(const fs::path& run, co
 
 }  // namespace
 
+TraceChoice traces_drawn(const Scenario& scenario, std::string_view pipeline) {
+  TraceChoice choice;
+  for (const auto& figure : scenario.figures)
+    for (std::string& name : Registry<render::Figure>::make(figure.module, figure.params)->trace_rows(pipeline))
+      choice.names.insert(std::move(name));
+  return choice;
+}
+
 std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenario, bool pdf,
                                      const std::function<void(double, const std::string&)>& progress) {
   const std::uint64_t seed = scenario.seeds.front();
@@ -73,7 +82,7 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenar
       input.round_things.push_back({circle.center, circle.radius_m});
     for (const sim::MovingBody& body : simulated.world.moving) input.body_paths.push_back(body.path);
   }
-  for (const auto& loaded : results) input.results.push_back({loaded.pipeline, &loaded.result});
+  for (const auto& loaded : results) input.results.push_back({loaded.pipeline, &loaded.result, &loaded.trace});
 
   std::vector<FigureFile> files;
   for (std::size_t i = 0; i < scenario.figures.size(); ++i) {

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/scenario.hpp"
+#include "harness/traces.hpp"
 #include "render/scene.hpp"
 
 namespace scanbench::harness {
@@ -17,6 +19,9 @@ struct FigureFile {
   std::string name;
   std::string caption;
 };
+
+/// The rows of a pipeline's trace that the scenario's figures draw from.
+TraceChoice traces_drawn(const Scenario& scenario, std::string_view pipeline);
 
 /// Draws the scenario's figures (of its first seed) from the run's recording and finished cells into run/figures, as
 /// SVG and PNG, and as PDF with `pdf`. Throws ConfigError if files are missing or cannot be written.

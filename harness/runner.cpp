@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "harness/atomic_file.hpp"
+#include "harness/figures.hpp"
 #include "harness/pipeline.hpp"
 #include "harness/recording_folder.hpp"
 #include "harness/score.hpp"
@@ -35,6 +36,7 @@ struct Cell {
   const Scenario* scenario = nullptr;
   const PipelineSpec* pipeline = nullptr;
   Group* group = nullptr;
+  TraceChoice trace;    ///< what of it is kept
   std::string summary;  ///< its lines of summary.csv
   std::optional<StagedFolder> staged;
 };
@@ -128,10 +130,15 @@ class Run {
         groups.push_back(groups_.back().get());
       }
       for (const auto& pipeline : scenario.pipelines) {
+        const TraceChoice drawn = traces_drawn(scenario, pipeline.name);
         for (Group* group : groups) {
           Cell cell;
           cell.result.key = {scenario.name, pipeline.name, group->seed};
-          cell.result.record.address = cell_address(input, scenario.metrics, pipeline, group->seed, options_.journal);
+          // Figures show the first seed.
+          cell.trace = options_.journal               ? TraceChoice{.all = true}
+                       : group->seed == seeds.front() ? drawn
+                                                      : TraceChoice{};
+          cell.result.record.address = cell_address(input, scenario.metrics, pipeline, group->seed, cell.trace);
           cell.scenario = &scenario;
           cell.pipeline = &pipeline;
           cell.group = group;
@@ -286,12 +293,12 @@ class Run {
     pool_.start(index,
                 [&] {
                   const fs::path& folder = cell.staged->path();
-                  Journal journal;
+                  Journal journal(cell.trace);
+                  const bool traced = !cell.trace.nothing();
                   const Recording& recording = *cell.group->recording;
-                  const PipelineRun run =
-                      run_pipeline(*cell.pipeline, recording.observed, options_.journal ? &journal : nullptr);
+                  const PipelineRun run = run_pipeline(*cell.pipeline, recording.observed, traced ? &journal : nullptr);
                   write_result(folder, *cell.pipeline, run.result);
-                  if (options_.journal) write_staged_file(folder / "trace.csv", journal.csv());
+                  if (traced) write_staged_file(folder / "trace.csv", journal.csv());
                   const Scores scores = score_cell(cell.scenario->metrics, recording, folder);
                   write_staged_file(folder / "metrics.csv", metrics_csv(scores.rows));
                   for (const auto& table : scores.tables)

@@ -36,7 +36,7 @@ struct RunOptions {
   std::vector<std::uint64_t> seeds = {};  ///< in place of the scenarios' own, if any
   std::vector<std::string> only = {};     ///< names of scenarios or pipelines, or "scenario/pipeline"; empty: all
   bool resume = false;
-  bool journal = false;                ///< trace.csv in every cell
+  bool journal = false;                ///< the whole trace.csv in every cell; else the rows that the figures draw from
   std::vector<std::string> argv = {};  ///< for the manifest
   std::optional<BenchmarkSpec> benchmark = {};
   std::function<void(const RunProgress&)> progress = {};

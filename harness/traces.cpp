@@ -2,11 +2,14 @@
 #include "harness/traces.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include <time.h>
 
 #include "core/number_text.hpp"
+#include "harness/atomic_file.hpp"
 #include "harness/csv.hpp"
+#include "harness/text_file.hpp"
 
 namespace scanbench::harness {
 
@@ -44,7 +47,22 @@ void Stopwatch::stop(std::string_view whole, std::string_view prefix, int frame,
   for (const auto& part : parts_) times.push_back({part.name, frame, part.seconds});
 }
 
-Journal::Journal() : text_("slot,frame,stage,name,values\n") {}
+bool TraceChoice::wants(std::string_view slot, std::string_view name) const {
+  if (all) return true;
+  const std::string prefix = std::string(slot) + ".";
+  if (!name.empty()) return names.contains(prefix + std::string(name));
+  const auto first = names.lower_bound(prefix);
+  return first != names.end() && first->starts_with(prefix);
+}
+
+std::string TraceChoice::text() const {
+  if (all) return "all";
+  std::string joined;
+  for (const auto& name : names) joined += (joined.empty() ? "" : " ") + name;
+  return joined.empty() ? "none" : joined;
+}
+
+Journal::Journal(TraceChoice choice) : choice_(std::move(choice)), text_("slot,frame,stage,name,values\n") {}
 
 void Journal::begin(std::string_view slot, int frame) {
   slot_ = slot;
@@ -53,12 +71,34 @@ void Journal::begin(std::string_view slot, int frame) {
 }
 
 void Journal::write(std::string_view name, std::span<const double> values) {
+  if (!choice_.wants(slot_, name)) return;
   text_ += csv_field(slot_) + "," + std::to_string(frame_) + "," + csv_field(stage_) + "," + csv_field(name) + ",";
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (i > 0) text_.push_back(' ');
     text_ += number_text(values[i]);
   }
   text_.push_back('\n');
+}
+
+TraceRows load_trace(const std::filesystem::path& cell, const TraceChoice& choice) {
+  const auto file = cell / "trace.csv";
+  TraceRows rows;
+  std::vector<std::string_view> words;
+  if (choice.nothing() || !std::filesystem::exists(file)) return rows;
+  const CsvTable csv(read_file(file), file, {"slot", "frame", "stage", "name", "values"});
+  for (std::size_t r = 0; r < csv.rows(); ++r) {
+    const std::string &slot = csv.text(r, "slot"), &name = csv.text(r, "name");
+    if (!choice.wants(slot, name)) continue;
+    TraceRow row{csv.index(r, "frame"), {}};
+    split_words(csv.text(r, "values"), words);
+    for (const std::string_view word : words) {
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), row.values.emplace_back());
+      if (error != std::errc() || end != word.data() + word.size())
+        csv.refuse(r, quoted_excerpt(word) + " is not a number");
+    }
+    rows[slot + "." + name].push_back(std::move(row));
+  }
+  return rows;
 }
 
 }  // namespace scanbench::harness

@@ -1,12 +1,15 @@
 // The two listeners to an algorithm's journal: a stopwatch and a recorder of rows.
 #pragma once
 
+#include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/result.hpp"
 #include "core/trace.hpp"
+#include "core/trace_rows.hpp"
 
 namespace scanbench::harness {
 
@@ -34,22 +37,37 @@ class Stopwatch final : public Trace {
   double since_ = 0.0;
 };
 
+/// Which rows of a trace are kept.
+struct TraceChoice {
+  bool all = false;
+  std::set<std::string, std::less<>> names = {};  ///< "slot.name"
+
+  bool nothing() const { return !all && names.empty(); }
+  /// Of `slot`, if no name is given.
+  bool wants(std::string_view slot, std::string_view name = {}) const;
+  std::string text() const;  ///< "all", "none" or the names: tells two choices apart
+};
+
 /// Rows as trace.csv: slot,frame,stage,name,values; `values` are numbers separated by blanks.
 class Journal final : public Trace {
  public:
-  Journal();
+  explicit Journal(TraceChoice choice = {.all = true});
   /// What follows belongs to this slot and frame (-1: the whole recording).
   void begin(std::string_view slot, int frame);
-  bool recording() const override { return true; }
+  bool recording() const override { return choice_.wants(slot_); }
   void stage(std::string_view name) override { stage_ = name; }
   void write(std::string_view name, std::span<const double> values) override;
   const std::string& csv() const { return text_; }
 
  private:
+  TraceChoice choice_;
   std::string text_;
   std::string slot_;
   std::string stage_;
   int frame_ = -1;
 };
+
+/// The chosen rows of a cell's trace.csv; none if there is no such file. Throws ConfigError, naming file and line.
+TraceRows load_trace(const std::filesystem::path& cell, const TraceChoice& choice);
 
 }  // namespace scanbench::harness

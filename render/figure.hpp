@@ -9,6 +9,7 @@
 #include "core/params.hpp"
 #include "core/recording.hpp"
 #include "core/result.hpp"
+#include "core/trace_rows.hpp"
 #include "render/scene.hpp"
 
 namespace scanbench::render {
@@ -16,6 +17,7 @@ namespace scanbench::render {
 struct NamedResult {
   std::string pipeline;
   const PipelineResult* result;
+  const TraceRows* trace = nullptr;  ///< the rows that the figures ask for; absent if none were kept
 };
 
 /// Round things of a simulated world, which no line describes.
@@ -55,6 +57,8 @@ class Figure {
  public:
   static constexpr std::string_view kKind = "figure";
   virtual ~Figure() = default;
+  /// Rows of this pipeline's trace that it draws from, "slot.name": the harness keeps them for it.
+  virtual std::vector<std::string> trace_rows(std::string_view /*pipeline*/) const { return {}; }
   /// No scenes if there is nothing to show (no truth, no map).
   virtual std::vector<NamedScene> draw(const FigureInput& input) const = 0;
 };

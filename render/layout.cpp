@@ -97,8 +97,8 @@ class Composer {
   const Panel& panel(int i) const { return scene_.panels[static_cast<std::size_t>(i)]; }
   PanelLayout& place(int i) { return out_.panels[static_cast<std::size_t>(i)]; }
   double width_em(const std::string& text) const { return Font::get().width_em(text); }
-  bool left_axis(int i) const { return !scene_.share_axes || i % columns_ == 0; }
-  bool bottom_axis(int i) const { return !scene_.share_axes || i + columns_ >= count_; }
+  bool left_axis(int i) const { return panel(i).axes && (!scene_.share_axes || i % columns_ == 0); }
+  bool bottom_axis(int i) const { return panel(i).axes && (!scene_.share_axes || i + columns_ >= count_); }
 
   void ranges() {
     Rect all{INFINITY, INFINITY, -INFINITY, -INFINITY};
@@ -128,6 +128,7 @@ class Composer {
   /// Half of the last tick label may stand out at the right.
   double right_room(int i) {
     double room = 0.3 * em_;
+    if (!panel(i).axes) return room;
     for (const Tick& t : place(i).x_ticks)
       room = std::max(room, place(i).to_device({t.value, place(i).y_min}).x() + 0.5 * width_em(t.label) * tick_size_ -
                                 place(i).box.x1);
@@ -227,9 +228,11 @@ class Composer {
     }
     for (int i = 0; i < count_; ++i) {
       const PanelLayout p = place(i);
-      grid(panel(i), p);
+      if (panel(i).axes) grid(panel(i), p);
       add_items(panel(i), i, p, em_, out_.shapes);
-      frame(i, p, cap);
+      if (panel(i).axes) frame(i, p, cap);
+      text(0.5 * (p.box.x0 + p.box.x1), p.box.y0 - 0.4 * em_, 0.5, fit_text(panel(i).title, p.box.width() / em_), em_,
+           kBlack);
     }
     add_legend(scene_, out_.scale_bar_m, out_.scale_bar_pt, out_.width, legend_top_, &out_.shapes);
   }
@@ -280,7 +283,6 @@ class Composer {
     if (left_axis(i))
       text(b.x0 - kTickLength - 2.0 - widest - 0.5 * em_, 0.5 * (b.y0 + b.y1), 0.5,
            fit_text(panel(i).y.label, (b.height() + 2 * em_) / em_), em_, kBlack, true);
-    text(0.5 * (b.x0 + b.x1), b.y0 - 0.4 * em_, 0.5, fit_text(panel(i).title, b.width() / em_), em_, kBlack);
   }
 
   const Scene& scene_;

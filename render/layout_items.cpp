@@ -184,8 +184,9 @@ class ItemDrawer {
         shapes_.push_back({std::move(leader), index_});
       }
       const double size = font_pt_ * text.scale;
-      const Vec2 origin(r.x0 + 0.5, 0.5 * (r.y0 + r.y1) + 0.5 * cap * size);
-      shapes_.push_back({TextShape{snap(origin), text.text, size, false, text.halo, text.color}, index_});
+      const Vec2 origin = text.upwards ? Vec2(0.5 * (r.x0 + r.x1) + 0.5 * cap * size, r.y1 - 0.5)
+                                       : Vec2(r.x0 + 0.5, 0.5 * (r.y0 + r.y1) + 0.5 * cap * size);
+      shapes_.push_back({TextShape{snap(origin), text.text, size, text.upwards, text.halo, text.color}, index_});
     }
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "render/font.hpp"
 #include "render/layout.hpp"
@@ -61,7 +62,8 @@ std::vector<Rect> place_labels(const std::vector<Label>& labels, double font_pt,
   const Rect room{box.x0 + 1.5, box.y0 + 1.5, box.x1 - 1.5, box.y1 - 1.5};
   for (const Label& label : labels) {
     const double size = font_pt * label.text->scale;
-    const Vec2 half(0.5 * font.width_em(label.text->text) * size + 0.5, 0.5 * font.cap_height_em() * size + 0.8);
+    Vec2 half(0.5 * font.width_em(label.text->text) * size + 0.5, 0.5 * font.cap_height_em() * size + 0.8);
+    if (label.text->upwards) std::swap(half.x(), half.y());
     const Vec2 wish(label.text->offset_pt.x(), -label.text->offset_pt.y());
     if (!label.text->movable) {
       placed.push_back(rect_beside(label.at, wish, half));

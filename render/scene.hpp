@@ -78,6 +78,7 @@ struct Text {
   double scale = 1.0;   ///< times the scene's font size
   bool halo = true;     ///< a white rim, so that it can be read over lines
   bool movable = true;  ///< may be put on another side of its point if it would cover a line, a marker or another label
+  bool upwards = false;  ///< turned by 90 degrees: reads from bottom to top
 };
 
 /// A pose: a dot at its origin and an arrow along its x axis, of a length on paper.
@@ -117,6 +118,7 @@ struct Panel {
   std::string title{};
   Axis x{.label = "x [m]"};
   Axis y{.label = "y [m]"};
+  bool axes = true;          ///< false: no box, ticks and grid; what is drawn brings its own
   bool equal_aspect = true;  ///< a metre is as long in x as in y: ranges grow to fill the box
   std::vector<Item> items{};
 };

@@ -16,6 +16,7 @@
 #include "algorithms/merge/map_cleanup.hpp"
 #include "algorithms/merge/mean_shift_modes.hpp"
 #include "algorithms/merge/mean_shift_phases.hpp"
+#include "algorithms/merge/mean_shift_trace.hpp"
 #include "core/modules.hpp"
 #include "core/number_text.hpp"
 #include "core/registry.hpp"
@@ -183,31 +184,9 @@ std::vector<DraftLine> MeanShift::merge_clusters(std::span<const Piece> pieces, 
       for (const int k : merged.contributors) draft.pieces.push_back(members[c][static_cast<std::size_t>(k)]);
       drafts.push_back(std::move(draft));
     }
-    if (!trace.recording()) continue;
-    const Vec2 axis = merge::kernel2_axis(kernels_.form, theta);
-    const double width = std::sqrt(kernels_.factor);
-    trace.row("mode2", {static_cast<double>(c), mode.x(), mode.y(), theta});
-    trace.row("kernel2", {static_cast<double>(c), mode.x(), mode.y(), std::atan2(axis.y(), axis.x()),
-                          width * kernels_.sigma_x_m, width * kernels_.sigma_y_m});
-    const Vec2 along(std::cos(theta), std::sin(theta));
-    for (const int k : members[c]) {
-      const Segment& s = pieces[static_cast<std::size_t>(k)].segment;
-      const double u0 = along.dot(s.a - mode);
-      const double u1 = along.dot(s.b - mode);
-      const Vec2 start = mode + std::min(u0, u1) * along;
-      const Vec2 end = mode + std::max(u0, u1) * along;
-      trace.row("projection", {static_cast<double>(c), static_cast<double>(k), start.x(), start.y(), end.x(), end.y()});
-    }
+    merge::trace_collinear_cluster(static_cast<int>(c), mode, theta, members[c], pieces, kernels_, trace);
   }
   return drafts;
-}
-
-void trace_clustering(const Clustering& clustering, std::string_view trajectory, Trace& trace) {
-  for (std::size_t k = 0; k < clustering.paths.size(); ++k) {
-    double step = 0.0;
-    for (const auto& p : clustering.paths[k])
-      trace.row(trajectory, {static_cast<double>(k), step++, p.x(), p.y(), p.z()});
-  }
 }
 
 /// The index that holds the largest share of a line's length, the lowest of equals; -1 if none.
@@ -251,30 +230,24 @@ MergeResult MeanShift::merge(const MergeInput& input, Trace& trace) const {
   const std::vector<Piece>& pieces = space.pieces;
   if (pieces.empty()) {
     if (n > 0) result.status = Status::degenerate;
+    trace.row("counts", {static_cast<double>(n), 0, 0, 0, 0, 0});
     return result;
   }
   const bool recording = trace.recording();
-  if (recording)
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-      const Vec2 c = pieces[k].segment.midpoint();
-      trace.row("joint_space",
-                {static_cast<double>(k), static_cast<double>(pieces[k].line), c.x(), c.y(), pieces[k].alpha});
-    }
+  merge::trace_joint_space(pieces, kernels_, trace);
 
   trace.stage("phase1");
   const Clustering first = p_.phases == Phases::two ? merge::cluster_directions(pieces, kernels_, recording)
                                                     : merge::cluster_in_one_phase(pieces, kernels_, recording);
   const std::vector<double> directions1 = cluster_directions_of(first);
-  trace_clustering(first, "trajectory1", trace);
-  if (recording)
-    for (std::size_t k = 0; k < pieces.size(); ++k)
-      trace.row("mode1", {static_cast<double>(k), first.end[k].x(), first.end[k].y(), first.end[k].z()});
+  merge::trace_trajectories(first, "trajectory1", trace);
+  merge::trace_ends(first, trace);
 
   trace.stage("phase2");
   Clustering second;
   if (p_.phases == Phases::two) {
     second = merge::cluster_collinear(pieces, first.cluster, directions1, kernels_, recording);
-    trace_clustering(second, "trajectory2", trace);
+    merge::trace_trajectories(second, "trajectory2", trace);
   }
   const Clustering& last = p_.phases == Phases::two ? second : first;
   if (!first.converged || !last.converged) result.status = Status::max_iterations;
@@ -282,6 +255,7 @@ MergeResult MeanShift::merge(const MergeInput& input, Trace& trace) const {
   trace.stage("merge");
   std::vector<DraftLine> drafts = merge_clusters(pieces, last, cluster_directions_of(last), trace);
   const std::size_t merged = drafts.size();
+  merge::trace_merged(drafts, trace);
 
   trace.stage("post");
   if (p_.join)

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/figure.hpp"
@@ -67,6 +68,11 @@ void add_method_legend(const std::vector<NamedResult>& results, double width_pt,
 
 /// A scene of small multiples for `panels` panels: width and columns.
 Scene small_multiples(std::size_t panels);
+
+/// Does a figure whose parameter `pipeline` is `wanted` (empty: any) show this one?
+inline bool shows(std::string_view wanted, std::string_view pipeline) {
+  return wanted.empty() || wanted == pipeline;
+}
 
 /// "1 line", "3 lines".
 std::string counted(std::size_t n, const std::string& noun);

@@ -15,8 +15,8 @@ class LinesWorld : public Figure {
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     const Recording& recording = input.recording;
     std::size_t total = 0;
-    for (const auto& [pipeline, result] : input.results)
-      for (const ScanLines& lines : result->lines) total += lines.lines.size();
+    for (const NamedResult& named : input.results)
+      for (const ScanLines& lines : named.result->lines) total += lines.lines.size();
     if (recording.observed.frames.empty() || total == 0) return {};
     const std::size_t stride = (total + kSegmentBudget - 1) / kSegmentBudget;
 
@@ -25,7 +25,8 @@ class LinesWorld : public Figure {
     const Stroke wall_stroke{kWallColor, 0.35, Dash::solid}, path_stroke{kGrey, 0.5, Dash::dotted};
     std::vector<Vec2> ends;
     for (std::size_t i = 0; i < input.results.size(); ++i) {
-      const auto& [pipeline, result] = input.results[i];
+      const std::string& pipeline = input.results[i].pipeline;
+      const PipelineResult* result = input.results[i].result;
       const PlacedFrames placed = place_frames(recording, result);
       Panel panel;
       add_path(input, placed.world_from_sensor, path_stroke, panel);

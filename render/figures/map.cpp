@@ -29,7 +29,8 @@ class Map : public Figure {
       if (has_map(input.results[i])) first_color = method_style(i).color;
     for (std::size_t i = 0; i < input.results.size(); ++i) {
       if (!has_map(input.results[i])) continue;
-      const auto& [pipeline, result] = input.results[i];
+      const std::string& pipeline = input.results[i].pipeline;
+      const PipelineResult* result = input.results[i].result;
       const PlacedFrames placed = place_frames(recording, result);
       Panel panel;
       panel.title = pipeline + ": " + counted(result->map.lines.size(), "line");

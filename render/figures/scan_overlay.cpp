@@ -28,7 +28,8 @@ class ScanOverlay : public Figure {
     scene.title = fmt::format("{}: scan {} of {}", input.title, frame + 1, recording.observed.frames.size());
     const Stroke wall_stroke{kTruthUnderlay, 2.6, Dash::solid};
     for (std::size_t i = 0; i < input.results.size(); ++i) {
-      const auto& [pipeline, result] = input.results[i];
+      const std::string& pipeline = input.results[i].pipeline;
+      const PipelineResult* result = input.results[i].result;
       Panel panel;
       if (has_truth)
         panel.items.emplace_back(

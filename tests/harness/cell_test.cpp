@@ -160,7 +160,7 @@ TEST(CellFiles, ThatDoNotFitEachOtherAreRefused) {
 TEST(CellAddress, ChangesWithEverythingThatTheResultDependsOn) {
   const Scenario base = testing::scenario_with("s", {testing::extract_with("p", "test_line", {{"skip", 1.0}})});
   const auto address = [](const Scenario& s, std::uint64_t seed = 1) {
-    return cell_address(input_address(s), s.metrics, s.pipelines[0], seed, false);
+    return cell_address(input_address(s), s.metrics, s.pipelines[0], seed, {});
   };
   EXPECT_EQ(address(base), address(base));
   std::vector<Scenario> others(6, base);

@@ -18,6 +18,7 @@
 #include "core/rng.hpp"
 #include "harness/atomic_file.hpp"
 #include "metrics/metric.hpp"
+#include "render/figure.hpp"
 
 namespace scanbench::harness::testing {
 namespace fs = std::filesystem;
@@ -204,6 +205,18 @@ class NeedsAMap final : public metrics::MetricFamily {
   }
 };
 
+/// Says in its caption what it got of the trace.
+class Traced final : public render::Figure {
+ public:
+  using Params = NoParams;
+  explicit Traced(const Params&) {}
+  std::vector<std::string> trace_rows(std::string_view) const override { return {"extract.line"}; }
+  std::vector<render::NamedScene> draw(const render::FigureInput& input) const override {
+    const render::NamedResult& first = input.results.at(0);
+    return {{"traced", std::to_string(first.trace->at("extract.line").size()) + " rows of " + first.pipeline, {}}};
+  }
+};
+
 template <class Interface, class Impl>
 bool add(const std::string& name) {
   return Registry<Interface>::template add<Impl>({.name = name, .summary = "of the tests", .reference = "none"});
@@ -217,7 +230,7 @@ const bool registered =
     add<LineExtractor, Misbehaving<Leave>>("test_leave") && add<SegmentMerger, MergeAll>("test_merge") &&
     add<Aligner, ShiftAll>("test_shift") && add<ScanMatcher, OneAhead>("test_ahead") &&
     add<Mapper, PoseMapper>("test_mapper") && add<metrics::MetricFamily, TestMetrics>("test_metrics") &&
-    add<metrics::MetricFamily, NeedsAMap>("test_needs_map");
+    add<metrics::MetricFamily, NeedsAMap>("test_needs_map") && add<render::Figure, Traced>("test_traced");
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 
 #include "abcdef.hpp"
 #include "core/registry.hpp"
+#include "merged.hpp"
 #include "render/figure.hpp"
 #include "render/palette.hpp"
 
@@ -22,11 +23,12 @@ void keep(const std::string& name, const std::string& bytes) {
 struct Case {
   Recording recording;
   std::vector<PipelineResult> results;
+  TraceRows trace = {};  ///< of the first pipeline
   FigureInput input(const NamedPoints& waypoints) const {
     FigureInput in{.title = "abcdef", .recording = recording, .waypoints = waypoints, .results = {}};
     const std::vector<std::string> names{"iepf", "line_tracking", "smf", "ransac", "hough"};
     for (std::size_t i = 0; i < results.size(); ++i) {
-      in.results.push_back({names[i], &results[i]});
+      in.results.push_back({names[i], &results[i], i == 0 ? &trace : nullptr});
       in.measured.push_back({.pipeline = names[i],
                              .slots = {{"extract some", {{"threshold_m", 0.1 * static_cast<double>(i)}}}},
                              .units = {{"extract.threshold_m", "m"}},
@@ -40,6 +42,7 @@ Case simulated(int frames) {
   Case c{test::abcdef_recording(frames), {}};
   for (const double jitter : {0.01, 0.03, 0.06})
     c.results.push_back(test::lines_by_wall_id(c.recording, jitter, jitter != 0.03));
+  c.trace = test::merged_by_mean_shift(c.recording, c.results[0]).trace;
   return c;
 }
 
@@ -61,7 +64,7 @@ TEST(Figures, AllAreDrawnForASimulatedRecordingAndTheSvgStaysBelowAMegabyte) {
 TEST(Figures, WorkWithoutTruthAndWithOdometryOnly) {
   Case c = simulated(20);
   c.recording.truth.reset();
-  for (const std::string name : {"environment", "scan_overlay", "lines_world", "map"}) {
+  for (const std::string& name : Registry<Figure>::names()) {
     const std::vector<NamedScene> scenes = Registry<Figure>::make(name)->draw(c.input({}));
     ASSERT_EQ(scenes.size(), 1u) << name;
     keep(name + "_log.png", to_png(scenes[0].scene));

@@ -1,0 +1,32 @@
+// What mean_shift writes down on the way, for its figures (docs/algorithms/mean_shift.md, "Trace rows"). Each call does
+// nothing unless somebody records.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "algorithms/merge/joint_space.hpp"
+#include "algorithms/merge/map_cleanup.hpp"
+#include "algorithms/merge/mean_shift_phases.hpp"
+#include "core/trace.hpp"
+
+namespace scanbench::merge {
+
+/// kernel1 and joint_space.
+void trace_joint_space(std::span<const Piece> pieces, const Kernels& kernels, Trace& trace);
+
+/// The trajectories under a name of the phase's own.
+void trace_trajectories(const Clustering& clustering, std::string_view name, Trace& trace);
+
+/// mode1: where the pieces end in phase 1.
+void trace_ends(const Clustering& first, Trace& trace);
+
+/// mode2, kernel2, and the projection of each member on the cluster's line.
+void trace_collinear_cluster(int cluster, const Vec2& mode, double theta_rad, std::span<const int> members,
+                             std::span<const Piece> pieces, const Kernels& kernels, Trace& trace);
+
+/// merged: lines before joining, trimming and erasing.
+void trace_merged(std::span<const DraftLine> drafts, Trace& trace);
+
+}  // namespace scanbench::merge

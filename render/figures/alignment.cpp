@@ -1,0 +1,99 @@
+// Figure 8 of Lakaemper 2009: the points of all scans, superimposed by odometry (or as recorded), by the poses that a
+// pipeline used, and by the true ones.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/registry.hpp"
+#include "render/figures/clusters.hpp"
+
+namespace scanbench::render {
+namespace {
+
+const Stroke kPathStroke{kPathColor, 0.7, Dash::solid};
+constexpr std::size_t kMostColored = 40;  // beyond, colours of single scans mix to grey
+
+class Alignment : public Figure {
+ public:
+  struct Params {
+    std::string pipeline;
+    static auto fields() {
+      return std::tuple{
+          field("pipeline", &Params::pipeline,
+                "pipeline whose poses are shown; empty: the first one that does not leave them as they are")};
+    }
+  };
+  explicit Alignment(const Params& params) : params_(params) {}
+
+  std::vector<NamedScene> draw(const FigureInput& input) const override {
+    const auto& frames = input.recording.observed.frames;
+    if (frames.empty()) return {};
+    std::vector<Pose2> odometry;
+    for (const Frame& frame : frames) odometry.push_back(frame.odom_from_sensor);
+
+    Scene scene;
+    const std::size_t most = input.recording.truth ? 3 : 2;
+    add_panel(input, input.recording.truth ? "odometry" : "recorded poses", odometry, most, scene);
+    const auto has_poses = [&](const NamedResult& r) {
+      return shows(params_.pipeline, r.pipeline) && r.result->world_from_sensor.size() == frames.size() &&
+             r.result->world_from_sensor != odometry;
+    };
+    if (const auto named = std::ranges::find_if(input.results, has_poses); named != input.results.end())
+      add_panel(input, "as aligned: " + named->pipeline, named->result->world_from_sensor, most, scene);
+    if (input.recording.truth && input.recording.truth->world_from_sensor.size() == frames.size())
+      add_panel(input, "true poses", input.recording.truth->world_from_sensor, most, scene);
+
+    scene.columns = static_cast<int>(scene.panels.size());
+    scene.width_in = scene.columns == 1 ? kSingleColumnIn : kDoubleColumnIn;
+    scene.share_axes = scene.scale_bar = true;
+    scene.title = fmt::format("{}: {} superimposed", input.title, counted(frames.size(), "scan"));
+    scene.legend = {{.text = frames.size() <= kMostColored ? "points, a colour for each scan" : "points",
+                     .marker = Marker::dot,
+                     .marker_color = kScanColor,
+                     .marker_size_pt = 2.4},
+                    path_legend(input, kPathStroke)};
+    return {{"alignment",
+             fmt::format("{}: the points of {}, placed by odometry and by the poses that were used instead.",
+                         input.title, counted(frames.size(), "scan")),
+             std::move(scene)}};
+  }
+
+ private:
+  static void add_panel(const FigureInput& input, const std::string& title, const std::vector<Pose2>& poses,
+                        std::size_t panels, Scene& scene) {
+    const Recording& recording = input.recording;
+    Panel panel{.title = fmt::format("{}) {}", static_cast<char>('a' + scene.panels.size()), title)};
+    std::vector<Vec2> points;
+    if (poses.size() <= kMostColored) {
+      // Neighbours on the way overlap most, so they differ most.
+      std::vector<Vec2> places;
+      for (const Pose2& pose : poses) places.push_back(pose.translation());
+      const std::vector<Color> colors = cluster_colors(places);
+      const std::size_t budget = kPointBudget / panels / poses.size();
+      for (std::size_t f = 0; f < poses.size(); ++f) {
+        std::vector<Vec2> scan = frame_points(recording, f, poses[f]);
+        Points shown{.color = colors[f], .size_pt = 0.9};
+        for (std::size_t k = 0; k < scan.size(); k += scan.size() / budget + 1) shown.points.push_back(scan[k]);
+        points.insert(points.end(), scan.begin(), scan.end());
+        panel.items.emplace_back(std::move(shown));
+      }
+    } else {
+      points = all_points(recording, poses, kPointBudget / panels);
+      panel.items.emplace_back(Points{.points = points, .color = kScanColor, .size_pt = 0.7});
+    }
+    add_path(input, poses, kPathStroke, panel);
+    if (!recording.truth) set_robust_ranges(panel, points);
+    if (points.empty()) add_note("no scan points", panel);
+    scene.panels.push_back(std::move(panel));
+  }
+
+  Params params_;
+};
+
+const bool registered = Registry<Figure>::add<Alignment>(
+    {.name = "alignment",
+     .summary = "points of all scans, superimposed by odometry, by the poses a pipeline used, and by the true ones",
+     .reference = "Lakaemper 2009, figure 8"});
+
+}  // namespace
+}  // namespace scanbench::render

@@ -1,0 +1,90 @@
+// Figures 6 and 9 of Lakaemper 2009: the segments given, what merging made of them, and what is left after cleaning.
+#include <fmt/format.h>
+
+#include "core/registry.hpp"
+#include "render/figures/before_after.hpp"
+#include "render/figures/clusters.hpp"
+
+namespace scanbench::render {
+namespace {
+
+const Stroke kGivenStroke{kBlue, 0.5, Dash::solid};
+const Stroke kMergedStroke{kBlack, 1.0, Dash::solid};
+
+class MergeStages : public Figure {
+ public:
+  struct Params {
+    std::string pipeline;
+    static auto fields() {
+      return std::tuple{field("pipeline", &Params::pipeline, "pipeline to show; empty: the first one that has a map")};
+    }
+  };
+  explicit MergeStages(const Params& params) : params_(params) {}
+
+  std::vector<std::string> trace_rows(std::string_view pipeline) const override {
+    if (!shows(params_.pipeline, pipeline)) return {};
+    return {"merge.merged"};
+  }
+
+  std::vector<NamedScene> draw(const FigureInput& input) const override {
+    const BeforeAfter both = before_after(input, params_.pipeline);
+    if (both.named == nullptr) return {};
+    const std::vector<Vec2> points = all_points(input.recording, both.world_from_sensor, kPointBudget / 3);
+    const std::vector<Segment> given = both.all_given();
+    std::vector<Vec2> ends;
+    for (const Segment& s : given) ends.insert(ends.end(), {s.a, s.b});
+
+    Scene scene;
+    const auto add = [&](const std::string& title, const std::vector<Segment>& segments, const Stroke& stroke) {
+      Panel panel{.title = fmt::format("{}) {}: {}", static_cast<char>('a' + scene.panels.size()), title,
+                                       counted(segments.size(), "line"))};
+      panel.items.emplace_back(Points{.points = points, .color = kFaintPoints, .size_pt = 0.7});
+      panel.items.emplace_back(Lines{.segments = thinned(segments, kSegmentBudget / 3), .stroke = stroke});
+      if (!input.recording.truth) set_robust_ranges(panel, points.empty() ? ends : points);
+      set_ranges_to_hold(panel, ends);
+      if (segments.empty()) add_note("no lines", panel);
+      scene.panels.push_back(std::move(panel));
+    };
+    add("given", given, kGivenStroke);
+    const std::vector<Segment> merged = merged_before_cleaning(*both.named);
+    if (!merged.empty() && merged != both.map) add("merged", merged, kMergedStroke);
+    const bool cleaned = scene.panels.size() == 2;
+    add(cleaned ? "after cleaning" : "merged", both.map, kMergedStroke);
+
+    const Scene looks = small_multiples(scene.panels.size());
+    scene.width_in = kDoubleColumnIn;
+    scene.columns = looks.columns;
+    scene.share_axes = scene.scale_bar = true;
+    scene.title = fmt::format("{}: {}", input.title, both.named->pipeline);
+    if (!points.empty())
+      scene.legend.push_back(
+          {.text = "scan points", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.0});
+    scene.legend.push_back({.text = "lines given", .stroke = Stroke{kBlue, 0.9, Dash::solid}});
+    scene.legend.push_back({.text = "lines of the map", .stroke = kMergedStroke});
+    return {{"merge_stages",
+             fmt::format("{}: {} given to {} and {} in the map{}.", input.title, counted(given.size(), "line"),
+                         both.named->pipeline, counted(both.map.size(), "line"),
+                         cleaned ? fmt::format(" ({} before cleaning)", merged.size()) : ""),
+             std::move(scene)}};
+  }
+
+ private:
+  static std::vector<Segment> merged_before_cleaning(const NamedResult& named) {
+    std::vector<Segment> merged;
+    if (named.trace == nullptr) return merged;
+    if (const auto found = named.trace->find("merge.merged"); found != named.trace->end())
+      for (const auto& [frame, v] : found->second)
+        if (v.size() == 5) merged.push_back({{v[1], v[2]}, {v[3], v[4]}});
+    return merged;
+  }
+
+  Params params_;
+};
+
+const bool registered = Registry<Figure>::add<MergeStages>(
+    {.name = "merge_stages",
+     .summary = "the lines given, the lines they are merged to, and those left after cleaning, over the scan points",
+     .reference = "Lakaemper 2009, figures 6 and 9"});
+
+}  // namespace
+}  // namespace scanbench::render
