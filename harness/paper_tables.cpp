@@ -66,10 +66,10 @@ std::string title_of(const std::string& scenario, const ComparedColumn& column) 
 }
 
 std::string caption_of(const ComparedColumn& column) {
-  if (column.seeds < 2) return "In italics: as published.";
+  if (column.seeds < 2) return "Under paper: as published.";
   std::string text = fmt::format("Ours: median over {} seeds", column.seeds);
   if (column.seeds >= 6) text += " ± half the width of its 95 % interval";
-  return text + "; in italics: as published.";
+  return text + "; under paper: as published.";
 }
 
 Table lines_table(const std::string& scenario, const Columns& columns) {
