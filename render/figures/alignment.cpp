@@ -1,6 +1,7 @@
 // Figure 8 of Lakaemper 2009: the points of all scans, superimposed by odometry (or as recorded), by the poses that a
 // pipeline used, and by the true ones.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,14 @@ namespace {
 
 const Stroke kPathStroke{kPathColor, 0.7, Dash::solid};
 constexpr std::size_t kMostColored = 40;  // beyond, colours of single scans mix to grey
+
+/// By more than a file of numbers may round.
+bool differ(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
+  return !std::ranges::equal(a, b, [](const Pose2& p, const Pose2& q) {
+    const Pose2 step = p.inverse() * q;
+    return step.translation().norm() < 1e-9 && std::abs(step.yaw()) < 1e-9;
+  });
+}
 
 class Alignment : public Figure {
  public:
@@ -36,7 +45,7 @@ class Alignment : public Figure {
     add_panel(input, input.recording.truth ? "odometry" : "recorded poses", odometry, most, scene);
     const auto has_poses = [&](const NamedResult& r) {
       return shows(params_.pipeline, r.pipeline) && r.result->world_from_sensor.size() == frames.size() &&
-             r.result->world_from_sensor != odometry;
+             differ(r.result->world_from_sensor, odometry);
     };
     if (const auto named = std::ranges::find_if(input.results, has_poses); named != input.results.end())
       add_panel(input, "as aligned: " + named->pipeline, named->result->world_from_sensor, most, scene);

@@ -109,6 +109,11 @@ std::optional<Window> fullest_window(std::span<const Vec2> places, double side) 
     const auto held = std::ranges::count_if(places, [&](const Vec2& p) { return window.contains(p); });
     if (held > most) best = window, most = held;
   }
+  if (!best) return best;
+  Vec2 low = best->center, high = best->center;
+  for (const Vec2& p : places)
+    if (best->contains(p)) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  best->center = 0.5 * (low + high);
   return best;
 }
 

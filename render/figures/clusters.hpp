@@ -49,7 +49,7 @@ struct Window {
 };
 /// The smallest square that holds the segments, with a margin; none without finite ones.
 std::optional<Window> square_around(std::span<const Segment> segments);
-/// The one of this side that is centred on a place and holds the most places; the first of equals.
+/// The one of this side that holds the most places around one of them, centred on those it holds; the first of equals.
 std::optional<Window> fullest_window(std::span<const Vec2> places, double side);
 
 /// At most `most` segments, evenly taken.
