@@ -52,6 +52,8 @@ class Alignment : public Figure {
     if (input.recording.truth && input.recording.truth->world_from_sensor.size() == frames.size())
       add_panel(input, "true poses", input.recording.truth->world_from_sensor, most, scene);
 
+    std::string sources;
+    for (const Panel& panel : scene.panels) sources += (sources.empty() ? "" : "; ") + panel.title;
     scene.columns = static_cast<int>(scene.panels.size());
     scene.width_in = scene.columns == 1 ? kSingleColumnIn : kDoubleColumnIn;
     scene.share_axes = scene.scale_bar = true;
@@ -61,10 +63,10 @@ class Alignment : public Figure {
                      .marker_color = kScanColor,
                      .marker_size_pt = 2.4},
                     path_legend(input, kPathStroke)};
-    return {{"alignment",
-             fmt::format("{}: the points of {}, placed by odometry and by the poses that were used instead.",
-                         input.title, counted(frames.size(), "scan")),
-             std::move(scene)}};
+    return {
+        {"alignment",
+         fmt::format("{}: the points of {} superimposed: {}.", input.title, counted(frames.size(), "scan"), sources),
+         std::move(scene)}};
   }
 
  private:
