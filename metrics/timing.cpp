@@ -48,8 +48,10 @@ class Timing : public MetricFamily {
   }
 };
 
-const bool registered = Registry<MetricFamily>::add<Timing>(
-    {.name = "timing", .summary = "CPU time of extraction per scan; needs no truth", .reference = "docs/formats.md, timing.csv"});
+const bool registered =
+    Registry<MetricFamily>::add<Timing>({.name = "timing",
+                                         .summary = "CPU time of extraction per scan; needs no truth",
+                                         .reference = "docs/formats.md, timing.csv"});
 
 }  // namespace
 }  // namespace scanbench::metrics
