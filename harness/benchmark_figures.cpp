@@ -177,7 +177,7 @@ class Drawer {
   void draw_errors_over_range() {
     const auto chart_of = [&](const std::string& what, const std::string& unit, ErrorBins MatchBins::*bins) {
       FacetChart chart{.title = what + " error against range",
-                       .x = {.label = "range of the midpoint [m]", .log = true, .ticks = round_ticks(0.1, 100.0)},
+                       .x = {.label = "range [m]", .log = true, .ticks = round_ticks(0.1, 100.0)},
                        .y = {.label = "rms error [" + unit + "]", .log = true},
                        .curve_names = {"this extractor"},
                        .reference_name = "Cramér–Rao bound of its lines",
@@ -202,8 +202,8 @@ class Drawer {
 
   void draw_errors_over_bound() {
     FacetChart chart{.title = "Errors against their bound",
-                     .x = {.label = "root of the bound [cm], [°]", .log = true},
-                     .y = {.label = "rms error [cm], [°]", .log = true},
+                     .x = {.label = "√bound [cm], [°]", .log = true},
+                     .y = {.label = "error [cm], [°]", .log = true},
                      .curve_names = {"offset [cm]", "angle [°]"},
                      .reference_name = "error = bound"};
     for (std::size_t i = 0; i < names_.size(); ++i)

@@ -48,9 +48,9 @@ Scene facet_scene(const FacetChart& chart) {
   Scene scene;
   scene.title = chart.title;
   scene.width_in = kDoubleColumnIn;
-  scene.columns = 4;
+  scene.columns = chart.facets.size() > 12 ? 5 : 4;
   scene.share_axes = true;
-  scene.box_aspect = 0.72;
+  scene.box_aspect = scene.columns > 4 ? 0.85 : 0.72;
   for (std::size_t i = 0; i < chart.facets.size(); ++i) {
     const Facet& facet = chart.facets[i];
     Panel panel{.title = facet.title, .x = chart.x, .y = chart.y, .equal_aspect = false, .items = {}};

@@ -32,7 +32,8 @@ struct FacetChart {
   std::string others_name{};               ///< empty: the first curves of the other facets are not drawn
 };
 
-/// Four columns at the width of two text columns. Facets that have no points keep their place.
+/// Four columns, five for more than a dozen facets, at the width of two text columns: labels of the x axis must be
+/// short. Facets that have no points keep their place.
 Scene facet_scene(const FacetChart& chart);
 
 }  // namespace scanbench::render
