@@ -73,6 +73,22 @@ TEST(Segments, CountsOneOfEachKind) {
   expect_value(rows, "overlap", "all", (0.6 + 1.0) / 2, 2);
 }
 
+TEST(Segments, RightLinesOnPiecesTooSmallToCountAreFalseAndSaidToBeSmall) {
+  // A wall, and 0.45 m of another one, 1 m apart in depth.
+  MadeUpRun run = make_run(ScanGeometry(radians(10), radians(0.5), 320),
+                           {{"wall", {{0.0, 2.5}, {-2.0, 2.5}}}, {"stub", {{0.95, 1.5}, {0.5, 1.5}}}});
+  cast_frame(run, {});
+  add_line(run, 0, line_between({0.0, 2.5}, {-2.0, 2.5}), {});
+  add_line(run, 0, line_between({0.99, 1.5}, {0.47, 1.5}), {});
+  add_line(run, 0, line_between({0.99, 1.9}, {0.47, 1.9}), {});
+  const auto rows = evaluate("segments", run);
+  expect_value(rows, "n_true", "all", 1, 3);
+  expect_value(rows, "n_false", "all", 2, 3);
+  expect_value(rows, "n_small", "all", 1, 3);
+  expect_value(rows, "f1", "all", 2.0 / 4, 4);
+  expect_value(rows, "f1_small_ignored", "all", 2.0 / 3, 3);
+}
+
 TEST(Segments, ErrorsAreRootMeanSquaresAtTheFoundLinesMidpoint) {
   MadeUpRun run = room_from_the_middle();
   const auto south = beams_of(run, 0);
