@@ -17,6 +17,7 @@ namespace scanbench::extract {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kFewestReadings = 3;  // of a line: two always lie on one
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -31,7 +32,9 @@ struct Line {
 class Extraction {
  public:
   Extraction(const Scan& scan, const SensorNoise& noise, int max_lines)
-      : scan_(scan), noise_(noise), max_lines_(max_lines), model_(scan, noise) {}
+      : scan_(scan), noise_(noise), max_lines_(max_lines), model_(scan, noise) {
+    for (std::size_t i = 0; i < model_.size(); ++i) readings_.push_back({model_.direction(i), model_.ranges()[i]});
+  }
 
   ScanLines run(SupportRules rules, Trace& trace) {
     if (model_.size() < 2) return lines_of_runs(scan_, model_.points(), {}, Fit::tls, rules);
@@ -62,17 +65,15 @@ class Extraction {
     cost_ = best.cost;
     lines_.clear();
     for (const PointRun& run : best.lines)
-      if (run.size() >= 3) lines_.push_back({run, {}});
+      if (run.size() >= kFewestReadings) lines_.push_back({run, {}});
   }
 
-  void read(const PointRun& run) {
-    readings_.clear();
-    for (int i = run.first; i <= run.last; ++i) readings_.push_back({model_.direction(at(i)), model_.ranges()[at(i)]});
+  std::span<const BeamReading> readings(const PointRun& run) const {
+    return std::span(readings_).subspan(at(run.first), at(run.size()));
   }
 
-  std::optional<BeamLine> fit(const PointRun& run, const std::optional<Vec2>& start = {}) {
-    read(run);
-    return fit_beam_line(readings_, noise_, start);
+  std::optional<BeamLine> fit(const PointRun& run, const std::optional<Vec2>& start = {}) const {
+    return fit_beam_line(readings(run), noise_, start);
   }
 
   void fit() {
@@ -119,7 +120,8 @@ class Extraction {
     int cut = b.run.first;                                // first point of b
     while (cut <= b.run.last && a_is_nearer(cut) == before) ++cut;
     while (cut > a.run.first && a_is_nearer(cut - 1) != before) --cut;
-    if (cut == b.run.first || cut - a.run.first < 3 || b.run.last - cut < 2) return false;
+    if (cut == b.run.first || cut - a.run.first < kFewestReadings || b.run.last - cut + 1 < kFewestReadings)
+      return false;
     double loss = 0.0;
     for (int i = b.run.first; i < cut; ++i) loss += squared_error(*a.fit, i) - squared_error(*b.fit, i);
     for (int i = cut; i < b.run.first; ++i) loss += squared_error(*b.fit, i) - squared_error(*a.fit, i);
@@ -131,44 +133,43 @@ class Extraction {
     return true;
   }
 
-  // Whether the two lines, neighbours in the scan, meet between their far ends.
-  bool meet(const Line& a, const Line& b) const {
-    const auto a_is_nearer = [&](int i) { return (a.fit->theta - b.fit->theta).dot(model_.direction(at(i))) > 0; };
-    return a_is_nearer(a.run.first) != a_is_nearer(b.run.last);
-  }
-
-  // What lies beyond an end that is not a corner. Where beams are missing between, nothing is known.
+  // What lies beyond an end. Where beams are missing, nothing is known.
   std::optional<Beyond> beyond(std::size_t k, bool last) const {
-    const Line& line = lines_[k];
-    const int own = last ? line.run.last : line.run.first;
+    const PointRun& run = lines_[k].run;
+    const int own = last ? run.last : run.first;
     const int next = own + (last ? 1 : -1);
     if (next < 0 || next >= static_cast<int>(model_.size())) return std::nullopt;
     if (std::abs(model_.points().beams[at(next)] - model_.points().beams[at(own)]) > 1) return std::nullopt;
     const std::size_t other = last ? k + 1 : k - 1;
-    if (other < lines_.size() && lines_[other].run.first <= next && next <= lines_[other].run.last) {
-      if (!lines_[other].fit) return std::nullopt;
-      if (last ? meet(line, lines_[other]) : meet(lines_[other], line)) return std::nullopt;
-      return Beyond{.line = lines_[other].fit, .range_m = 0.0};
-    }
-    return Beyond{.line = {}, .range_m = model_.ranges()[at(next)]};
+    if (other >= lines_.size() || next < lines_[other].run.first || next > lines_[other].run.last)
+      return Beyond{.line = {}, .readings = {}, .range_m = model_.ranges()[at(next)]};
+    if (!lines_[other].fit) return std::nullopt;
+    return Beyond{.line = lines_[other].fit, .readings = readings(lines_[other].run), .range_m = 0.0};
   }
 
-  // The readings at the ends of a line may be those of something else.
+  // The readings at the ends of a line may be those of something else. How often a side joins two walls is learned from
+  // the scan itself: from one that has a side and one that has none, its mean so far, then from what the ends say.
   void weigh_ends() {
-    std::vector<UncertainLine> weighed;
-    for (std::size_t k = 0; k < lines_.size(); ++k) {
-      if (!lines_[k].fit) {
-        weighed.emplace_back();
-        continue;
-      }
-      read(lines_[k].run);
-      weighed.push_back(with_uncertain_ends(*lines_[k].fit, readings_, noise_, {beyond(k, false), beyond(k, true)}, 3));
-    }
+    std::vector<std::optional<UncertainEnds>> ends(lines_.size());
+    double sides = 1.0, junctions = 2.0;
+    const double before = sides / junctions;
     for (std::size_t k = 0; k < lines_.size(); ++k) {
       if (!lines_[k].fit) continue;
-      lines_[k].fit = weighed[k].line;
-      lines_[k].run.first += weighed[k].foreign[0];
-      lines_[k].run.last -= weighed[k].foreign[1];
+      const std::array out = {beyond(k, false), beyond(k, true)};
+      ends[k].emplace(*lines_[k].fit, readings(lines_[k].run), noise_, out, kFewestReadings);
+      const UncertainLine first_look = ends[k]->average(before);
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (!out[end] || !out[end]->line) continue;
+        sides += 0.5 * first_look.side[end];  // seen from both lines
+        junctions += 0.5;
+      }
+    }
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      if (!ends[k]) continue;
+      const UncertainLine line = ends[k]->average(sides / junctions);
+      lines_[k].fit = line.line;
+      lines_[k].run.first += line.foreign[0];
+      lines_[k].run.last -= line.foreign[1];
     }
   }
 
@@ -205,7 +206,7 @@ class Extraction {
   ScanModel model_;
   std::vector<KnownWall> walls_;
   std::vector<Line> lines_;
-  std::vector<BeamReading> readings_;
+  std::vector<BeamReading> readings_;  // of all returns
   double cost_ = 0.0;
 };
 
