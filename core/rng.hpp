@@ -20,6 +20,7 @@ enum class RngStream : std::uint32_t {
   odometry = 6,
   pose = 7,
   resampling = 8,
+  tilt = 9,
 };
 
 class CounterRng {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "core/error.hpp"
@@ -21,6 +22,10 @@ constexpr std::size_t kFramesPerChunk = 8;  // about a millisecond of work
 constexpr std::uint64_t kBytesPerWorld = 160 * 1024;
 constexpr std::uint64_t kBytesPerSurface = 512;
 
+std::size_t surfaces(const World& world) {
+  return world.walls.size() + world.circles.size() + world.moving.size();
+}
+
 // Scratch of one thread.
 struct Scratch {
   std::vector<Ray> rays;
@@ -30,7 +35,10 @@ struct Scratch {
 class Simulation {
  public:
   Simulation(const SimulationInput& input, Recording& recording)
-      : input_(input), caster_(input.world), recording_(recording) {}
+      : input_(input),
+        caster_(input.world),
+        floor_surface_(static_cast<std::int32_t>(surfaces(input.world))),
+        recording_(recording) {}
 
   void frame(std::size_t k, Scratch& scratch) const {
     const SensorModel& sensor = input_.sensor;
@@ -41,7 +49,9 @@ class Simulation {
     scratch.cos_incidence.resize(n);
     const HitBuffers buffers{true_ranges, wall_ids, scratch.cos_incidence};
     const TimedPose& start = input_.trajectory.poses[k];
-    const bool imperfect_beams = sensor.noise.bearing_sigma_rad > 0 || sensor.noise.beam_divergence_rad > 0;
+    std::optional<TiltRotation> tilt;
+    if (!input_.tilt.level()) tilt.emplace(tilt_angles(input_.tilt, input_.seed, static_cast<std::uint32_t>(k)));
+    const bool imperfect_beams = tilt || sensor.noise.bearing_sigma_rad > 0 || sensor.noise.beam_divergence_rad > 0;
     if (input_.sweep || imperfect_beams) aim(k, scratch);
     if (input_.sweep)
       caster_.cast_rays(scratch.rays, sensor.range_max_m, buffers);
@@ -53,7 +63,7 @@ class Simulation {
       const BeamAddress address{input_.seed, static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(i)};
       RayHit hit;
       if (imperfect_beams) {
-        hit = real_beam(scratch.rays[i], address);
+        hit = real_beam({scratch.rays[i], sensor.geometry.direction(static_cast<int>(i))}, tilt, address);
       } else {
         hit.range_m = true_ranges[i];
         hit.cos_incidence = scratch.cos_incidence[i];
@@ -63,6 +73,15 @@ class Simulation {
   }
 
  private:
+  struct Beam {
+    Ray ray;         // of a level sensor
+    Vec2 in_sensor;  // direction in the sensor's frame
+
+    Beam aside(double angle_rad) const {
+      return {{ray.origin, turned(ray.direction, angle_rad), ray.time_s}, turned(in_sensor, angle_rad)};
+    }
+  };
+
   // The nominal beams of a frame.
   void aim(std::size_t k, Scratch& scratch) const {
     const SensorModel& sensor = input_.sensor;
@@ -75,15 +94,32 @@ class Simulation {
     }
   }
 
+  // What the light of a beam meets, the range being along it. The floor counts as one more surface.
+  RayHit meet(const Beam& beam, const std::optional<TiltRotation>& tilt) const {
+    const double range_max_m = input_.sensor.range_max_m;
+    if (!tilt) return caster_.cast(beam.ray, range_max_m);
+    const TiltedBeam tilted = tilt->beam(beam.in_sensor);
+    const Vec2& level = beam.ray.direction;
+    const Vec2 direction(tilted.turn.x() * level.x() - tilted.turn.y() * level.y(),
+                         tilted.turn.y() * level.x() + tilted.turn.x() * level.y());
+    RayHit hit = caster_.cast({beam.ray.origin, direction, beam.ray.time_s}, range_max_m * tilted.horizontal);
+    hit.range_m = tilted.range(hit.range_m);
+    hit.cos_incidence *= tilted.horizontal;
+    const double floor_m = tilted.range_to_floor(input_.tilt.height_m);
+    if (floor_m < hit.range_m && floor_m <= range_max_m)
+      hit = {.range_m = floor_m, .wall = -1, .surface = floor_surface_, .cos_incidence = -tilted.up};
+    return hit;
+  }
+
   // What a beam meets that points a little beside its nominal direction and is a little wide.
-  RayHit real_beam(Ray ray, const BeamAddress& address) const {
+  RayHit real_beam(const Beam& nominal, const std::optional<TiltRotation>& tilt, const BeamAddress& address) const {
     const SensorModel& sensor = input_.sensor;
-    ray.direction = turned(ray.direction, bearing_error(sensor.noise, address));
-    RayHit hit = caster_.cast(ray, sensor.range_max_m);
+    const Beam beam = nominal.aside(bearing_error(sensor.noise, address));
+    RayHit hit = meet(beam, tilt);
     const double half_width = 0.5 * sensor.noise.beam_divergence_rad;
     if (!(half_width > 0)) return hit;
-    const RayHit left = caster_.cast({ray.origin, turned(ray.direction, half_width), ray.time_s}, sensor.range_max_m);
-    const RayHit right = caster_.cast({ray.origin, turned(ray.direction, -half_width), ray.time_s}, sensor.range_max_m);
+    const RayHit left = meet(beam.aside(half_width), tilt);
+    const RayHit right = meet(beam.aside(-half_width), tilt);
     // A depth edge: two surfaces, farther apart in range than the beam is wide. Less is a corner seen at a slant.
     const double width = sensor.noise.beam_divergence_rad * std::min(left.range_m, right.range_m);
     if (hit.surface >= 0 && left.surface >= 0 && right.surface >= 0 && left.surface != right.surface &&
@@ -94,6 +130,7 @@ class Simulation {
 
   const SimulationInput& input_;
   RayCaster caster_;
+  const std::int32_t floor_surface_;  // after all surfaces of the world
   Recording& recording_;
 };
 
@@ -159,12 +196,11 @@ Recording prepare(const SimulationInput& input) {
 std::uint64_t memory_estimate(const SimulationInput& input) {
   const std::uint64_t frames = input.trajectory.poses.size();
   const auto beams = static_cast<std::uint64_t>(input.sensor.geometry.beams());
-  const std::uint64_t surfaces = input.world.walls.size() + input.world.circles.size() + input.world.moving.size();
   const std::uint64_t per_beam = 2 * sizeof(double) + sizeof(std::int32_t);
   const std::uint64_t per_frame = sizeof(Frame) + 2 * sizeof(Pose2) + 32;
   const std::uint64_t scratch = beams * (sizeof(Ray) + sizeof(double));
-  return frames * (beams * per_beam + per_frame) + kBytesPerWorld + surfaces * (sizeof(Wall) + kBytesPerSurface) +
-         scratch;
+  return frames * (beams * per_beam + per_frame) + kBytesPerWorld +
+         surfaces(input.world) * (sizeof(Wall) + kBytesPerSurface) + scratch;
 }
 
 Recording simulate(const SimulationInput& input, int threads, const std::function<void(double)>& progress) {

@@ -6,6 +6,7 @@
 
 #include "core/recording.hpp"
 #include "sim/odometry.hpp"
+#include "sim/tilt.hpp"
 #include "sim/trajectory.hpp"
 #include "sim/world.hpp"
 
@@ -16,6 +17,7 @@ struct SimulationInput {
   SensorModel sensor;
   Trajectory trajectory;
   OdometryNoise odometry;
+  Tilt tilt;
   bool sweep = false;  ///< the scan is swept while the sensor moves: sensor.time_per_beam_s per beam
   std::uint64_t seed = 1;
 };
@@ -27,8 +29,8 @@ std::uint64_t memory_estimate(const SimulationInput& input);
 /// throw; ConfigError for a sweep with a sensor whose time_per_beam_s is 0. `threads` >= 1, else InternalError;
 /// `progress` gets the share done, from one thread at a time; what it throws ends the simulation.
 ///
-/// Truth ranges and wall ids are those of the nominal beams, each from the pose it was fired from. The first odometry
-/// pose is the true pose (sim/odometry.hpp).
+/// Truth ranges and wall ids are those of the nominal beams of a level sensor, each from the pose it was fired from.
+/// The first odometry pose is the true pose (sim/odometry.hpp).
 Recording simulate(const SimulationInput& input, int threads = 1, const std::function<void(double)>& progress = {});
 
 }  // namespace scanbench::sim

@@ -42,6 +42,7 @@ SimulationInput noisy_rooms(int scans) {
                                           {"angle_step_deg", 2.4}});
   input.trajectory = drive_through_rooms(scans);
   input.odometry = {0.02, 0.01, 0.05, 0.01, 0.01};
+  input.tilt = {0.05, 0.05, 0.5};
   input.sweep = true;
   input.seed = 99;
   return input;

@@ -1,0 +1,56 @@
+// A sensor that is not level, as one that is carried by hand: roll and pitch of its scanning plane (Lakaemper 2009,
+// section V.B: "error-prone pitch, roll and yaw of the laser"; the yaw's error is OdometryNoise's).
+//
+// Frames: x forward, y left, z up; walls and round bodies stand upright and have no upper end. A positive pitch lowers
+// the nose, a positive roll lifts the left side; the plane is rolled first, then pitched: Ry(pitch) Rx(roll).
+#pragma once
+
+#include <cstdint>
+
+#include "core/geometry.hpp"
+
+namespace scanbench::sim {
+
+/// Standard deviations of the two angles, which are normal, independent of each other and from scan to scan, and
+/// constant within a scan.
+struct Tilt {
+  double roll_sigma_rad = 0.0;
+  double pitch_sigma_rad = 0.0;
+  double height_m = 0.0;  ///< of the sensor over the floor, which tilted beams may meet; 0: there is no floor
+
+  bool level() const { return !(roll_sigma_rad > 0 || pitch_sigma_rad > 0); }
+};
+
+struct TiltAngles {
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+};
+
+/// The angles of a scan. Switching one of them on does not move the other.
+TiltAngles tilt_angles(const Tilt& tilt, std::uint64_t seed, std::uint32_t frame);
+
+/// Where a beam of a tilted sensor goes. Seen from above it is a beam of a level one that is turned aside and whose
+/// ranges are shortened.
+struct TiltedBeam {
+  Vec2 turn{1.0, 0.0};      ///< cos and sin of the angle, seen from above, from where it goes if the sensor is level
+  double horizontal = 1.0;  ///< horizontal way per way along the beam; > 0, for no number's cosine is exactly 0
+  double up = 0.0;          ///< climb per way along the beam
+
+  /// A range seen from above as one along the beam.
+  double range(double horizontal_range_m) const { return horizontal_range_m / horizontal; }
+  /// Range to a floor `height_m` below the sensor; +inf for a beam that does not descend, and for height 0: no floor.
+  double range_to_floor(double height_m) const;
+};
+
+/// The rotation of one scan, made once for all of its beams.
+class TiltRotation {
+ public:
+  explicit TiltRotation(const TiltAngles& angles);
+  /// `direction`: unit vector in the sensor's frame.
+  TiltedBeam beam(const Vec2& direction) const;
+
+ private:
+  double sin_roll_, cos_roll_, sin_pitch_, cos_pitch_;
+};
+
+}  // namespace scanbench::sim
