@@ -46,6 +46,8 @@ void add_input(Sha256& hash, const SimulatedInput& input) {
   for (const double value : {odometry.translation_per_m, odometry.rotation_per_m_rad, odometry.rotation_per_rad,
                              odometry.pose_position_sigma_m, odometry.pose_heading_sigma_rad})
     hash.part("odometry", number_text(value));
+  for (const double value : {input.tilt.roll_sigma_rad, input.tilt.pitch_sigma_rad, input.tilt.height_m})
+    hash.part("tilt", number_text(value));
   hash.part("sweep", input.sweep ? "yes" : "no");
 }
 

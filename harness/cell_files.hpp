@@ -35,8 +35,8 @@ std::string metrics_csv(const std::vector<metrics::MetricRow>& rows);
 /// Throws ConfigError.
 std::vector<metrics::MetricRow> load_metrics(const std::filesystem::path& cell);
 
-/// SHA-256 of the input of a scenario: world bytes, sensor, trajectory, odometry; or log bytes, format and how it is
-/// read. Throws ConfigError if the log cannot be read.
+/// SHA-256 of the input of a scenario: world bytes, sensor, trajectory, odometry, tilt; or log bytes, format and how it
+/// is read. Throws ConfigError if the log cannot be read.
 std::string input_address(const Scenario& scenario);
 
 /// SHA-256 over everything that a cell's bytes depend on: the input, the seed, the pipeline's resolved parameters, the

@@ -48,14 +48,19 @@ class ScenarioReader {
   }
 
  private:
+  /// A section of nothing but parameters, which may be left out.
+  template <class Params>
+  static Params read_optional(YamlMap& map, const std::string& key) {
+    const YamlNode* node = map.find(key);
+    if (node == nullptr) return {};
+    YamlMap section(*node, key);
+    const auto params = make_params<Params>(section.params(param_specs<Params>()));
+    section.done();
+    return params;
+  }
+
   void read_limits() {
-    const YamlNode* node = map_.find("limits");
-    LimitParams params;
-    if (node != nullptr) {
-      YamlMap limits(*node, "limits");
-      params = make_params<LimitParams>(limits.params(param_specs<LimitParams>()));
-      limits.done();
-    }
+    const auto params = read_optional<LimitParams>(map_, "limits");
     scenario_.limits = {params.seconds, params.memory_mib * 1024.0 * 1024.0};
   }
 
@@ -108,14 +113,12 @@ class ScenarioReader {
         map.require("kind", fmt::format("one of {}", fmt::join(module_names("trajectory"), ", ")));
     const std::string kind = map.text("kind", "a name");
     const auto entry = at_param(kind_node, [&] { return find_module("trajectory", kind); });
-    OdometryParams odometry;
-    if (const YamlNode* odometry_node = map.find("odometry")) {
-      YamlMap odometry_map(*odometry_node, "odometry");
-      odometry = make_params<OdometryParams>(odometry_map.params(param_specs<OdometryParams>()));
-      odometry_map.done();
-    }
+    const auto odometry = read_optional<OdometryParams>(map, "odometry");
     input.odometry_params = to_param_set(odometry);
     input.odometry = odometry.noise();
+    const auto tilt = read_optional<TiltParams>(map, "tilt");
+    input.tilt_params = to_param_set(tilt);
+    input.tilt = tilt.tilt();
     ParamSpec sweep;
     sweep.name = "sweep";
     sweep.type = ParamType::boolean;

@@ -5,7 +5,7 @@
 //   about: what is shown                         # optional
 //   world: {file: worlds/rooms.yaml}             # relative to the scenario; or the keys of a world file themselves
 //   sensor: {preset: ladar_2d30, sigma_m: 0.02}  # any field may be overridden
-//   trajectory:                                  # kind, its parameters, odometry errors
+//   trajectory:                                  # kind, its parameters, errors of odometry and tilt
 //     {kind: waypoints, points_m: {A: [1, 1], B: [4, 1]}, scans: 200, odometry: {translation_per_m: 0.02}, sweep:
 //     false}
 //   seed: 1                                      # or seeds: [1, 2], or seeds: {first: 1, count: 20}; default: seed: 1
@@ -66,6 +66,8 @@ struct SimulatedInput {
   ModuleChoice trajectory;
   ParamSet odometry_params;  ///< effective, in the units of the file
   sim::OdometryNoise odometry;
+  ParamSet tilt_params;  ///< effective, in the units of the file
+  sim::Tilt tilt;
   bool sweep = false;
 };
 

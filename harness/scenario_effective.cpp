@@ -34,6 +34,7 @@ void add_input(YamlNode& root, const SimulatedInput& input) {
   yaml_add(trajectory, "kind", yaml_text(input.trajectory.module));
   add_params(trajectory, input.trajectory.params);
   yaml_add(trajectory, "odometry", to_yaml(input.odometry_params));
+  yaml_add(trajectory, "tilt", to_yaml(input.tilt_params));
   yaml_add(trajectory, "sweep", yaml_plain(input.sweep ? "true" : "false"));
 }
 

@@ -30,6 +30,7 @@ sim::SimulationInput input_within_memory(const Scenario& scenario, std::uint64_t
                                .sensor = simulated.sensor,
                                .trajectory = {},
                                .odometry = simulated.odometry,
+                               .tilt = simulated.tilt,
                                .sweep = simulated.sweep,
                                .seed = seed};
       const auto none = static_cast<double>(sim::memory_estimate(one));
@@ -53,6 +54,7 @@ sim::SimulationInput simulation_input(const Scenario& scenario, std::uint64_t se
           .sensor = simulated->sensor,
           .trajectory = Registry<sim::TrajectoryKind>::make(name, params)->generate(simulated->sensor.scan_period_s),
           .odometry = simulated->odometry,
+          .tilt = simulated->tilt,
           .sweep = simulated->sweep,
           .seed = seed};
 }

@@ -1,4 +1,4 @@
-// The small sections of a scenario file as parameters: limits, odometry, the sensor beside a log.
+// The small sections of a scenario file as parameters: limits, odometry, tilt, the sensor beside a log.
 #pragma once
 
 #include <vector>
@@ -45,6 +45,26 @@ struct OdometryParams {
             .rotation_per_rad = rotation_per_rad,
             .pose_position_sigma_m = pose_position_sigma_m,
             .pose_heading_sigma_rad = radians(pose_heading_sigma_deg)};
+  }
+};
+
+/// sim::Tilt in the units of the file.
+struct TiltParams {
+  double roll_sigma_deg = 0.0;
+  double pitch_sigma_deg = 0.0;
+  double height_m = 0.0;
+  static auto fields() {
+    using P = TiltParams;
+    return std::tuple{field("roll_sigma_deg", &P::roll_sigma_deg, between(0, 30), "deg",
+                            "standard deviation of the roll, independent per scan"),
+                      field("pitch_sigma_deg", &P::pitch_sigma_deg, between(0, 30), "deg",
+                            "standard deviation of the pitch, independent per scan"),
+                      field("height_m", &P::height_m, at_least(0), "m",
+                            "height of the sensor over the floor, which tilted beams may meet; 0: no floor")};
+  }
+  sim::Tilt tilt() const {
+    return {
+        .roll_sigma_rad = radians(roll_sigma_deg), .pitch_sigma_rad = radians(pitch_sigma_deg), .height_m = height_m};
   }
 };
 

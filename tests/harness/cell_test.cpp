@@ -163,13 +163,14 @@ TEST(CellAddress, ChangesWithEverythingThatTheResultDependsOn) {
     return cell_address(input_address(s), s.metrics, s.pipelines[0], seed, {});
   };
   EXPECT_EQ(address(base), address(base));
-  std::vector<Scenario> others(6, base);
+  std::vector<Scenario> others(7, base);
   others[0].pipelines[0].slots[0].params["skip"] = 2.0;
   others[1].pipelines[0].slots[0].params["skip"] = std::string("1");
   others[2].metrics.pop_back();
   std::get<SimulatedInput>(others[3].input).world.walls = {{"w", {Vec2(0, 0), Vec2(1, 0)}}};
   std::get<SimulatedInput>(others[4].input).odometry.rotation_per_rad = 0.1;
   std::get<SimulatedInput>(others[5].input).trajectory.params["scans"] = std::int64_t{3};
+  std::get<SimulatedInput>(others[6].input).tilt.pitch_sigma_rad = 0.1;
   for (const auto& other : others) EXPECT_NE(address(other), address(base));
   EXPECT_NE(address(base, 2), address(base, 1));
   Scenario renamed = base;

@@ -79,6 +79,18 @@ TEST(Scenario, FillsInDefaultsAndKeepsWhatWasGiven) {
   EXPECT_EQ(s.limits.memory_bytes, 100.0 * 1024 * 1024);
 }
 
+TEST(Scenario, ReadsTiltInDegreesAndPassesItOn) {
+  EXPECT_TRUE(simulation_input(parse_scenario(kSmall, "x.yaml"), 1).tilt.level());
+  const Scenario s =
+      parse_scenario(kSmall, "x.yaml", {"trajectory.tilt={roll_sigma_deg: 2, pitch_sigma_deg: 3, height_m: 1.2}"});
+  const sim::Tilt tilt = simulation_input(s, 1).tilt;
+  EXPECT_DOUBLE_EQ(tilt.roll_sigma_rad, kPi / 90.0);
+  EXPECT_DOUBLE_EQ(tilt.pitch_sigma_rad, kPi / 60.0);
+  EXPECT_EQ(tilt.height_m, 1.2);
+  EXPECT_THAT(effective_yaml(s), HasSubstr("roll_sigma_deg: 2"));
+  EXPECT_EQ(parse_scenario(kSmall, "x.yaml", {"trajectory.tilt={}"}).seeds, s.seeds);
+}
+
 TEST(Scenario, OneSeedIsTheDefault) {
   std::string text = kSmall;
   text.erase(text.find("seeds"), text.find("pipelines") - text.find("seeds"));
@@ -129,6 +141,7 @@ void expect_stable(const Scenario& scenario) {
     EXPECT_EQ(a->sensor_params, b.sensor_params);
     EXPECT_EQ(a->trajectory.params, b.trajectory.params);
     EXPECT_EQ(a->odometry_params, b.odometry_params);
+    EXPECT_EQ(a->tilt_params, b.tilt_params);
     ASSERT_EQ(a->world.walls.size(), b.world.walls.size());
     for (std::size_t i = 0; i < a->world.walls.size(); ++i)
       EXPECT_EQ(a->world.walls[i].segment, b.world.walls[i].segment);
@@ -137,6 +150,7 @@ void expect_stable(const Scenario& scenario) {
 
 TEST(EffectiveScenario, IsAFixedPoint) {
   expect_stable(parse_scenario(kSmall, "rooms.yaml"));
+  expect_stable(parse_scenario(kSmall, "rooms.yaml", {"trajectory.tilt={roll_sigma_deg: 2, height_m: 1}"}));
 }
 
 TEST(EffectiveScenario, NamesEveryParameterOfEveryModule) {
