@@ -51,9 +51,9 @@ class MeanShift final : public SegmentMerger {
     bool accelerate = true;
     bool capture = true;
     double merge_gap_m = 0.0;
-    bool join = false;
+    bool join = true;
     double join_angle_deg = 5.0;
-    double join_deviation_sigma = 0.25;
+    double join_deviation_sigma = 0.1;
     double join_gap_sigma = 0.5;
     bool trim = false;
     double trim_sigma = 1.0;
@@ -97,7 +97,7 @@ class MeanShift final : public SegmentMerger {
           field("capture", &Params::capture, "end a climb early next to a known mode"),
           field("merge_gap_m", &Params::merge_gap_m, at_least(0), "m",
                 "projected segments of one cluster are united across gaps up to this"),
-          field("join", &Params::join, "unite abutting lines of the merged map"),
+          field("join", &Params::join, "unite abutting lines of the merged map, a step that the paper does not have"),
           field("join_angle_deg", &Params::join_angle_deg, between(0, 45), "deg", "largest difference of direction"),
           field("join_deviation_sigma", &Params::join_deviation_sigma, at_least(0), "sigma_m",
                 "largest distance of end points from the joined line"),

@@ -73,7 +73,7 @@ TEST(MeanShift, RefusesASigmaThatIsNotPositiveOrCutsTheInputToDust) {
     EXPECT_EQ(e.param(), "sigma_m");
     EXPECT_NE(std::string(e.what()).find("1000 m"), std::string::npos) << e.what();
   }
-  const MergeResult coarse = merge({line(0, 0, 1, 0), line(7, 3, 8, 3.1)}, {{"sigma_m", 1e6}});
+  const MergeResult coarse = merge({line(0, 0, 1, 0), line(7, 3, 8, 3.1)}, {{"sigma_m", 1e6}, {"join", false}});
   EXPECT_EQ(coarse.status, Status::converged);
   EXPECT_EQ(clusters(coarse.cluster2), 1);
   EXPECT_EQ(coarse.map.lines.size(), 2U);  // one cluster, but their projections do not overlap
@@ -94,13 +94,13 @@ TEST(MeanShift, ErasesOnlyShortLinesThatPointsDoNotSupport) {
   EXPECT_EQ(merge(lines, {{"erase_unsupported", false}}, points).map.lines.size(), 3U);
 }
 
-TEST(MeanShift, JoinsAbuttingPiecesOnlyWhenAsked) {
+TEST(MeanShift, JoinsAbuttingPiecesUnlessToldNotTo) {
   // A wall that turns by 3 degrees: too far apart along for one cluster, a gap of 5 cm.
   const double turn = radians(3.0);
   const std::vector<MapLine> lines{line(0, 0, 1, 0), line(1.05, 0, 1.05 + std::cos(turn), std::sin(turn))};
-  const ParamSet strict = kStrict;
-  ASSERT_EQ(merge(lines, strict).map.lines.size(), 2U);
-  ParamSet join = strict;
+  ParamSet join = kStrict;
+  join["join"] = false;
+  ASSERT_EQ(merge(lines, join).map.lines.size(), 2U);
   join["join"] = true;
   const MergeResult r = merge(lines, join);
   ASSERT_EQ(r.map.lines.size(), 1U);
@@ -108,6 +108,8 @@ TEST(MeanShift, JoinsAbuttingPiecesOnlyWhenAsked) {
   EXPECT_EQ(r.map.lines[0].members, 2);
   join["join_angle_deg"] = 2.0;
   EXPECT_EQ(merge(lines, join).map.lines.size(), 2U);
+  // The two sides of a thin wall stay two.
+  EXPECT_EQ(merge({line(0, 0, 2, 0), line(2, 0.1, 0, 0.1)}).map.lines.size(), 2U);
 }
 
 TEST(MeanShift, TrimsShortOvershootsAtIntersections) {

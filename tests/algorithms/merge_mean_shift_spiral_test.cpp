@@ -30,7 +30,7 @@ TEST(MeanShiftSpiral, MergesThreeHundredSegmentsToThirtyForASigmaOf15To30Centime
 
 // The matrix of eqs 5 and 6 as printed is long along the mirrored direction, so it tears clusters apart.
 TEST(MeanShiftSpiral, FallsApartUnderTheKernelAsPrinted) {
-  const ParamSet printed{{"kernel2", std::string("printed")}, {"kernel2_factor", 2.0}};
+  const ParamSet printed{{"kernel2", std::string("printed")}, {"kernel2_factor", 2.0}, {"join", false}};
   EXPECT_GT(merged_count(testing::spiral(), printed), 30U);
 }
 

@@ -183,8 +183,8 @@ TEST(MeanShift, AWallSeenOftenIsOneLineBecauseModesOfOneRidgeAreLinked) {
       const double from = rng.uniform();
       lines.push_back(centred({5.0 + from, 0.005 * rng.normal()}, radians(0.3 * rng.normal()), 10.0));
     }
-    EXPECT_EQ(merge(lines).map.lines.size(), 1U);
-    EXPECT_GT(merge(lines, {{"ridge_dip", 0.0}}).map.lines.size(), 4U);
+    EXPECT_EQ(merge(lines, {{"join", false}}).map.lines.size(), 1U);
+    EXPECT_GT(merge(lines, {{"join", false}, {"ridge_dip", 0.0}}).map.lines.size(), 4U);
   }
 }
 
@@ -263,7 +263,8 @@ TEST(MeanShift, DependsNeitherOnTheOrderNorOnTheSenseOfTheSegments) {
   }
 }
 
-// With merge_gap 0, the lines of a phase-2 cluster cover exactly what their members' projections cover.
+// With merge_gap 0 and nothing joined, the lines of a phase-2 cluster cover exactly what their members' projections
+// cover.
 TEST(MeanShift, ReachesAsFarAsTheProjectionsOfItsMembers) {
   for (const double gap : {0.0, 0.1}) {
     const std::vector<MapLine> lines{line(0, 0, 1, 0),
@@ -272,7 +273,7 @@ TEST(MeanShift, ReachesAsFarAsTheProjectionsOfItsMembers) {
                                      line(1.2, 0.001, 1.25, 0.001),
                                      line(1.85, 0.002, 2.15, 0.002),
                                      line(5.0, 0, 5.5, 0)};
-    const MergeResult r = merge(lines, {{"merge_gap_m", gap}});
+    const MergeResult r = merge(lines, {{"merge_gap_m", gap}, {"join", false}});
     std::vector<std::pair<double, double>> found;
     for (const MapLine& l : r.map.lines) {
       EXPECT_NEAR(l.segment.a.y(), 0.0, 0.005);
