@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "harness/figure_pipelines.hpp"
 #include "harness/line_set.hpp"
 #include "harness/log.hpp"
 #include "harness/scenario_modules.hpp"
@@ -41,7 +42,10 @@ class ScenarioReader {
     const bool scans = !std::holds_alternative<LinesInput>(scenario_.input);
     if (const YamlNode* node = map_.find("pipelines")) scenario_.pipelines = read_pipelines(*node, scans);
     if (const YamlNode* node = map_.find("metrics")) scenario_.metrics = read_choices(*node, "metrics");
-    if (const YamlNode* node = map_.find("figures")) scenario_.figures = read_choices(*node, "figure");
+    if (const YamlNode* node = map_.find("figures")) {
+      scenario_.figures = read_choices(*node, "figure");
+      check_figure_pipelines(*node, scenario_.figures, scenario_.pipelines);
+    }
     if (const YamlNode* node = map_.find("published"))
       scenario_.published_file = resolve_path(*node, map_.text("published", "a file's path"), scenario_.path);
     map_.done();

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "harness/factors.hpp"
+#include "harness/figure_pipelines.hpp"
 #include "harness/scenario_reader.hpp"
 #include "harness/text_file.hpp"
 #include "harness/world_file.hpp"
@@ -24,7 +25,8 @@ class SuiteReader {
     seeds_ = read_seeds(map_);
     pipelines_ = map_.find("pipelines");
     if (const YamlNode* node = map_.find("metrics")) metrics_ = read_choices(*node, "metrics");
-    if (const YamlNode* node = map_.find("figures")) figures_ = read_choices(*node, "figure");
+    figures_node_ = map_.find("figures");
+    if (figures_node_ != nullptr) figures_ = read_choices(*figures_node_, "figure");
     if (const YamlNode* node = map_.find("published"))
       published_ = resolve_path(*node, map_.text("published", "a file's path"), suite_.path);
     const YamlNode* factors = map_.find("factors");
@@ -56,7 +58,12 @@ class SuiteReader {
     const bool scans = !std::holds_alternative<LinesInput>(scenario.input);
     if (pipelines_ != nullptr) scenario.pipelines = pipelines_with(sets_of_section(sets, "pipelines"), scans);
     if (metrics_) scenario.metrics = *metrics_;
-    if (figures_) scenario.figures = *figures_;
+    if (figures_node_ != nullptr) {
+      scenario.figures = figures_;
+      check_figure_pipelines(*figures_node_, figures_, scenario.pipelines);
+    } else if (pipelines_ != nullptr) {
+      check_figure_pipelines(pipelines_->mark, scenario);
+    }
     if (!published_.empty()) scenario.published_file = published_;
     return scenario;
   }
@@ -96,7 +103,8 @@ class SuiteReader {
   std::vector<std::uint64_t> seeds_;
   const YamlNode* pipelines_ = nullptr;
   std::optional<std::vector<ModuleChoice>> metrics_;
-  std::optional<std::vector<ModuleChoice>> figures_;
+  const YamlNode* figures_node_ = nullptr;
+  std::vector<ModuleChoice> figures_;
   std::filesystem::path published_;
 };
 
