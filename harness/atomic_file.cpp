@@ -100,6 +100,12 @@ void write_staged_file(const fs::path& path, std::string_view bytes) {
   if (error != 0) refuse("write", path, error);
 }
 
+void remove_file(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) refuse("remove", path, error.value());
+}
+
 void make_folders(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);

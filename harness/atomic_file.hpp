@@ -17,6 +17,9 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
 /// Writes a file inside a StagedFolder, which is flushed and renamed as a whole later. Throws ConfigError.
 void write_staged_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Removes a file; none there is all right. Throws ConfigError.
+void remove_file(const std::filesystem::path& path);
+
 /// Makes a folder and its parents. Throws ConfigError.
 void make_folders(const std::filesystem::path& path);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/registry.hpp"
@@ -35,6 +36,15 @@ void append(std::vector<T>& all, std::vector<T> more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+/// Files that a score of any families may have left in a cell, beside metrics.csv.
+std::set<std::string> table_files() {
+  std::set<std::string> files;
+  for (const auto& family : Registry<metrics::MetricFamily>::names())
+    for (const auto& table : Registry<metrics::MetricFamily>::make(family, {})->table_names())
+      files.insert(table + ".csv");
+  return files;
+}
+
 }  // namespace
 
 std::vector<metrics::MetricRow> evaluate_metrics(const std::vector<ModuleChoice>& families, const Recording& recording,
@@ -52,7 +62,13 @@ Scores score_cell(const std::vector<ModuleChoice>& families, const Recording& re
                       std::to_string(recording.observed.frames.size()));
   Scores scores{evaluate_metrics(families, recording, result), {}};
   const metrics::MetricInput input = metric_input(recording, result);
-  for_each_family(families, input, [&](const auto& family) { append(scores.tables, family.tables(input)); });
+  for_each_family(families, input, [&](const auto& family) {
+    for (auto& table : family.tables(input)) {
+      const auto names = family.table_names();
+      SCANBENCH_ASSERT(std::ranges::find(names, table.name) != names.end());
+      scores.tables.push_back(std::move(table));
+    }
+  });
   return scores;
 }
 
@@ -89,7 +105,9 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
   const Manifest manifest = load_manifest(run);
   std::string summary = summary_header();
   std::size_t scored = 0;
+  const std::set<std::string> known_tables = table_files();
   std::vector<std::pair<fs::path, std::string>> files;  // written when all are known: whoever stops it changes nothing
+  std::vector<fs::path> stale;                          // tables of an earlier score that this one does not make
   std::map<std::pair<std::string, std::uint64_t>, Recording> recordings;  // at most one at a time
   for (std::size_t i = 0; i < manifest.cells.size(); ++i) {
     const CellKey& key = manifest.cells[i];
@@ -106,10 +124,16 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
     }
     const Scores scores = score_cell(scenario->metrics, recordings.at(source), cell);
     files.emplace_back(cell / "metrics.csv", metrics_csv(scores.rows));
-    for (const auto& table : scores.tables) files.emplace_back(cell / (table.name + ".csv"), metric_table_csv(table));
+    std::set<std::string> others = known_tables;
+    for (const auto& table : scores.tables) {
+      files.emplace_back(cell / (table.name + ".csv"), metric_table_csv(table));
+      others.erase(table.name + ".csv");
+    }
+    for (const auto& file : others) stale.push_back(cell / file);
     summary += summary_lines(key, scores.rows);
     ++scored;
   }
+  for (const auto& path : stale) remove_file(path);
   for (const auto& [path, text] : files) write_file_atomically(path, text);
   write_file_atomically(run / "summary.csv", summary);
   refresh_manifest(run);

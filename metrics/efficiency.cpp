@@ -52,6 +52,8 @@ struct Ratio {
   }
 };
 
+constexpr const char* kMatches = "matches";  // matches.csv
+
 /// A found line that is true, with enough beams.
 struct Match {
   std::size_t frame;
@@ -130,7 +132,7 @@ class Efficiency : public MetricFamily {
 
   std::vector<MetricTable> tables(const MetricInput& input) const override {
     if (!params_.matches) return {};
-    MetricTable table{"matches",
+    MetricTable table{kMatches,
                       {"frame", "line", "first_beam", "last_beam", "beams", "range_m", "length_m", "offset_m",
                        "angle_rad", "bound_offset_m", "bound_angle_rad"},
                       {}};
@@ -146,6 +148,8 @@ class Efficiency : public MetricFamily {
     });
     return {table};
   }
+
+  std::vector<std::string> table_names() const override { return {kMatches}; }
 
  private:
   template <class Visit>

@@ -60,6 +60,8 @@ class MetricFamily {
   virtual std::vector<MetricRow> evaluate(const MetricInput& input) const = 0;
   /// Tables that its parameters ask for.
   virtual std::vector<MetricTable> tables(const MetricInput&) const { return {}; }
+  /// Names of all tables that it can write, whatever its parameters: a later score removes those it does not write.
+  virtual std::vector<std::string> table_names() const { return {}; }
 };
 
 }  // namespace scanbench::metrics

@@ -168,11 +168,15 @@ class PoseMapper final : public Mapper {
   LineMap map_;
 };
 
-/// Beams without a line (fewer is better, one more is let pass), lines, and a row that is not defined.
+/// Beams without a line (fewer is better, one more is let pass), lines, and a row that is not defined; lines per frame
+/// as a table.
 class TestMetrics final : public metrics::MetricFamily {
  public:
-  using Params = NoParams;
-  explicit TestMetrics(const Params&) {}
+  struct Params {
+    bool table = false;
+    static auto fields() { return std::tuple{field("table", &Params::table, "write test_table.csv")}; }
+  };
+  explicit TestMetrics(const Params& params) : params_(params) {}
   std::vector<metrics::MetricDescription> describe() const override {
     using metrics::Direction;
     return {{"test_unlabelled", "beams", Direction::lower_is_better, 1.0, "beams without a line", false},
@@ -192,6 +196,16 @@ class TestMetrics final : public metrics::MetricFamily {
             {"test_lines", "all", static_cast<double>(lines), "", lines, {}, {}},
             {"test_undefined", "all", nan, "m", 0, {}, {}}};
   }
+  std::vector<metrics::MetricTable> tables(const metrics::MetricInput& input) const override {
+    if (!params_.table) return {};
+    metrics::MetricTable table{"test_table", {"lines"}, {}};
+    for (const auto& scan : input.result.lines) table.rows.push_back({static_cast<double>(scan.lines.size())});
+    return {table};
+  }
+  std::vector<std::string> table_names() const override { return {"test_table"}; }
+
+ private:
+  Params params_;
 };
 
 class NeedsAMap final : public metrics::MetricFamily {

@@ -62,6 +62,30 @@ TEST(Score, OfARunReadsFilesOnlyAndMayBeRepeatedWithOtherMetrics) {
   EXPECT_THROW(score_run(run, {}), ConfigError);
 }
 
+TEST(Score, RemovesTablesOfAnEarlierScoreAndNothingElse) {
+  const testing::TemporaryFolder folder;
+  const fs::path run = folder.path() / "run";
+  Scenario scenario = testing::scenario_with("s", {testing::extract_with("good", "test_line")});
+  scenario.metrics = {{"metrics", "test_metrics", {{"table", true}}}};
+  testing::run_here({scenario}, {.out = run});
+  const fs::path cell = cell_path(run, {"s", "good", 1});
+  const std::string table = read_file(cell / "test_table.csv");
+  EXPECT_EQ(table.substr(0, 6), "lines\n");
+  write_file_atomically(cell / "mine.csv", "of the user\n");
+
+  scenario.metrics = {{"metrics", "test_metrics", {}}};
+  score_run(run, {scenario});
+  EXPECT_FALSE(fs::exists(cell / "test_table.csv"));
+  EXPECT_TRUE(fs::exists(cell / "mine.csv"));
+
+  scenario.metrics = {{"metrics", "test_metrics", {{"table", true}}}};
+  score_run(run, {scenario});
+  EXPECT_EQ(read_file(cell / "test_table.csv"), table);
+  scenario.metrics = {};
+  score_run(run, {scenario});
+  EXPECT_FALSE(fs::exists(cell / "test_table.csv"));
+}
+
 TEST(Score, ThatIsStoppedLeavesTheRunAsItWas) {
   const testing::TemporaryFolder folder;
   const fs::path run = folder.path() / "run";

@@ -260,6 +260,7 @@ TEST(Efficiency, WritesMatchesWhenAskedTo) {
   const auto tables = family("efficiency", {{"matches", true}})->tables(run.input());
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_EQ(tables[0].name, "matches");
+  EXPECT_EQ(family("efficiency")->table_names(), std::vector<std::string>{"matches"});
   ASSERT_EQ(tables[0].rows.size(), 1u);
   ASSERT_EQ(tables[0].rows[0].size(), tables[0].columns.size());
   const auto value = [&](std::string_view column) {
