@@ -38,9 +38,10 @@ class Environment : public Figure {
 
     const PlacedFrames placed = place_frames(recording, nullptr);
     if (has_walls) {
-      add_walls(*recording.truth, panel, scene);
+      const bool labels = recording.truth->walls.size() <= kMostLabels;
+      add_walls(*recording.truth, labels, panel, scene);
       add_distractors(input, panel, scene);
-      caption += " walls with their labels";
+      caption += labels ? " walls with their labels" : " walls";
     } else {
       const std::vector<Vec2> points = all_points(recording, placed.world_from_sensor, kPointBudget);
       set_robust_ranges(panel, points);
@@ -66,12 +67,12 @@ class Environment : public Figure {
   }
 
  private:
-  static void add_walls(const Truth& truth, Panel& panel, Scene& scene) {
+  static void add_walls(const Truth& truth, bool labels, Panel& panel, Scene& scene) {
     Lines walls{.stroke = {kWallColor, 1.2, Dash::solid}};
     for (const Wall& wall : truth.walls) walls.segments.push_back(wall.segment);
     panel.items.emplace_back(std::move(walls));
     scene.legend.push_back({.text = "walls", .stroke = Stroke{kWallColor, 1.2, Dash::solid}});
-    if (truth.walls.size() > kMostLabels) return;
+    if (!labels) return;
     for (const Wall& wall : truth.walls) {
       const Vec2 behind = -perpendicular(wall.segment.direction());  // free space is on the left
       panel.items.emplace_back(

@@ -2,9 +2,11 @@
 // set, the files are left there to be looked at.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 
 #include "abcdef.hpp"
 #include "core/registry.hpp"
@@ -126,6 +128,30 @@ TEST(Environment, DrawsAWayOnlyWhereThereIsOneAndRoundThingsWhereTheyStand) {
     EXPECT_EQ(ways, continuous ? 1U : 0U);
     EXPECT_EQ(circles, 1U);
   }
+}
+
+// Whatever the number from which on there are none.
+TEST(Environment, SpeaksOfLabelsOnlyWhereTheyAreDrawn) {
+  const Case c = simulated(3);
+  const auto labels_drawn = [](const NamedScene& scene) {
+    return std::ranges::any_of(scene.scene.panels.at(0).items,
+                               [](const Item& item) { return std::holds_alternative<Text>(item); });
+  };
+  std::set<bool> seen;
+  for (const std::size_t copies : {1U, 100U}) {
+    Recording many = c.recording;
+    for (std::size_t k = 1; k < copies; ++k)
+      many.truth->walls.insert(many.truth->walls.end(), c.recording.truth->walls.begin(),
+                               c.recording.truth->walls.end());
+    const FigureInput crowded{.title = "t", .recording = many, .waypoints = {}, .results = {}};
+    const auto scenes = Registry<Figure>::make("environment")->draw(crowded);
+    ASSERT_EQ(scenes.size(), 1U);
+    const bool drawn = labels_drawn(scenes[0]);
+    seen.insert(drawn);
+    EXPECT_EQ(scenes[0].caption.find("label") != std::string::npos, drawn) << scenes[0].caption;
+    EXPECT_NE(scenes[0].caption.find("walls"), std::string::npos);
+  }
+  EXPECT_EQ(seen.size(), 2U);
 }
 
 TEST(LinesWorld, PlacesLinesByEstimatedPosesIfThereAreAnyElseByTrueOnes) {
