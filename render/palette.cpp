@@ -1,4 +1,4 @@
-// Okabe-Ito palette, darkest and most different colours first; yellow, hard to see on white, last.
+// Okabe-Ito palette without its yellow, most different colours first.
 #include "render/palette.hpp"
 
 #include <algorithm>
@@ -8,13 +8,14 @@
 namespace scanbench::render {
 
 MethodStyle method_style(std::size_t index) {
-  constexpr std::array kColors{kBlue, kVermillion, kGreen, kPurple, kOrange, kSky, kBlack, kYellow};
+  constexpr std::array kColors{kBlue, kVermillion, kGreen, kPurple, kOrange, kSky, kBlack};
   constexpr std::array kDashes{Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted};
   constexpr std::array kMarkers{Marker::circle, Marker::square,        Marker::triangle, Marker::diamond,
                                 Marker::plus,   Marker::triangle_down, Marker::cross};
-  // 8, 4 and 7 repeat together only after 56 methods; the dash moves on with each round of colours.
-  return {kColors[index % kColors.size()], kDashes[(index + index / kColors.size()) % kDashes.size()],
-          kMarkers[index % kMarkers.size()]};
+  // Dash and marker move on with each round of colours: the three repeat together after 28 rounds.
+  const std::size_t round = index / kColors.size();
+  const std::size_t color = index % kColors.size();
+  return {kColors[color], kDashes[(color + round) % kDashes.size()], kMarkers[(color + round) % kMarkers.size()]};
 }
 
 Color lighten(Color color, double share) {

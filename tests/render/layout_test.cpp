@@ -7,7 +7,6 @@
 
 #include "core/rng.hpp"
 #include "render/font.hpp"
-#include "render/palette.hpp"
 #include "render/tessellate.hpp"
 
 namespace scanbench::render {
@@ -146,13 +145,6 @@ TEST(Labels, DoNotCoverEachOtherWhereThereIsRoom) {
                    rects[j].y0 < rects[i].y1)
           << i << " covers " << j;
   }
-}
-
-TEST(Methods, KeepDifferentColoursAndTheNinthDiffersByItsDash) {
-  for (std::size_t i = 0; i < 8; ++i)
-    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(method_style(i).color, method_style(j).color);
-  EXPECT_EQ(method_style(0).color, method_style(8).color);
-  EXPECT_NE(method_style(0).dash, method_style(8).dash);
 }
 
 TEST(FillTriangles, CoverTheAreaOfAPolygonWithAHole) {
