@@ -23,10 +23,8 @@ class Map : public Figure {
     Scene scene = small_multiples(maps);
     scene.title = input.title + ": line maps";
     std::vector<Vec2> ends;
-    Color first_color = kBlack;
     const Stroke path_stroke{kGrey, 0.5, Dash::dotted};
-    for (std::size_t i = input.results.size(); i-- > 0;)
-      if (has_map(input.results[i])) first_color = method_style(i).color;
+    std::vector<LegendEntry> swatches;  // a colour of the panels each
     for (std::size_t i = 0; i < input.results.size(); ++i) {
       if (!has_map(input.results[i])) continue;
       const std::string& pipeline = input.results[i].pipeline;
@@ -37,7 +35,9 @@ class Map : public Figure {
       panel.items.emplace_back(Points{.points = all_points(recording, placed.world_from_sensor, kPointBudget / maps),
                                       .color = kFaintPoints,
                                       .size_pt = 0.8});
-      Lines lines{.stroke = {method_style(i).color, 1.2, Dash::solid}};
+      Lines lines{.stroke = {method_color(input.results, i), 1.2, Dash::solid}};
+      if (swatches.empty() || swatches.back().stroke->color != lines.stroke.color)
+        swatches.push_back({.text = "map of " + pipeline, .stroke = lines.stroke});
       Points tips{.marker = Marker::circle, .color = lines.stroke.color, .size_pt = 2.4};
       for (const MapLine& line : result->map.lines) {
         lines.segments.push_back(line.segment);
@@ -52,7 +52,8 @@ class Map : public Figure {
     }
     scene.legend.push_back(
         {.text = "points of all scans", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.0});
-    scene.legend.push_back({.text = "lines of the map", .stroke = Stroke{first_color, 1.2, Dash::solid}});
+    if (swatches.size() == 1) swatches.front().text = "lines of the map";
+    scene.legend.insert(scene.legend.end(), swatches.begin(), swatches.end());
     scene.legend.push_back(path_legend(input, path_stroke));
     return {{"map", input.title + ": the line map of each pipeline over the points of all scans.", std::move(scene)}};
   }

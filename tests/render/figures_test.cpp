@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <set>
+#include <tuple>
 
 #include "abcdef.hpp"
 #include "core/registry.hpp"
@@ -175,6 +176,26 @@ TEST(Map, HasAPanelForEachPipelineWithAMapAndKeepsItsColour) {
   ASSERT_EQ(scenes.size(), 1u);
   ASSERT_EQ(scenes[0].scene.panels.size(), 2u);  // the second of three has none
   EXPECT_EQ(std::get<Lines>(scenes[0].scene.panels[1].items[1]).stroke.color, method_style(2).color);
+}
+
+// Few maps have a colour each, many share one.
+TEST(Map, HasTheColoursOfItsPanelsInItsLegend) {
+  for (const std::size_t pipelines : {1U, 3U, 5U}) {
+    Case c = simulated(3);
+    c.results.resize(pipelines, c.results[0]);
+    const auto scenes = Registry<Figure>::make("map")->draw(c.input({}));
+    ASSERT_EQ(scenes.size(), 1U);
+    std::set<std::tuple<int, int, int>> drawn, named;
+    for (const Panel& panel : scenes[0].scene.panels) {
+      const Color color = std::get<Lines>(panel.items[1]).stroke.color;
+      drawn.emplace(color.r, color.g, color.b);
+    }
+    for (const LegendEntry& entry : scenes[0].scene.legend)
+      if (entry.text.find("map") != std::string::npos)
+        named.emplace(entry.stroke->color.r, entry.stroke->color.g, entry.stroke->color.b);
+    EXPECT_EQ(named, drawn) << pipelines;
+    EXPECT_EQ(drawn.size(), pipelines == 3 ? 2U : 1U);  // the second of three has no map
+  }
 }
 
 // Three widths of one method in any order, one pipeline of another, and one without a value.
