@@ -119,6 +119,17 @@ Manifest load_manifest(const fs::path& run) {
   }
 }
 
+std::map<std::string, std::string> listed_hashes(const fs::path& run) {
+  const Json json = load_json(run);
+  try {
+    std::map<std::string, std::string> hashes;
+    for (const auto& file : json.at("artefacts")) hashes.emplace(file.at("path"), file.at("sha256"));
+    return hashes;
+  } catch (const Json::exception& e) {
+    throw ConfigError((run / "manifest.json").string() + ": " + e.what());
+  }
+}
+
 void refresh_manifest(const fs::path& run) {
   Json json = load_json(run);
   json["artefacts"] = artefacts(run);

@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +43,9 @@ std::string utc_now();
 void write_manifest(const std::filesystem::path& run, const Manifest& manifest);
 /// Throws ConfigError if there is no manifest or it is not one of ours.
 Manifest load_manifest(const std::filesystem::path& run);
+/// The SHA-256 of the files that manifest.json lists, by their path relative to the run; none if the run was killed.
+/// The files themselves are not read. Throws ConfigError if there is no manifest or it is not one of ours.
+std::map<std::string, std::string> listed_hashes(const std::filesystem::path& run);
 /// Lists the files anew: after figures or reports were added to a run.
 void refresh_manifest(const std::filesystem::path& run);
 

@@ -14,6 +14,7 @@
 #include "harness/figures.hpp"
 #include "harness/pipeline.hpp"
 #include "harness/recording_folder.hpp"
+#include "harness/resume.hpp"
 #include "harness/score.hpp"
 
 namespace scanbench::harness {
@@ -28,7 +29,6 @@ struct Group {
   std::size_t unfinished = 0;
   std::optional<StagedFolder> staged;  ///< while the recording is made
   std::optional<Recording> recording;  ///< while cells need it
-  std::optional<bool> stands;          ///< resumed: the recording is there with the bytes that its hash says
 };
 
 struct Cell {
@@ -83,6 +83,7 @@ class Run {
     check_scenarios(scenarios, options);
     plan();
     target_ = std::make_unique<RunTarget>(options.out, options.resume);
+    if (target_->resumed()) standing_.emplace(target_->path());
   }
 
   RunResult execute() {
@@ -175,7 +176,7 @@ class Run {
   void reuse_finished_cells() {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       Cell& cell = cells_[i];
-      if (target_->resumed()) try_to_reuse(cell);
+      if (standing_) try_to_reuse(cell);
       if (!selected(options_, cell.result.key)) continue;
       ++total_;
       if (cell.result.reused) {
@@ -189,29 +190,11 @@ class Run {
   }
 
   void try_to_reuse(Cell& cell) {
-    const fs::path folder = cell_path(target_->path(), cell.result.key);
-    try {
-      const CellRecord record = load_status(folder);
-      if (record.outcome.status != CellStatus::ok || record.address != cell.result.record.address) return;
-      if (!recording_stands(*cell.group)) return;
-      cell.summary = summary_lines(cell.result.key, load_metrics(folder));
-      cell.result.record = record;
-      cell.result.done = cell.result.reused = true;
-    } catch (const ConfigError&) {
-      // Absent or damaged: it is made again.
-    }
-  }
-
-  bool recording_stands(Group& group) const {
-    if (!group.stands) {
-      try {
-        load_recording(recording_path(target_->path(), group.scenario->name, group.seed));
-        group.stands = true;
-      } catch (const ConfigError&) {
-        group.stands = false;
-      }
-    }
-    return *group.stands;
+    const auto found = standing_->find(cell.result.key, cell.result.record.address, *cell.pipeline, cell.trace);
+    if (!found) return;
+    cell.summary = summary_lines(cell.result.key, found->metrics);
+    cell.result.record = found->record;
+    cell.result.done = cell.result.reused = true;
   }
 
   /// A cell whose recording is there, else the next recording. False if there is nothing to start now.
@@ -391,7 +374,8 @@ class Run {
   WorkerPool pool_;  ///< lives longest: no interrupt comes between us and the removal of what is not finished
   std::vector<std::unique_ptr<Group>> groups_;
   std::unique_ptr<RunTarget> target_;
-  std::vector<Cell> cells_;  ///< after target_: unfinished folders go before the run's folder does
+  std::optional<StandingCells> standing_;  ///< of a run that is resumed
+  std::vector<Cell> cells_;                ///< after target_: unfinished folders go before the run's folder does
   std::deque<std::size_t> ready_;
   std::size_t next_group_ = 0;
   std::size_t done_ = 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <functional>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -112,6 +113,57 @@ TEST(Runner, ResumeRunsAgainWhatHasChangedOrIsDamagedAndNothingElse) {
   EXPECT_TRUE(fs::exists(out / "recordings/s/1/scan.json"));
   run_here(scenarios, {.out = folder.path() / "fresh"});
   EXPECT_EQ(testing::artefacts(out), testing::artefacts(folder.path() / "fresh"));
+}
+
+/// A manifest as a run leaves it that is killed: without the list of files.
+void forget_artefacts(const fs::path& run) {
+  auto json = nlohmann::ordered_json::parse(read_file(run / "manifest.json"));
+  ASSERT_FALSE(json.at("artefacts").empty());
+  json["state"] = "running";
+  json["artefacts"] = nlohmann::ordered_json::array();
+  write_file_atomically(run / "manifest.json", json.dump());
+}
+
+TEST(Runner, ResumeRunsAgainACellWithADamagedFile) {
+  const testing::TemporaryFolder folder;
+  PipelineSpec merging = extract_with("merging", "test_line");
+  merging.slots.push_back({"merge", "test_merge", {}});
+  const std::vector<Scenario> scenarios{scenario_with("s", {merging, extract_with("other", "test_line")})};
+  const fs::path out = folder.path() / "r";
+  run_here(scenarios, {.out = out, .journal = true});
+  const auto whole = testing::artefacts(out);
+  const fs::path cell = out / "cells/s/merging/1";
+
+  const auto remove = [](const fs::path& file) { fs::remove(file); };
+  const auto cut = [](const fs::path& file) { fs::resize_file(file, fs::file_size(file) / 2); };
+  const auto change = [](const fs::path& file) {  // the last digit
+    std::string bytes = read_file(file);
+    const std::size_t at = bytes.find_last_of("0123456789");
+    bytes.at(at) = bytes[at] == '7' ? '8' : '7';
+    write_file_atomically(file, bytes);
+  };
+  using Damage = std::function<void(const fs::path&)>;
+  const std::vector<std::pair<std::string, std::vector<Damage>>> cases{
+      {"lines.csv", {remove, cut, change}}, {"labels.npy", {remove, cut}},
+      {"map.csv", {remove, cut, change}},   {"merge_labels.csv", {remove, cut, change}},
+      {"poses.csv", {remove, cut, change}}, {"timing.csv", {remove, cut, change}},
+      {"trace.csv", {remove, cut, change}}, {"metrics.csv", {remove, cut, change}}};
+  ASSERT_EQ(cases.size() + 1, testing::listing(cell).size());  // and status.json
+  for (const auto& [name, damages] : cases)
+    for (std::size_t i = 0; i < damages.size(); ++i)
+      for (const bool killed : {false, true}) {
+        if (killed && i > 0) continue;  // without hashes a file may be changed unnoticed, but none may be absent
+        SCOPED_TRACE(name + ", damage " + std::to_string(i) + (killed ? ", killed" : ""));
+        damages[i](cell / name);
+        if (killed) forget_artefacts(out);
+        const RunResult result = run_here(scenarios, {.out = out, .resume = true, .journal = true});
+        EXPECT_FALSE(cell_of(result, "s/merging/1").reused);
+        EXPECT_TRUE(cell_of(result, "s/other/1").reused);
+        EXPECT_EQ(testing::artefacts(out), whole);
+      }
+  forget_artefacts(out);
+  const RunResult result = run_here(scenarios, {.out = out, .resume = true, .journal = true});
+  EXPECT_TRUE(cell_of(result, "s/merging/1").reused);
 }
 
 TEST(Runner, TurnsEveryKindOfTroubleIntoARow) {
