@@ -9,6 +9,7 @@
 #include "harness/atomic_file.hpp"
 #include "harness/csv.hpp"
 #include "harness/npy.hpp"
+#include "harness/run_folder.hpp"
 #include "run_support.hpp"
 #include "sim/line_copies.hpp"
 
@@ -84,6 +85,8 @@ TEST(RecordingFolder, GivesBackLinesThatStandInPlaceOfScans) {
   save_recording(r, saved);
   EXPECT_THAT(testing::listing(r), ElementsAre("frames.csv", "lines.csv", "ranges.npy", "rotations.npy", "scan.json",
                                                "true_ranges.npy", "wall_ids.npy", "walls.csv"));
+  // Else a new run in the same folder would keep it beside scans, as a file of somebody else.
+  for (const auto& name : testing::listing(r)) EXPECT_TRUE(is_run_file(fs::path("recordings/s/1") / name)) << name;
   const Recording loaded = load_recording(r);
   EXPECT_EQ(recording_files(loaded), recording_files(saved));
   ASSERT_EQ(loaded.observed.frames.size(), 3u);
