@@ -1,5 +1,8 @@
 // run() with the real recordings, and the scenarios that a run folder holds.
-#include "harness/runner.hpp"
+#include "harness/run_scenarios.hpp"
+
+#include "harness/atomic_file.hpp"
+#include "harness/scenario.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
@@ -9,6 +12,20 @@ RunResult run(const std::vector<Scenario>& scenarios, const RunOptions& options)
       scenarios, options,
       {.recording = [](const Scenario& s, std::uint64_t seed, int threads) { return make_recording(s, seed, threads); },
        .effective_yaml = effective_yaml});
+}
+
+void write_run_scenarios(const fs::path& run, const std::vector<Scenario>& scenarios, const RunServices& services) {
+  if (scenarios.size() == 1) {
+    write_file_atomically(run / "scenario.yaml", scenarios.front().text);
+    write_file_atomically(run / "effective.yaml", services.effective_yaml(scenarios.front()));
+    return;
+  }
+  make_folders(run / "scenarios");
+  make_folders(run / "effective");
+  for (const auto& scenario : scenarios) {
+    write_file_atomically(run / "scenarios" / (scenario.name + ".yaml"), scenario.text);
+    write_file_atomically(run / "effective" / (scenario.name + ".yaml"), services.effective_yaml(scenario));
+  }
 }
 
 std::vector<Scenario> load_run_scenarios(const fs::path& run) {

@@ -4,27 +4,25 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
-#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include "core/error.hpp"
 #include "harness/atomic_file.hpp"
-#include "harness/figures.hpp"
-#include "harness/pipeline.hpp"
+#include "harness/cell_work.hpp"
 #include "harness/recording_folder.hpp"
 #include "harness/resume.hpp"
+#include "harness/run_plan.hpp"
+#include "harness/run_scenarios.hpp"
 #include "harness/score.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
 namespace {
 
-/// The cells of one scenario and seed, and the recording that they share.
+/// A recording, and the cells that wait for it.
 struct Group {
-  const Scenario* scenario = nullptr;
-  std::uint64_t seed = 0;
+  PlannedGroup plan;
   std::vector<std::size_t> waiting;  ///< indices of cells to run
   std::size_t unfinished = 0;
   std::optional<StagedFolder> staged;  ///< while the recording is made
@@ -32,56 +30,24 @@ struct Group {
 };
 
 struct Cell {
+  PlannedCell plan;
   CellResult result;
-  const Scenario* scenario = nullptr;
-  const PipelineSpec* pipeline = nullptr;
-  Group* group = nullptr;
-  TraceChoice trace;    ///< what of it is kept
   std::string summary;  ///< its lines of summary.csv
   std::optional<StagedFolder> staged;
 };
-
-void check_scenarios(const std::vector<Scenario>& scenarios, const RunOptions& options) {
-  std::set<std::string> names;
-  if (options.jobs < 1) throw ConfigError("jobs is " + std::to_string(options.jobs) + "; allowed: 1 or more");
-  for (const auto& scenario : scenarios) {
-    check_name("scenario", scenario.name);
-    if (!names.insert(scenario.name).second)
-      throw ConfigError("two scenarios have the name '" + scenario.name + "'; each needs a folder of its own");
-    std::set<std::string> pipelines;
-    for (const auto& pipeline : scenario.pipelines) {
-      check_name("pipeline", pipeline.name);
-      if (!pipelines.insert(pipeline.name).second)
-        throw ConfigError("scenario '" + scenario.name + "': two pipelines have the name '" + pipeline.name + "'");
-    }
-  }
-  for (const auto& only : options.only) {
-    std::string known;
-    bool found = false;
-    for (const auto& scenario : scenarios) {
-      known += (known.empty() ? "" : ", ") + scenario.name;
-      found = found || only == scenario.name;
-      for (const auto& pipeline : scenario.pipelines) {
-        known += ", " + scenario.name + "/" + pipeline.name;
-        found = found || only == pipeline.name || only == scenario.name + "/" + pipeline.name;
-      }
-    }
-    if (!found) throw ConfigError("nothing is named '" + only + "' here; known: " + known);
-  }
-}
-
-bool selected(const RunOptions& options, const CellKey& key) {
-  return options.only.empty() || std::ranges::any_of(options.only, [&](const std::string& only) {
-           return only == key.scenario || only == key.pipeline || only == key.scenario + "/" + key.pipeline;
-         });
-}
 
 class Run {
  public:
   Run(const std::vector<Scenario>& scenarios, const RunOptions& options, const RunServices& services)
       : scenarios_(scenarios), options_(options), services_(services) {
-    check_scenarios(scenarios, options);
-    plan();
+    RunPlan plan = plan_run(scenarios, options);
+    for (const auto& group : plan.groups) groups_.emplace_back().plan = group;
+    for (auto& planned : plan.cells) {
+      Cell& cell = cells_.emplace_back();
+      cell.result.key = planned.key;
+      cell.result.record.address = planned.address;
+      cell.plan = std::move(planned);
+    }
     target_ = std::make_unique<RunTarget>(options.out, options.resume);
     if (target_->resumed()) standing_.emplace(target_->path());
   }
@@ -102,6 +68,8 @@ class Run {
   }
 
  private:
+  Group& group_of(const Cell& cell) { return groups_[cell.plan.group]; }
+
   void work() {
     while (!pool_.interrupted()) {
       while (pool_.running() < static_cast<std::size_t>(options_.jobs) && start_next()) {
@@ -111,41 +79,9 @@ class Run {
         if (finished.id < cells_.size())
           finish_cell(cells_[finished.id], finished.outcome);
         else
-          finish_recording(*groups_[finished.id - cells_.size()], finished.outcome);
+          finish_recording(groups_[finished.id - cells_.size()], finished.outcome);
       }
       write_summary(false);
-    }
-  }
-
-  void plan() {
-    for (const auto& scenario : scenarios_) {
-      const std::string input = input_address(scenario);
-      const auto& seeds = options_.seeds.empty() ? scenario.seeds : options_.seeds;
-      std::vector<Group*> groups;
-      for (const std::uint64_t seed : seeds) {
-        if (std::ranges::count(seeds, seed) > 1)
-          throw ConfigError("the seed " + std::to_string(seed) + " is given twice");
-        groups_.push_back(std::make_unique<Group>());
-        groups_.back()->scenario = &scenario;
-        groups_.back()->seed = seed;
-        groups.push_back(groups_.back().get());
-      }
-      for (const auto& pipeline : scenario.pipelines) {
-        const TraceChoice drawn = traces_drawn(scenario, pipeline.name);
-        for (Group* group : groups) {
-          Cell cell;
-          cell.result.key = {scenario.name, pipeline.name, group->seed};
-          // Figures show the first seed.
-          cell.trace = options_.journal               ? TraceChoice{.all = true}
-                       : group->seed == seeds.front() ? drawn
-                                                      : TraceChoice{};
-          cell.result.record.address = cell_address(input, scenario.metrics, pipeline, group->seed, cell.trace);
-          cell.scenario = &scenario;
-          cell.pipeline = &pipeline;
-          cell.group = group;
-          cells_.push_back(std::move(cell));
-        }
-      }
     }
   }
 
@@ -158,17 +94,7 @@ class Run {
     for (const auto& cell : cells_) manifest_.cells.push_back(cell.result.key);
     write_manifest(run, manifest_);  // first of all files: with it the folder is ours
     if (options_.benchmark) write_file_atomically(run / "benchmark.json", benchmark_json(*options_.benchmark));
-    if (scenarios_.size() == 1) {
-      write_file_atomically(run / "scenario.yaml", scenarios_.front().text);
-      write_file_atomically(run / "effective.yaml", services_.effective_yaml(scenarios_.front()));
-      return;
-    }
-    make_folders(run / "scenarios");
-    make_folders(run / "effective");
-    for (const auto& scenario : scenarios_) {
-      write_file_atomically(run / "scenarios" / (scenario.name + ".yaml"), scenario.text);
-      write_file_atomically(run / "effective" / (scenario.name + ".yaml"), services_.effective_yaml(scenario));
-    }
+    write_run_scenarios(run, scenarios_, services_);
   }
 
   /// Cells that stand there with the same address and are ok stay; the others of the selection wait to be run. Cells
@@ -182,15 +108,16 @@ class Run {
       if (cell.result.reused) {
         ++done_;
       } else {
-        cell.group->waiting.push_back(i);
-        ++cell.group->unfinished;
+        group_of(cell).waiting.push_back(i);
+        ++group_of(cell).unfinished;
       }
     }
     report("", nullptr);
   }
 
   void try_to_reuse(Cell& cell) {
-    const auto found = standing_->find(cell.result.key, cell.result.record.address, *cell.pipeline, cell.trace);
+    const auto found =
+        standing_->find(cell.result.key, cell.result.record.address, *cell.plan.pipeline, cell.plan.trace);
     if (!found) return;
     cell.summary = summary_lines(cell.result.key, found->metrics);
     cell.result.record = found->record;
@@ -207,7 +134,7 @@ class Run {
     }
     while (next_group_ < groups_.size()) {
       const std::size_t index = next_group_++;
-      if (groups_[index]->unfinished == 0) continue;
+      if (groups_[index].unfinished == 0) continue;
       start_recording(index);
       return true;
     }
@@ -215,21 +142,21 @@ class Run {
   }
 
   void start_recording(std::size_t index) {
-    Group& group = *groups_[index];
+    Group& group = groups_[index];
     try {
-      group.staged.emplace(recording_path(target_->path(), group.scenario->name, group.seed));
+      group.staged.emplace(recording_path(target_->path(), group.plan.scenario->name, group.plan.seed));
     } catch (const ConfigError& e) {
       skip_cells(group, {.message = e.what()});
       return;
     }
     const int threads = std::max(1, options_.jobs - static_cast<int>(pool_.running()));
-    report("recording " + group.scenario->name + "/" + std::to_string(group.seed), nullptr);
+    report("recording " + group.plan.scenario->name + "/" + std::to_string(group.plan.seed), nullptr);
     pool_.start(cells_.size() + index,
                 [&] {
                   return write_recording(group.staged->path(),
-                                         services_.recording(*group.scenario, group.seed, threads));
+                                         services_.recording(*group.plan.scenario, group.plan.seed, threads));
                 },
-                {group.scenario->limits.seconds, group.scenario->limits.memory_bytes, threads});
+                {group.plan.scenario->limits.seconds, group.plan.scenario->limits.memory_bytes, threads});
   }
 
   void finish_recording(Group& group, WorkerOutcome outcome) {
@@ -271,24 +198,15 @@ class Run {
 
   void start_cell(std::size_t index) {
     Cell& cell = cells_[index];
+    const Scenario& scenario = *cell.plan.scenario;
     other_trouble_ = true;
     if (!stage(cell)) return;
     pool_.start(index,
                 [&] {
-                  const fs::path& folder = cell.staged->path();
-                  Journal journal(cell.trace);
-                  const bool traced = !cell.trace.nothing();
-                  const Recording& recording = *cell.group->recording;
-                  const PipelineRun run = run_pipeline(*cell.pipeline, recording.observed, traced ? &journal : nullptr);
-                  write_result(folder, *cell.pipeline, run.result);
-                  if (traced) write_staged_file(folder / "trace.csv", journal.csv());
-                  const Scores scores = score_cell(cell.scenario->metrics, recording, folder);
-                  write_staged_file(folder / "metrics.csv", metrics_csv(scores.rows));
-                  for (const auto& table : scores.tables)
-                    write_staged_file(folder / (table.name + ".csv"), metric_table_csv(table));
-                  return run.remarks;
+                  return make_cell(cell.staged->path(), scenario, *cell.plan.pipeline, cell.plan.trace,
+                                   *group_of(cell).recording);
                 },
-                {cell.scenario->limits.seconds, cell.scenario->limits.memory_bytes, 1});
+                {scenario.limits.seconds, scenario.limits.memory_bytes, 1});
   }
 
   void finish_cell(Cell& cell, const WorkerOutcome& outcome) {
@@ -328,7 +246,8 @@ class Run {
   void leave(Cell& cell) {
     cell.staged.reset();
     ++done_;
-    if (--cell.group->unfinished == 0) cell.group->recording.reset();
+    Group& group = group_of(cell);
+    if (--group.unfinished == 0) group.recording.reset();
     report(to_string(cell.result.key), &cell.result);
   }
 
@@ -359,7 +278,7 @@ class Run {
       cell.staged.reset();
       if (selected(options_, cell.result.key)) result.cells.push_back(cell.result);
     }
-    for (auto& group : groups_) group->staged.reset();
+    for (auto& group : groups_) group.staged.reset();
     write_summary(true);
     manifest_.state = interrupted ? "interrupted" : "complete";
     manifest_.end = utc_now();
@@ -372,7 +291,7 @@ class Run {
   const RunOptions& options_;
   const RunServices& services_;
   WorkerPool pool_;  ///< lives longest: no interrupt comes between us and the removal of what is not finished
-  std::vector<std::unique_ptr<Group>> groups_;
+  std::vector<Group> groups_;
   std::unique_ptr<RunTarget> target_;
   std::optional<StandingCells> standing_;  ///< of a run that is resumed
   std::vector<Cell> cells_;                ///< after target_: unfinished folders go before the run's folder does
