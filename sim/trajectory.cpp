@@ -3,17 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
 #include "core/error.hpp"
 #include "sim/place_text.hpp"
+#include "sim/wall_grid.hpp"
 
 namespace scanbench::sim {
 namespace {
 
 // A sensor closer to a wall than this stands on it.
 constexpr double kOnWallM = 1e-3;
+static_assert(kOnWallM < WallGrid::kMarginM);
 
 std::string pose_text(const Trajectory& trajectory, std::size_t frame) {
   return "scan " + std::to_string(frame) + ": the sensor at " +
@@ -39,11 +42,16 @@ std::optional<Vec2> crossing(const Vec2& p, const Vec2& q, const Segment& wall) 
   return Vec2(p + std::clamp(std::min(ta, tb), 0.0, 1.0) * way);
 }
 
-void check_way(const World& world, const Vec2& p, const Vec2& q) {
-  for (const Wall& wall : world.walls)
-    if (const auto place = crossing(p, q, wall.segment))
-      throw ConfigError("the path from " + place_text(p) + " to " + place_text(q) + " crosses wall '" + wall.label +
-                        "' at " + place_text(*place) + "; paths must keep clear of walls");
+void check_way(const World& world, const WallGrid& grid, const Vec2& p, const Vec2& q) {
+  std::size_t first = world.walls.size();
+  grid.for_each_near({p, q}, [&](std::size_t i) {
+    if (i < first && crossing(p, q, world.walls[i].segment)) first = i;
+  });
+  if (first < world.walls.size()) {
+    const Wall& wall = world.walls[first];
+    throw ConfigError("the path from " + place_text(p) + " to " + place_text(q) + " crosses wall '" + wall.label +
+                      "' at " + place_text(*crossing(p, q, wall.segment)) + "; paths must keep clear of walls");
+  }
   for (const Circle& circle : world.circles)
     if (distance(circle.center, Segment{p, q}) < circle.radius_m)
       throw ConfigError("the path from " + place_text(p) + " to " + place_text(q) + " runs through circle '" +
@@ -58,39 +66,52 @@ void check_body(const std::string& who, const Vec2& p, const std::string& body, 
                       place_text(body_center));
 }
 
-void check_pose(const World& world, const Trajectory& trajectory, std::size_t frame, double range_max_m) {
+[[noreturn]] void refuse_far_away(const World& world, const TimedPose& pose, const std::string& who,
+                                  double range_max_m) {
+  const Vec2& p = pose.world_from_sensor.translation();
+  double nearest = std::numeric_limits<double>::infinity();
+  std::string name = "nothing";
+  const auto consider = [&](double d, const char* kind, const std::string& label) {
+    if (d >= nearest) return;
+    nearest = d;
+    name = std::string(kind) + " '" + label + "'";
+  };
+  for (const Wall& wall : world.walls) consider(distance(p, wall.segment), "wall", wall.label);
+  for (const Circle& circle : world.circles)
+    consider((p - circle.center).norm() - circle.radius_m, "circle", circle.label);
+  for (const MovingBody& body : world.moving)
+    consider((p - body.position(pose.stamp_s)).norm() - body.radius_m, "moving body", body.label);
+  throw ConfigError(who + " is outside any free space: the nearest thing, " + name + ", is " + metres_text(nearest) +
+                    " m away, and the sensor's range is " + metres_text(range_max_m) + " m");
+}
+
+void check_pose(const World& world, const WallGrid& grid, const Trajectory& trajectory, std::size_t frame,
+                double range_max_m) {
   const TimedPose& pose = trajectory.poses[frame];
   const Vec2& p = pose.world_from_sensor.translation();
   if (!p.allFinite() || !std::isfinite(pose.world_from_sensor.cos()) || !std::isfinite(pose.world_from_sensor.sin()) ||
       !std::isfinite(pose.stamp_s))
     throw ConfigError("scan " + std::to_string(frame) + ": the pose or its time is not a finite number");
   const std::string who = pose_text(trajectory, frame);
-  double nearest = std::numeric_limits<double>::infinity();
-  std::string nearest_name = "nothing";
-  const auto consider = [&](double d, const std::string& name) {
-    if (d >= nearest) return;
-    nearest = d;
-    nearest_name = name;
-  };
-  for (const Wall& wall : world.walls) {
-    const double d = distance(p, wall.segment);
-    if (d < kOnWallM)
-      throw ConfigError(who + " is on wall '" + wall.label + "' (" + number_text(d) + " m from it; allowed: at least " +
-                        number_text(kOnWallM) + " m)");
-    if (d < nearest) consider(d, "wall '" + wall.label + "'");
-  }
+  std::size_t first = world.walls.size();
+  grid.for_each_near({p, p}, [&](std::size_t i) {
+    if (i < first && distance(p, world.walls[i].segment) < kOnWallM) first = i;
+  });
+  if (first < world.walls.size())
+    throw ConfigError(who + " is on wall '" + world.walls[first].label + "' (" +
+                      number_text(distance(p, world.walls[first].segment)) + " m from it; allowed: at least " +
+                      number_text(kOnWallM) + " m)");
+  bool in_range = std::isinf(range_max_m);
   for (const Circle& circle : world.circles) {
     check_body(who, p, "circle '" + circle.label + "'", circle.center, circle.radius_m);
-    consider((p - circle.center).norm() - circle.radius_m, "circle '" + circle.label + "'");
+    in_range = in_range || (p - circle.center).norm() - circle.radius_m <= range_max_m;
   }
   for (const MovingBody& body : world.moving) {
     const Vec2 at = body.position(pose.stamp_s);
     check_body(who, p, "moving body '" + body.label + "' at " + number_text(pose.stamp_s) + " s", at, body.radius_m);
-    consider((p - at).norm() - body.radius_m, "moving body '" + body.label + "'");
+    in_range = in_range || (p - at).norm() - body.radius_m <= range_max_m;
   }
-  if (nearest > range_max_m)
-    throw ConfigError(who + " is outside any free space: the nearest thing, " + nearest_name + ", is " +
-                      metres_text(nearest) + " m away, and the sensor's range is " + metres_text(range_max_m) + " m");
+  if (!in_range && !grid.any_within(p, range_max_m)) refuse_far_away(world, pose, who, range_max_m);
 }
 
 }  // namespace
@@ -108,19 +129,20 @@ Pose2 pose_during_scan(const Trajectory& trajectory, std::size_t frame, double t
 }
 
 void check_clear(const World& world, const Trajectory& trajectory, double range_max_m) {
+  const WallGrid grid(world.walls);
   for (std::size_t frame = 0; frame < trajectory.poses.size(); ++frame) {
-    check_pose(world, trajectory, frame, range_max_m);
+    check_pose(world, grid, trajectory, frame, range_max_m);
     if (frame > 0 && !(trajectory.poses[frame].stamp_s > trajectory.poses[frame - 1].stamp_s))
       throw ConfigError("scan " + std::to_string(frame) + ": its time is not after that of the scan before it");
   }
   if (!trajectory.continuous) return;
   if (!trajectory.path.empty()) {
     for (std::size_t i = 1; i < trajectory.path.size(); ++i)
-      check_way(world, trajectory.path[i - 1], trajectory.path[i]);
+      check_way(world, grid, trajectory.path[i - 1], trajectory.path[i]);
     return;
   }
   for (std::size_t k = 1; k < trajectory.poses.size(); ++k)
-    check_way(world, trajectory.poses[k - 1].world_from_sensor.translation(),
+    check_way(world, grid, trajectory.poses[k - 1].world_from_sensor.translation(),
               trajectory.poses[k].world_from_sensor.translation());
 }
 

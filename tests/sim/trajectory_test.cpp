@@ -1,14 +1,17 @@
 // Spacing, headings and times of every kind of trajectory, motion within a scan, and paths that are not clear.
 #include "sim/trajectory.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "core/registry.hpp"
+#include "core/rng.hpp"
 #include "tests/sim/test_worlds.hpp"
 
 namespace scanbench::sim {
@@ -222,6 +225,57 @@ TEST(CheckClear, NamesTheWallAndThePlaceThatAPathCrosses) {
   EXPECT_NO_THROW(check_clear(world, around));
   around.path = {{4, 5}, {-1, 5}};
   EXPECT_THAT(complaint([&] { check_clear(world, around); }), HasSubstr("'w4' at (0, 5) m"));
+}
+
+// Short walls in a large world, so that most ways are clear; the one complained of is the first in the world's order.
+TEST(CheckClear, FindsTheWallThatGoingThroughAllOfThemFinds) {
+  CounterRng rng(3, RngStream::range);
+  const auto place = [&](double size) { return Vec2(size * (rng.uniform() - 0.5), size * (rng.uniform() - 0.5)); };
+  World world;
+  for (int i = 0; i < 400; ++i) {
+    const Vec2 a = place(40.0);
+    world.walls.push_back({"w" + std::to_string(i), {a, a + place(i % 40 == 0 ? 30.0 : 2.0)}});
+  }
+  const auto crosses = [](const Segment& s, const Segment& t) {
+    const auto side = [](const Segment& l, const Vec2& p) { return cross(Vec2(l.b - l.a), Vec2(p - l.a)) > 0; };
+    return side(s, t.a) != side(s, t.b) && side(t, s.a) != side(t, s.b);
+  };
+  int clear = 0, blocked = 0;
+  for (int k = 0; k < 500; ++k) {
+    const Vec2 from = place(50.0);
+    const Segment way{from, from + place(k % 10 == 0 ? 60.0 : 3.0)};
+    Trajectory trajectory = drive({Pose2(100, 100, 0)});
+    trajectory.path = {way.a, way.b};
+    const auto first = std::ranges::find_if(world.walls, [&](const Wall& w) { return crosses(way, w.segment); });
+    const std::string said = complaint([&] { check_clear(world, trajectory); });
+    if (first == world.walls.end()) {
+      ++clear;
+      EXPECT_EQ(said, "no error");
+    } else {
+      ++blocked;
+      EXPECT_THAT(said, HasSubstr("crosses wall '" + first->label + "' at"));
+    }
+  }
+  EXPECT_GT(clear, 100);
+  EXPECT_GT(blocked, 50);
+}
+
+TEST(CheckClear, SeesTheNearestThingHoweverManyWallsThereAre) {
+  CounterRng rng(4, RngStream::range);
+  World world;
+  for (int i = 0; i < 300; ++i) {
+    const Vec2 a(30.0 * rng.uniform(), 30.0 * rng.uniform());
+    world.walls.push_back({"w" + std::to_string(i), {a, a + Vec2(rng.normal(), rng.normal())}});
+  }
+  for (int k = 0; k < 300; ++k) {
+    const Vec2 p(90.0 * rng.uniform() - 30.0, 90.0 * rng.uniform() - 30.0);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Wall& wall : world.walls) nearest = std::min(nearest, distance(p, wall.segment));
+    ASSERT_GT(nearest, 1e-3);
+    const Trajectory standing = drive({Pose2(p.x(), p.y(), 0)});
+    EXPECT_EQ(complaint([&] { check_clear(world, standing, 1.001 * nearest); }), "no error");
+    EXPECT_THAT(complaint([&] { check_clear(world, standing, 0.999 * nearest); }), HasSubstr("outside any free space"));
+  }
 }
 
 TEST(CheckClear, NamesTheBodyThatAPathRunsThroughOrASensorStandsIn) {

@@ -1,0 +1,73 @@
+// Which walls are near a place or a way: worlds of many walls are not gone through for every pose.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/truth.hpp"
+
+namespace scanbench::sim {
+
+/// A uniform grid of square cells over the walls, each cell naming those that come within kMarginM of it. Cells at the
+/// rim reach to infinity. Refers to the walls; their coordinates must be finite, below kMaxWorldExtentM.
+class WallGrid {
+ public:
+  static constexpr double kMarginM = 2e-3;
+
+  explicit WallGrid(std::span<const Wall> walls);
+
+  /// Calls `visit(index)` for all walls that come within kMarginM of the way, and some others; one may come repeatedly,
+  /// in no order.
+  template <class Visit>
+  void for_each_near(const Segment& way, Visit visit) const {
+    for_each_cell(way, 0.0, [&](std::size_t cell) {
+      for (std::size_t m = cell_begin_[cell]; m < cell_begin_[cell + 1]; ++m) visit(members_[m]);
+    });
+  }
+
+  /// Is the distance of a wall from the place at most this?
+  bool any_within(const Vec2& place, double distance_m) const;
+
+ private:
+  int column(double x) const { return index((x - origin_.x()) / cell_m_, columns_); }
+  int row(double y) const { return index((y - origin_.y()) / cell_m_, rows_); }
+  static int index(double at, int count);
+  std::size_t cell(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  }
+  bool any_in_cells(int first_column, int last_column, int first_row, int last_row, const Vec2& place,
+                    double distance_m) const;
+
+  /// The cells that come within `margin` of the segment in both coordinates: row by row, its columns there.
+  template <class Visit>
+  void for_each_cell(const Segment& segment, double margin, Visit visit) const {
+    const bool up = segment.b.y() >= segment.a.y();
+    const Vec2& low = up ? segment.a : segment.b;
+    const Vec2& high = up ? segment.b : segment.a;
+    const int first = row(low.y() - margin), last = row(high.y() + margin);
+    const double slope = high.y() > low.y() ? (high.x() - low.x()) / (high.y() - low.y()) : 0.0;
+    for (int r = first; r <= last; ++r) {
+      // The part of the segment in this row: from its lower to its upper edge, as far as it reaches.
+      const double from = origin_.y() + r * cell_m_ - kRowMarginM - margin;
+      const double to = from + cell_m_ + 2 * (kRowMarginM + margin);
+      double x1 = low.x(), x2 = high.x();
+      if (r > first) x1 += std::max(from - low.y(), 0.0) * slope;
+      if (r < last) x2 -= std::max(high.y() - to, 0.0) * slope;
+      const int end = column(std::max(x1, x2) + margin + kRowMarginM);
+      for (int c = column(std::min(x1, x2) - margin - kRowMarginM); c <= end; ++c) visit(cell(c, r));
+    }
+  }
+
+  static constexpr double kRowMarginM = 1e-6;  ///< far more than rounding errs in a world of 1e5 m
+
+  std::span<const Wall> walls_;
+  Vec2 origin_ = Vec2::Zero();
+  double cell_m_ = 1.0;
+  int columns_ = 1;
+  int rows_ = 1;
+  std::vector<std::size_t> cell_begin_;  ///< of cell i: members_[cell_begin_[i] .. cell_begin_[i + 1])
+  std::vector<std::size_t> members_;
+};
+
+}  // namespace scanbench::sim
