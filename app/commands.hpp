@@ -46,8 +46,8 @@ std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files
                                            std::string* name = nullptr,
                                            std::optional<harness::BenchmarkSpec>* benchmark = nullptr);
 
-/// `--seed` as it was written, "1,2,3"; empty: the scenarios' own. Throws ConfigError for anything but whole numbers
-/// that a scenario file may have.
-std::vector<std::uint64_t> read_seeds(const std::vector<std::string>& texts);
+/// Seeds of `--seed` in place of the scenarios' own, if there are any. Throws ConfigError for anything but whole
+/// numbers that a scenario file may have, and for one that is given twice.
+void give_seeds(std::vector<harness::Scenario>& scenarios, const std::vector<std::string>& texts);
 
 }  // namespace scanbench::app

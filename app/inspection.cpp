@@ -84,7 +84,7 @@ std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files
   return scenarios;
 }
 
-std::vector<std::uint64_t> read_seeds(const std::vector<std::string>& texts) {
+void give_seeds(std::vector<harness::Scenario>& scenarios, const std::vector<std::string>& texts) {
   std::vector<std::uint64_t> seeds;
   for (const auto& text : texts) {
     std::uint64_t seed = 0;
@@ -93,9 +93,11 @@ std::vector<std::uint64_t> read_seeds(const std::vector<std::string>& texts) {
     if (text.empty() || error != std::errc() || stop != end || seed > harness::kLargestSeed)
       throw ConfigError("--seed: '" + text + "' is no seed; allowed: whole numbers 0 .. " +
                         std::to_string(harness::kLargestSeed) + ", separated by commas");
+    if (std::ranges::count(seeds, seed) > 0) throw ConfigError("--seed: " + text + " is given twice");
     seeds.push_back(seed);
   }
-  return seeds;
+  if (seeds.empty()) return;
+  for (auto& scenario : scenarios) scenario.seeds = seeds;
 }
 
 void add_inspection(Context& context) {

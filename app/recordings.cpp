@@ -26,8 +26,8 @@ struct Options {
 
 int simulate(const Options& options, const std::vector<std::string>& argv) {
   std::string name;
-  const auto scenarios = load_inputs({options.file}, options.sets, &name);
-  const auto seeds = read_seeds(options.seeds);
+  auto scenarios = load_inputs({options.file}, options.sets, &name);
+  give_seeds(scenarios, options.seeds);
   const InterruptGuard guard;
   Progress progress(progress_style(options.quiet));
   harness::RunTarget target(options.out.empty() ? fs::path("out") / name : fs::path(options.out), false);
@@ -41,7 +41,7 @@ int simulate(const Options& options, const std::vector<std::string>& argv) {
       harness::write_file_atomically(
           target.path() / (scenarios.size() == 1 ? "effective.yaml" : "effective/" + scenario.name + ".yaml"),
           harness::effective_yaml(scenario));
-      for (const auto seed : seeds.empty() ? scenario.seeds : seeds) {
+      for (const auto seed : scenario.seeds) {
         const std::string what = fmt::format("recording {}/{}", scenario.name, seed);
         const Recording recording =
             harness::make_recording(scenario, seed, options.jobs, [&](double share) { progress.update(share, what); });

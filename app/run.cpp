@@ -56,7 +56,8 @@ void note_cell(Progress& progress, const harness::CellResult& cell) {
 int run(const Options& options, const std::vector<std::string>& argv) {
   std::string name;
   std::optional<harness::BenchmarkSpec> benchmark;
-  const auto scenarios = load_inputs(options.files, options.sets, &name, &benchmark);
+  auto scenarios = load_inputs(options.files, options.sets, &name, &benchmark);
+  give_seeds(scenarios, options.seeds);
   for (const auto& scenario : scenarios)
     for (const auto& note : scenario.notes)
       if (!options.quiet) fmt::print(stderr, "{}: note: {}\n", scenario.name, note);
@@ -65,7 +66,6 @@ int run(const Options& options, const std::vector<std::string>& argv) {
   harness::RunOptions run_options;
   run_options.out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
   run_options.jobs = options.jobs;
-  run_options.seeds = read_seeds(options.seeds);
   run_options.only = options.only;
   run_options.resume = options.resume;
   run_options.journal = options.journal;

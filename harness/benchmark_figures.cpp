@@ -230,7 +230,6 @@ class Drawer {
     Scenario scenario = example_;
     std::ranges::sort(scenario.pipelines, {},
                       [&](const PipelineSpec& p) { return std::ranges::find(names_, p.name) - names_.begin(); });
-    if (std::ranges::find(seeds_, scenario.seeds.front()) == seeds_.end() && !seeds_.empty()) scenario.seeds = seeds_;
     const ParamSet params = resolve(Registry<render::Figure>::all().at("scan_overlay").params, {});
     scenario.figures = {{"figure", "scan_overlay", params}};
     for (auto& figure : draw_figures(run_, scenario, pdf_)) files_.push_back(std::move(figure));

@@ -47,7 +47,7 @@ RunPlan plan_run(const std::vector<Scenario>& scenarios, const RunOptions& optio
   RunPlan plan;
   for (const auto& scenario : scenarios) {
     const std::string input = input_address(scenario);
-    const auto& seeds = options.seeds.empty() ? scenario.seeds : options.seeds;
+    const auto& seeds = scenario.seeds;
     const std::size_t first = plan.groups.size();
     for (const std::uint64_t seed : seeds) {
       if (std::ranges::count(seeds, seed) > 1)

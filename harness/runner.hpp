@@ -33,7 +33,6 @@ struct RunProgress {
 struct RunOptions {
   std::filesystem::path out;
   int jobs = 1;                           ///< children at once
-  std::vector<std::uint64_t> seeds = {};  ///< in place of the scenarios' own, if any
   std::vector<std::string> only = {};     ///< names of scenarios or pipelines, or "scenario/pipeline"; empty: all
   bool resume = false;
   bool journal = false;                ///< the whole trace.csv in every cell; else the rows that the figures draw from

@@ -154,6 +154,8 @@ TEST_F(Verbs, RunIntoTheSameFolderReplacesItAndKeepsWhatIsNotOurs) {
   ASSERT_EQ(here({"run", "room.yaml", "--out", "run", "-q", "--seed", "7"}).code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "run/cells/room/iepf/7/lines.csv"));
   EXPECT_FALSE(fs::exists(folder_ / "run/cells/room/iepf/1"));
+  EXPECT_FALSE(fs::is_empty(folder_ / "run/figures"));
+  EXPECT_THAT(read(folder_ / "run/effective.yaml"), HasSubstr("seeds: [7]"));
   EXPECT_EQ(read(folder_ / "run/notes.txt"), "mine");
   EXPECT_THAT(half_written(folder_.path()), IsEmpty());
 }

@@ -278,8 +278,10 @@ TEST(Runner, ARecordingThatCrashesOrHangsSkipsItsCells) {
 TEST(Runner, SelectsByScenarioByPipelineAndByBoth) {
   const testing::TemporaryFolder folder;
   const auto selection = [&](std::vector<std::string> only) {
+    auto scenarios = two_scenarios();
+    for (auto& scenario : scenarios) scenario.seeds = {9};
     std::string text;
-    for (const auto& cell : run_here(two_scenarios(), {.out = folder.path() / "r", .seeds = {9}, .only = only}).cells)
+    for (const auto& cell : run_here(scenarios, {.out = folder.path() / "r", .only = only}).cells)
       text += to_string(cell.key) + " ";
     return text;
   };
