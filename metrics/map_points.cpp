@@ -9,8 +9,8 @@
 
 #include "core/error.hpp"
 #include "core/registry.hpp"
+#include "core/segment_grid.hpp"
 #include "metrics/rows.hpp"
-#include "metrics/segment_grid.hpp"
 
 namespace scanbench::metrics {
 namespace {

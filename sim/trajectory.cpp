@@ -6,17 +6,18 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
+#include "core/segment_grid.hpp"
 #include "sim/place_text.hpp"
-#include "sim/wall_grid.hpp"
 
 namespace scanbench::sim {
 namespace {
 
 // A sensor closer to a wall than this stands on it.
 constexpr double kOnWallM = 1e-3;
-static_assert(kOnWallM < WallGrid::kMarginM);
+static_assert(kOnWallM < SegmentGrid::kMarginM);
 
 std::string pose_text(const Trajectory& trajectory, std::size_t frame) {
   return "scan " + std::to_string(frame) + ": the sensor at " +
@@ -42,7 +43,7 @@ std::optional<Vec2> crossing(const Vec2& p, const Vec2& q, const Segment& wall) 
   return Vec2(p + std::clamp(std::min(ta, tb), 0.0, 1.0) * way);
 }
 
-void check_way(const World& world, const WallGrid& grid, const Vec2& p, const Vec2& q) {
+void check_way(const World& world, const SegmentGrid& grid, const Vec2& p, const Vec2& q) {
   std::size_t first = world.walls.size();
   grid.for_each_near({p, q}, [&](std::size_t i) {
     if (i < first && crossing(p, q, world.walls[i].segment)) first = i;
@@ -85,7 +86,7 @@ void check_body(const std::string& who, const Vec2& p, const std::string& body, 
                     " m away, and the sensor's range is " + metres_text(range_max_m) + " m");
 }
 
-void check_pose(const World& world, const WallGrid& grid, const Trajectory& trajectory, std::size_t frame,
+void check_pose(const World& world, const SegmentGrid& grid, const Trajectory& trajectory, std::size_t frame,
                 double range_max_m) {
   const TimedPose& pose = trajectory.poses[frame];
   const Vec2& p = pose.world_from_sensor.translation();
@@ -111,7 +112,7 @@ void check_pose(const World& world, const WallGrid& grid, const Trajectory& traj
     check_body(who, p, "moving body '" + body.label + "' at " + number_text(pose.stamp_s) + " s", at, body.radius_m);
     in_range = in_range || (p - at).norm() - body.radius_m <= range_max_m;
   }
-  if (!in_range && !grid.any_within(p, range_max_m)) refuse_far_away(world, pose, who, range_max_m);
+  if (!in_range && grid.distance(p) > range_max_m) refuse_far_away(world, pose, who, range_max_m);
 }
 
 }  // namespace
@@ -129,7 +130,9 @@ Pose2 pose_during_scan(const Trajectory& trajectory, std::size_t frame, double t
 }
 
 void check_clear(const World& world, const Trajectory& trajectory, double range_max_m) {
-  const WallGrid grid(world.walls);
+  std::vector<Segment> walls;
+  for (const Wall& wall : world.walls) walls.push_back(wall.segment);
+  const SegmentGrid grid(walls);
   for (std::size_t frame = 0; frame < trajectory.poses.size(); ++frame) {
     check_pose(world, grid, trajectory, frame, range_max_m);
     if (frame > 0 && !(trajectory.poses[frame].stamp_s > trajectory.poses[frame - 1].stamp_s))

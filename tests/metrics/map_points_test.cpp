@@ -1,12 +1,8 @@
-// map_points by hand, and its grid against brute force.
-#include "core/rng.hpp"
+// map_points by hand.
 #include "made_up.hpp"
-#include "metrics/segment_grid.hpp"
 
 namespace scanbench::test {
 namespace {
-
-using metrics::SegmentGrid;
 
 MapLine map_line(const Vec2& a, const Vec2& b) {
   MapLine line;
@@ -90,53 +86,6 @@ TEST(MapPoints, NeedsPosesButNoTruth) {
   EXPECT_TRUE(family("map_points")->applies(run.input_without_truth()));
   run.result.world_from_sensor.clear();
   EXPECT_FALSE(family("map_points")->applies(run.input_without_truth()));
-}
-
-TEST(SegmentGrid, AgreesWithBruteForceInsideAndOutside) {
-  CounterRng rng(3, RngStream::resampling);
-  const auto uniform = [&](double low, double high) { return low + (high - low) * rng.uniform(); };
-  for (const int count : {1, 2, 30, 400}) {
-    std::vector<Segment> segments;
-    for (int i = 0; i < count; ++i) {
-      const Vec2 a(uniform(-20, 30), uniform(5, 15));
-      const double length = i % 3 == 0 ? uniform(0, 25) : uniform(0, 1);
-      // Every third one level, upright or a point: the borders of cells.
-      const double yaw = i % 5 == 0 ? 0.0 : i % 5 == 1 ? kPi / 2 : uniform(-3, 3);
-      segments.push_back({a, i % 7 == 6 ? a : Vec2(a + length * Vec2(std::cos(yaw), std::sin(yaw)))});
-    }
-    segments.push_back({{0, 5}, {20, 5 + 1e-15}});
-    const SegmentGrid grid(segments);
-    for (int i = 0; i < 500; ++i) {
-      const Vec2 p = i % 4 == 0 ? Vec2(uniform(-200, 200), uniform(-200, 200)) : Vec2(uniform(-25, 35), uniform(0, 20));
-      double expected = std::numeric_limits<double>::infinity();
-      for (const Segment& s : segments) expected = std::min(expected, distance(p, s));
-      EXPECT_EQ(grid.distance(p), expected) << count << " segments, point " << p.transpose();
-    }
-  }
-}
-
-TEST(SegmentGrid, FindsSegmentsThatCrossFromRowToRowWithinARoundingError) {
-  // Three segments in 3 m x 16 m make cells of sqrt(48 / 12) = 2 m; the third one lies on the border of two rows.
-  CounterRng rng(4, RngStream::resampling);
-  for (int i = 0; i < 300; ++i) {
-    const double bottom = 20 * rng.uniform();
-    const double border = bottom + 2.0 * (1 + i % 7);
-    const double below = border * (1 - (i % 3) * 2e-16);
-    const double above = border * (1 + (i % 5) * 2e-16);
-    const std::vector<Segment> segments{
-        {{0, bottom}, {3, bottom}}, {{0, bottom + 16}, {3, bottom + 16}}, {{0, below}, {3, above}}};
-    const SegmentGrid grid(segments);
-    for (const double x : {0.1, 1.0, 1.9, 2.1, 2.9})
-      for (const double dy : {-0.3, 0.3}) EXPECT_NEAR(grid.distance({x, border + dy}), 0.3, 1e-9);
-  }
-}
-
-TEST(SegmentGrid, HasAnswersForNothingAndForNonsense) {
-  EXPECT_EQ(SegmentGrid(std::vector<Segment>{}).distance({0, 0}), std::numeric_limits<double>::infinity());
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const SegmentGrid grid(std::vector<Segment>{{{0, 0}, {nan, 1}}, {{1, 0}, {1, 0}}});
-  EXPECT_EQ(grid.distance({4, 4}), 5.0);
-  EXPECT_TRUE(std::isnan(grid.distance({nan, 0})));
 }
 
 }  // namespace

@@ -1,33 +1,37 @@
-// Which walls are near a place or a way: worlds of many walls are not gone through for every pose.
+// Which of many segments are near a place or a way, and how far the nearest is.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
 
-#include "core/truth.hpp"
+#include "core/geometry.hpp"
 
-namespace scanbench::sim {
+namespace scanbench {
 
-/// A uniform grid of square cells over the walls, each cell naming those that come within kMarginM of it. Cells at the
-/// rim reach to infinity. Refers to the walls; their coordinates must be finite, below kMaxWorldExtentM.
-class WallGrid {
+/// A uniform grid of square cells over the segments, each cell naming those that come within kMarginM of it. Cells at
+/// the rim reach to infinity.
+class SegmentGrid {
  public:
   static constexpr double kMarginM = 2e-3;
 
-  explicit WallGrid(std::span<const Wall> walls);
+  /// Segments with an end that is not finite are passed over.
+  explicit SegmentGrid(std::span<const Segment> segments);
 
-  /// Calls `visit(index)` for all walls that come within kMarginM of the way, and some others; one may come repeatedly,
-  /// in no order.
+  bool empty() const { return members_.empty(); }
+
+  /// Exact distance to the nearest segment; +inf if there is none, NaN for a point that is not finite.
+  double distance(const Vec2& p) const;
+
+  /// Calls `visit(index)` for all segments that come within kMarginM of the way, and some others; one may come
+  /// repeatedly, in no order. The ends of the way must be finite.
   template <class Visit>
   void for_each_near(const Segment& way, Visit visit) const {
     for_each_cell(way, 0.0, [&](std::size_t cell) {
       for (std::size_t m = cell_begin_[cell]; m < cell_begin_[cell + 1]; ++m) visit(members_[m]);
     });
   }
-
-  /// Is the distance of a wall from the place at most this?
-  bool any_within(const Vec2& place, double distance_m) const;
 
  private:
   int column(double x) const { return index((x - origin_.x()) / cell_m_, columns_); }
@@ -36,8 +40,7 @@ class WallGrid {
   std::size_t cell(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
-  bool any_in_cells(int first_column, int last_column, int first_row, int last_row, const Vec2& place,
-                    double distance_m) const;
+  void nearest_in_cell(const Vec2& p, int column, int row, double& best) const;
 
   /// The cells that come within `margin` of the segment in both coordinates: row by row, its columns there.
   template <class Visit>
@@ -61,7 +64,7 @@ class WallGrid {
 
   static constexpr double kRowMarginM = 1e-6;  ///< far more than rounding errs in a world of 1e5 m
 
-  std::span<const Wall> walls_;
+  std::vector<Segment> segments_;
   Vec2 origin_ = Vec2::Zero();
   double cell_m_ = 1.0;
   int columns_ = 1;
@@ -70,4 +73,4 @@ class WallGrid {
   std::vector<std::size_t> members_;
 };
 
-}  // namespace scanbench::sim
+}  // namespace scanbench
