@@ -9,6 +9,8 @@
 namespace scanbench::render {
 namespace {
 
+constexpr std::size_t kMostLinesWithEnds = 200;  // in any panel: the ends of more would hide the lines
+
 class Map : public Figure {
  public:
   using Params = NoParams;
@@ -22,7 +24,8 @@ class Map : public Figure {
 
     Scene scene = small_multiples(maps);
     scene.title = input.title + ": line maps";
-    std::vector<Vec2> ends;
+    std::size_t most_lines = 0;
+    for (const NamedResult& r : input.results) most_lines = std::max(most_lines, r.result->map.lines.size());
     const Stroke path_stroke{kGrey, 0.5, Dash::dotted};
     std::vector<LegendEntry> swatches;  // a colour of the panels each
     for (std::size_t i = 0; i < input.results.size(); ++i) {
@@ -43,9 +46,8 @@ class Map : public Figure {
         lines.segments.push_back(line.segment);
         tips.points.insert(tips.points.end(), {line.segment.a, line.segment.b});
       }
-      ends.insert(ends.end(), tips.points.begin(), tips.points.end());
       panel.items.emplace_back(std::move(lines));
-      if (tips.points.size() <= 400) panel.items.emplace_back(std::move(tips));  // more would hide the lines
+      if (most_lines <= kMostLinesWithEnds) panel.items.emplace_back(std::move(tips));
       add_path(input, placed.world_from_sensor, path_stroke, panel);
       if (!recording.truth) set_robust_ranges(panel, std::get<Points>(panel.items[0]).points);
       scene.panels.push_back(std::move(panel));
