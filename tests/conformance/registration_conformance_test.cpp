@@ -4,6 +4,7 @@
 
 #include "core/modules.hpp"
 #include "core/registry.hpp"
+#include "tests/support/aligning.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/scan_builder.hpp"
 
@@ -11,6 +12,7 @@ namespace scanbench {
 namespace {
 
 using testing::OwnedScan;
+using testing::ScanSeries;
 
 // An observation that owns its scan, with lines by the extractor that is always there.
 struct Seen {
@@ -76,23 +78,109 @@ TEST_P(MatcherConformance, TheAnswerIsTheSameTwice) {
   EXPECT_EQ(match(a, b, {}).reference_from_current, match(a, b, {}).reference_from_current);
 }
 
-class AlignerConformance : public ::testing::TestWithParam<std::string> {};
+class AlignerConformance : public ::testing::TestWithParam<std::string> {
+ protected:
+  Alignment align(const ScanSeries& scans, const std::vector<Pose2>& initial) const {
+    Trace silent;
+    const std::vector<Pose2> before = initial;
+    const Alignment result = module_->align(scans.observations(), initial, silent);
+    EXPECT_EQ(result.world_from_sensor.size(), initial.size());
+    for (const Pose2& p : result.world_from_sensor) EXPECT_TRUE(finite(p));
+    EXPECT_EQ(initial, before) << "input untouched";
+    return result;
+  }
+  std::unique_ptr<Aligner> module_ = Registry<Aligner>::make(GetParam());
+};
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(AlignerConformance);
 INSTANTIATE_TEST_SUITE_P(All, AlignerConformance, ::testing::ValuesIn(Registry<Aligner>::names()),
                          [](const auto& test) { return test.param; });
 
-TEST_P(AlignerConformance, NoneOneAndEmptyScansAreAnsweredWithOnePoseEach) {
-  const auto module = Registry<Aligner>::make(GetParam());
-  Trace silent;
-  EXPECT_TRUE(module->align({}, {}, silent).world_from_sensor.empty());
-  const Seen full(room({0, 0, 0})), empty(nothing());
-  const std::vector<Pose2> poses = {Pose2(0, 0, 0), Pose2(0.1, 0, 0)};
-  const std::vector<Observation> one = {full.view()};
-  EXPECT_EQ(module->align(one, std::span(poses).first(1), silent).world_from_sensor.size(), 1u);
-  const std::vector<Observation> two = {full.view(), empty.view()};
-  const Alignment result = module->align(two, poses, silent);
-  ASSERT_EQ(result.world_from_sensor.size(), 2u);
-  for (const Pose2& p : result.world_from_sensor) EXPECT_TRUE(finite(p));
+const std::vector<Pose2> kStops{{0, 0, 0}, {0.4, 0.1, 0.2}, {0.9, -0.2, 0.5}, {1.2, -0.6, 1.0}};
+
+/// Where the sensor believes that it stopped.
+std::vector<Pose2> believed() {
+  std::vector<Pose2> poses = kStops;
+  const std::vector<Pose2> errors{{0, 0, 0}, {0.05, -0.03, 0.02}, {-0.04, 0.06, -0.03}, {0.03, 0.05, 0.03}};
+  for (std::size_t k = 0; k < poses.size(); ++k) poses[k] = poses[k] * errors[k];
+  return poses;
+}
+
+ScanSeries of_each(const std::vector<OwnedScan>& scans) {
+  ScanSeries series;
+  for (const OwnedScan& scan : scans) series.add_extracted(scan, "iepf");
+  return series;
+}
+
+ScanSeries rooms(double sigma_m) {
+  std::vector<OwnedScan> scans;
+  for (std::size_t k = 0; k < kStops.size(); ++k)
+    scans.push_back(testing::with_noise(room(kStops[k]), sigma_m, 2, static_cast<std::uint32_t>(k)));
+  return of_each(scans);
+}
+
+TEST_P(AlignerConformance, NoScansHaveNoPoses) {
+  EXPECT_TRUE(align({}, {}).world_from_sensor.empty());
+}
+
+TEST_P(AlignerConformance, OneScanStaysWhereItIs) {
+  const std::vector<Pose2> one{{3, -1, 0.4}};
+  EXPECT_EQ(align(of_each({room({0, 0, 0})}), one).world_from_sensor, one);
+}
+
+TEST_P(AlignerConformance, ScansWithoutReturnsAreAnsweredWithOnePoseEach) {
+  const OwnedScan full = room({0, 0, 0});
+  EXPECT_NE(align(of_each({nothing(), nothing(), nothing(), nothing()}), believed()).status, Status::converged);
+  align(of_each({full, nothing(), full, nothing()}), believed());
+  align(of_each({nothing(), full, nothing(), full}), believed());
+}
+
+TEST_P(AlignerConformance, ScansOfFaultyReadingsAreAnswered) {
+  for (const double reading : {testing::kNaN, testing::kInf, -testing::kInf, 0.0, -1.0, 1e300, 1e-300}) {
+    OwnedScan odd = room({0, 0, 0});
+    for (std::size_t i = 0; i < odd.ranges.size(); i += 3) odd.ranges[i] = reading;
+    align(of_each({odd, odd, odd, odd}), believed());
+    const OwnedScan all = testing::constant_scan(testing::ring_sensor(360), reading);
+    align(of_each({all, all, odd, odd}), believed());
+  }
+}
+
+TEST_P(AlignerConformance, ScansWithoutLinesAndWithOneWallAreAnswered) {
+  ScanSeries no_lines;
+  for (const Pose2& p : kStops) no_lines.add(room(p), {.lines = {}, .labels = std::vector<int>(360, -1)});
+  align(no_lines, believed());
+  std::vector<OwnedScan> walls;
+  for (const Pose2& p : kStops) walls.push_back(testing::cast(testing::ring_sensor(360), {{{-3, -2}, {3, -2}}}, p));
+  align(of_each(walls), believed());
+  const OwnedScan full = room({0, 0, 0});
+  align(of_each({full, full, full, full}), std::vector<Pose2>(4, Pose2(0.1, 0.2, 0.3)));
+}
+
+TEST_P(AlignerConformance, BringsScansOfARoomTogether) {
+  const std::vector<Pose2> poses = align(rooms(0.0), believed()).world_from_sensor;
+  for (std::size_t k = 0; k < kStops.size(); ++k) {
+    const Pose2 off = (poses[0].inverse() * poses[k]).inverse() * (kStops[0].inverse() * kStops[k]);
+    EXPECT_LT(off.translation().norm(), 0.01) << "scan " << k;
+    EXPECT_THAT(off.yaw(), testing::AngleNear(0.0, 0.005)) << "scan " << k;
+  }
+}
+
+TEST_P(AlignerConformance, MovesWithTheWorldFrame) {
+  const ScanSeries scans = rooms(0.01);
+  const Pose2 elsewhere(12, -7, 2.2);
+  std::vector<Pose2> moved;
+  for (const Pose2& p : believed()) moved.push_back(elsewhere * p);
+  const Alignment here = align(scans, believed()), there = align(scans, moved);
+  EXPECT_EQ(here.status, there.status);
+  for (std::size_t k = 0; k < kStops.size(); ++k) {
+    const Pose2 expected = elsewhere * here.world_from_sensor[k];
+    EXPECT_THAT(there.world_from_sensor[k].translation(), testing::PointNear(expected.translation(), 1e-6));
+    EXPECT_THAT(there.world_from_sensor[k].yaw(), testing::AngleNear(expected.yaw(), 1e-6));
+  }
+}
+
+TEST_P(AlignerConformance, TheAnswerIsTheSameTwice) {
+  const ScanSeries scans = rooms(0.01);
+  EXPECT_EQ(align(scans, believed()).world_from_sensor, align(scans, believed()).world_from_sensor);
 }
 
 class MapperConformance : public ::testing::TestWithParam<std::string> {};
