@@ -24,7 +24,7 @@ class PointToLine final : public Aligner {
     double final_gate_m = 0.1;
     double margin_m = 0.2;
     double max_angle_deg = 30.0;
-    int max_rounds = 50;
+    int max_rounds = 20;
 
     static auto fields() {
       return std::tuple{
