@@ -8,7 +8,7 @@
 namespace scanbench {
 
 std::string number_text(double value) {
-  std::array<char, 40> buffer;
+  std::array<char, 40> buffer{};
   const auto [end, ec] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), end};
 }

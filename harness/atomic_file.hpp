@@ -34,6 +34,8 @@ bool is_temporary_name(std::string_view name);
 class StagedFolder {
  public:
   explicit StagedFolder(std::filesystem::path target);
+  StagedFolder(const StagedFolder&) = delete;
+  StagedFolder& operator=(const StagedFolder&) = delete;
   StagedFolder(StagedFolder&& other) noexcept;
   StagedFolder& operator=(StagedFolder&&) = delete;
   ~StagedFolder();

@@ -42,11 +42,11 @@ class CsvTable {
   std::size_t rows() const { return rows_.size(); }
   const std::vector<std::string>& columns() const { return columns_; }
   bool has(std::string_view column) const;
-  const std::string& text(std::size_t row, std::string_view column) const;
-  double number(std::size_t row, std::string_view column) const;                          ///< an empty field is NaN
-  std::optional<double> optional_number(std::size_t row, std::string_view column) const;  ///< an empty field is nothing
-  long long integer(std::size_t row, std::string_view column) const;
-  int index(std::size_t row, std::string_view column) const;  ///< an integer that fits an int
+  const std::string& text(std::size_t row, std::string_view name) const;
+  double number(std::size_t row, std::string_view name) const;                          ///< an empty field is NaN
+  std::optional<double> optional_number(std::size_t row, std::string_view name) const;  ///< an empty field is nothing
+  long long integer(std::size_t row, std::string_view name) const;
+  int index(std::size_t row, std::string_view name) const;  ///< an integer that fits an int
   [[noreturn]] void refuse(std::size_t row, const std::string& message) const;
 
  private:

@@ -68,6 +68,7 @@ void add_column(std::string_view word, Layout& layout) {
     return;
   }
   std::vector<std::string> names;
+  names.reserve(std::size(kColumnNames));
   for (const auto& known : kColumnNames) names.emplace_back(known.name);
   throw ParamError("columns", fmt::format("columns has {}; allowed: {}", quoted_excerpt(word), fmt::join(names, ", ")));
 }

@@ -51,7 +51,7 @@ class WorkerPool {
   WorkerPool& operator=(const WorkerPool&) = delete;
 
   struct Finished {
-    std::size_t id;
+    std::size_t id = 0;
     WorkerOutcome outcome;
   };
 

@@ -102,7 +102,7 @@ class Borges2000 : public MetricFamily {
     const Truth& truth = *input.truth;
     const ScanLines& found = input.result.lines[f];
     const Scan scan = input.observed.scan(f);
-    const std::size_t beams = static_cast<std::size_t>(scan.beams());
+    const auto beams = static_cast<std::size_t>(scan.beams());
     SCANBENCH_ASSERT(found.labels.size() == beams);
 
     std::vector<ScanTally> scan_tally(truth.walls.size());

@@ -56,8 +56,8 @@ constexpr const char* kMatches = "matches";  // matches.csv
 
 /// A found line that is true, with enough beams.
 struct Match {
-  std::size_t frame;
-  std::size_t line;
+  std::size_t frame = 0;
+  std::size_t line = 0;
   const LineFeature& found;
   TrueLine truth;
   PolarLine true_line;

@@ -49,7 +49,7 @@ std::vector<std::vector<Interval>> visible_parts(const MetricInput& input, const
                      Vec2(truth.ranges[f * beams + i] * scan.sensor.geometry.direction(static_cast<int>(i)));
       if (!(segment.length() > 0)) continue;
       const double share = segment.direction().dot(p - segment.a) / segment.length();
-      const double bins = static_cast<double>(hits[s].size());
+      const auto bins = static_cast<double>(hits[s].size());
       ++hits[s][static_cast<std::size_t>(std::clamp(share * bins, 0.0, bins - 1))];
     }
   }

@@ -150,7 +150,7 @@ std::string with_ids_of_content(const std::string& svg) {
     bool surface;
   };
   std::vector<Found> ids;
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a of everything but the surface's number
+  std::uint64_t hash = 14695981039346656037U;  // FNV-1a of everything but the surface's number
   for (std::size_t i = 0; i < svg.size(); ++i) {
     for (const std::string_view intro : kIntroductions) {
       if (svg.compare(i, intro.size(), intro) != 0) continue;
@@ -161,21 +161,21 @@ std::string with_ids_of_content(const std::string& svg) {
     }
     const bool numbered =
         !ids.empty() && ids.back().surface && i >= ids.back().at && i < ids.back().at + ids.back().length;
-    if (!numbered) hash = (hash ^ static_cast<unsigned char>(svg[i])) * 1099511628211u;
+    if (!numbered) hash = (hash ^ static_cast<unsigned char>(svg[i])) * 1099511628211U;
   }
   const std::string prefix = fmt::format("f{:08x}-", static_cast<std::uint32_t>(hash ^ hash >> 32));
   std::string out;
   out.reserve(svg.size() + ids.size() * prefix.size());
-  std::size_t done = 0;
+  std::size_t copied = 0;
   for (const Found& id : ids) {
-    out.append(svg, done, id.at - done).append(prefix);
+    out.append(svg, copied, id.at - copied).append(prefix);
     if (id.surface)
       out.append("figure");
     else
       out.append(svg, id.at, id.length);
-    done = id.at + id.length;
+    copied = id.at + id.length;
   }
-  return out.append(svg, done, std::string::npos);
+  return out.append(svg, copied, std::string::npos);
 }
 
 }  // namespace

@@ -8,9 +8,9 @@ namespace {
 
 struct CurveStyle {
   Color color;
-  Dash dash;
-  Marker marker;
-  bool filled;
+  Dash dash = Dash::solid;
+  Marker marker = Marker::circle;
+  bool filled = true;
 };
 constexpr std::array<CurveStyle, 2> kCurves{
     {{kBlue, Dash::solid, Marker::circle, true}, {kVermillion, Dash::dashed, Marker::square, false}}};

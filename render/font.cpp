@@ -38,10 +38,10 @@ char32_t next_code_point(std::string_view text, std::size_t& at) {
   if (lead < 0x80) return lead;
   const int more = lead >= 0xF0 && lead < 0xF8 ? 3 : lead >= 0xE0 ? 2 : lead >= 0xC2 ? 1 : 0;
   if (more == 0 || lead >= 0xF8) return 0xFFFD;
-  char32_t code = lead & (0x3Fu >> more);
+  char32_t code = lead & (0x3FU >> more);
   for (int i = 0; i < more; ++i) {
-    if (at >= text.size() || (byte(at) & 0xC0u) != 0x80u) return 0xFFFD;
-    code = code << 6 | (byte(at++) & 0x3Fu);
+    if (at >= text.size() || (byte(at) & 0xC0U) != 0x80U) return 0xFFFD;
+    code = code << 6 | (byte(at++) & 0x3FU);
   }
   return code;
 }
@@ -156,7 +156,7 @@ std::string fit_text(std::string_view text, double width_em) {
   if (font.width_em(text) <= width_em) return std::string(text);
   const std::string ellipsis = "\u2026";
   while (!text.empty() && font.width_em(text) + font.width_em(ellipsis) > width_em) {
-    while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xC0u) == 0x80u) text.remove_suffix(1);
+    while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) text.remove_suffix(1);
     text.remove_suffix(1);
   }
   return std::string(text) + ellipsis;

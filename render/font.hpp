@@ -10,7 +10,7 @@
 #include "core/geometry.hpp"
 
 extern "C" {
-typedef struct _cairo_font_face cairo_font_face_t;
+typedef struct _cairo_font_face cairo_font_face_t;  // NOLINT: as Cairo declares it
 }
 
 namespace scanbench::render {
@@ -36,6 +36,9 @@ class Font {
   double cap_height_em() const { return cap_height_em_; }
 
   cairo_font_face_t* cairo_face() const;
+
+  Font(const Font&) = delete;
+  Font& operator=(const Font&) = delete;
 
  private:
   Font();

@@ -38,22 +38,28 @@ class Context {
       throw InternalError("OSMesa: cannot make the context current");
     OSMesaPixelStore(OSMESA_Y_UP, 0);
   }
-  void release() { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+  static void release() { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
 
   std::vector<std::uint8_t> pixels;  // rows from top to bottom, RGBA
 
  private:
-  Context() : pixels(std::size_t{4} * kBuffer * kBuffer) {
+  Context() : pixels(std::size_t{4} * kBuffer * kBuffer) {}
+
+  static OSMesaContext create() {
     setenv("LP_NUM_THREADS", "0", 1);  // draw in the calling thread: workers already fill the cores
-    context_ = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
-    if (context_ == nullptr) throw InternalError("OSMesa: cannot create a context");
+    const OSMesaContext context = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
+    if (context == nullptr) throw InternalError("OSMesa: cannot create a context");
+    return context;
   }
-  OSMesaContext context_ = nullptr;
+
+  OSMesaContext context_ = create();
 };
 
 struct Current {
   explicit Current(Context& c) : context(c), lock(c.mutex) { context.make_current(); }
-  ~Current() { context.release(); }
+  ~Current() { Context::release(); }
+  Current(const Current&) = delete;
+  Current& operator=(const Current&) = delete;
   Context& context;
   std::lock_guard<std::mutex> lock;
 };
@@ -132,7 +138,8 @@ class Picture {
       const int last_row = std::min(index(y1, clip.y0, clip.y1), static_cast<int>(tiles_.size()) / columns_ - 1);
       for (int row = index(y0, clip.y0, clip.y1); row <= last_row; ++row)
         for (int column = index(x0, clip.x0, clip.x1); column <= last_column; ++column) {
-          Tile& tile = tiles_[static_cast<std::size_t>(row * columns_ + column)];
+          Tile& tile = tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                              static_cast<std::size_t>(column)];
           if (!may_meet(t, paper(tile))) continue;
           if (tile.batches.empty() || tile.batches.back().clip != batch.clip)
             tile.batches.push_back({.clip = batch.clip});
@@ -187,7 +194,7 @@ class Picture {
   void filter_down(const std::vector<std::uint8_t>& buffer, const Tile& tile) {
     static_assert(kOversample == 4, "four rows and four columns are added");
     constexpr std::size_t kRow = std::size_t{4} * kBuffer;
-    std::array<std::uint16_t, kRow> sums;
+    std::array<std::uint16_t, kRow> sums{};
     for (int y = 0; y < tile.height; ++y) {
       const std::uint8_t* in = &buffer[static_cast<std::size_t>(y) * kOversample * kRow];
       for (std::size_t i = 0; i < kRow; ++i)

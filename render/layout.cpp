@@ -75,10 +75,9 @@ class Composer {
       : scene_(scene),
         em_(scene.font_pt),
         tick_size_(0.88 * scene.font_pt),
-        count_(static_cast<int>(scene.panels.size())) {
-    columns_ = scene.columns > 0 ? scene.columns : count_ == 4 ? 2 : 3;
-    columns_ = std::clamp(columns_, 1, std::max(1, count_));
-    rows_ = (count_ + columns_ - 1) / columns_;
+        count_(static_cast<int>(scene.panels.size())),
+        columns_(std::clamp(wanted_columns(scene), 1, std::max(1, count_))),
+        rows_((count_ + columns_ - 1) / columns_) {
     out_.width = 72.0 * scene.width_in;
     out_.panels.resize(scene.panels.size());
   }
@@ -94,9 +93,12 @@ class Composer {
   }
 
  private:
+  static int wanted_columns(const Scene& scene) {
+    return scene.columns > 0 ? scene.columns : scene.panels.size() == 4 ? 2 : 3;
+  }
   const Panel& panel(int i) const { return scene_.panels[static_cast<std::size_t>(i)]; }
   PanelLayout& place(int i) { return out_.panels[static_cast<std::size_t>(i)]; }
-  double width_em(const std::string& text) const { return Font::get().width_em(text); }
+  static double width_em(const std::string& text) { return Font::get().width_em(text); }
   bool left_axis(int i) const { return panel(i).axes && (!scene_.share_axes || i % columns_ == 0); }
   bool bottom_axis(int i) const { return panel(i).axes && (!scene_.share_axes || i + columns_ >= count_); }
 
@@ -138,11 +140,11 @@ class Composer {
   void boxes() {
     const double pad = 0.4 * em_;
     const double title = scene_.title.empty() ? 0.0 : 1.9 * em_;
-    const std::size_t columns = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(rows_);
+    const auto columns = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(rows_);
     std::vector<double> left(columns, 0.0), above(rows, 0.0), below(rows, 0.0);
     double right = 0.0, aspect = 0.0;
     for (int i = 0; i < count_; ++i) {
-      const std::size_t c = static_cast<std::size_t>(i % columns_), r = static_cast<std::size_t>(i / columns_);
+      const auto c = static_cast<std::size_t>(i % columns_), r = static_cast<std::size_t>(i / columns_);
       left[c] = std::max(left[c], left_room(i));
       above[r] = std::max(above[r], panel(i).title.empty() ? 0.3 * em_ : 1.45 * em_);
       below[r] = std::max(below[r], bottom_room(i));
@@ -287,7 +289,7 @@ class Composer {
 
   const Scene& scene_;
   double em_, tick_size_;
-  int count_, columns_ = 1, rows_ = 0;
+  int count_, columns_, rows_;
   std::vector<PanelLayout> natural_;  // ranges before they grow to fill their boxes
   double legend_top_ = 0.0;
   Layout out_;

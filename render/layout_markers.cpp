@@ -69,8 +69,8 @@ void add_markers(const std::vector<Vec2>& centers, Marker marker, double size_pt
     const Vec2 u = marker == Marker::plus ? Vec2(1.1 * r, 0) : Vec2(0.8 * r, 0.8 * r);
     for (const Vec2& c : centers)
       for (const Vec2& v : {u, perpendicular(u)}) {
-        shape.points.push_back(c - v);
-        shape.points.push_back(c + v);
+        shape.points.emplace_back(c - v);
+        shape.points.emplace_back(c + v);
         shape.end_path();
       }
     shapes.push_back({std::move(shape), clip});
@@ -81,8 +81,8 @@ void add_markers(const std::vector<Vec2>& centers, Marker marker, double size_pt
   const double scale = filled ? r : r - 0.5 * rim;
   for (const Vec2& c : centers) {
     for (const Vec2& corner : outline(marker)) {
-      fill.points.push_back(c + scale * corner);
-      edge.points.push_back(c + scale * corner);
+      fill.points.emplace_back(c + scale * corner);
+      edge.points.emplace_back(c + scale * corner);
     }
     fill.starts.push_back(fill.points.size());
     edge.end_path();

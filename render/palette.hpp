@@ -20,8 +20,8 @@ inline constexpr Color kSky{0x56, 0xB4, 0xE9};
 /// colour again with another dash and marker.
 struct MethodStyle {
   Color color;
-  Dash dash;
-  Marker marker;
+  Dash dash = Dash::solid;
+  Marker marker = Marker::circle;
 };
 MethodStyle method_style(std::size_t index);
 

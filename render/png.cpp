@@ -14,15 +14,15 @@ namespace scanbench::render {
 namespace {
 
 void push_number(std::string& out, std::uint32_t v) {
-  for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<char>(v >> shift & 0xFFu));
+  for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<char>(v >> shift & 0xFFU));
 }
 
 /// CRC-32 of ISO 3309, PNG specification, annex D.
 std::uint32_t crc(std::string_view bytes) {
-  std::uint32_t c = 0xFFFFFFFFu;
+  std::uint32_t c = 0xFFFFFFFFU;
   for (const char byte : bytes) {
     c ^= static_cast<unsigned char>(byte);
-    for (int k = 0; k < 8; ++k) c = (c & 1u) != 0 ? 0xEDB88320u ^ c >> 1 : c >> 1;
+    for (int k = 0; k < 8; ++k) c = (c & 1U) != 0 ? 0xEDB88320U ^ c >> 1 : c >> 1;
   }
   return ~c;
 }
@@ -45,7 +45,8 @@ std::string physical_size_chunk(double dpi) {
 
 std::string encode_png(const std::vector<std::uint8_t>& bgr, int width, int height, double dpi) {
   SCANBENCH_ASSERT(bgr.size() == std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  const cv::Mat image(height, width, CV_8UC3, const_cast<std::uint8_t*>(bgr.data()));  // only read
+  auto* pixels = const_cast<std::uint8_t*>(bgr.data());  // NOLINT: only read
+  const cv::Mat image(height, width, CV_8UC3, pixels);
   std::vector<std::uint8_t> bytes;
   if (!cv::imencode(".png", image, bytes)) throw InternalError("OpenCV could not encode a PNG");
   std::string png(bytes.begin(), bytes.end());

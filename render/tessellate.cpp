@@ -63,7 +63,7 @@ class Tessellator {
     const bool tiny = half * px_per_pt_ < 4.0;
     const double longer = !round && !closed ? 0.0 : round ? (tiny ? 0.6 * half : 0.0) : half;  // closed: square corners
     for (std::size_t i = 0; i < edges; ++i) {
-      const Vec2 p = points[i], q = points[(i + 1) % n];
+      const Vec2 &p = points[i], &q = points[(i + 1) % n];
       const double length = (q - p).norm();
       const Vec2 end = length > 0 ? Vec2((q - p) * (longer / length)) : Vec2(Vec2::Zero());
       quad(p - end, q + end, half);
@@ -86,7 +86,7 @@ class Tessellator {
       piece.clear();
     };
     for (std::size_t i = 0; i < edges; ++i) {
-      const Vec2 p = points[i], q = points[(i + 1) % n];
+      const Vec2 &p = points[i], &q = points[(i + 1) % n];
       const double length = (q - p).norm();
       if (!(length > 0)) continue;
       for (double at = 0.0; at < length;) {

@@ -55,7 +55,7 @@ struct RayCaster::Impl {
   double reach = 0.0;  ///< farthest corner of the static world from there
   b2World box2d{b2Vec2(0.0F, 0.0F)};
 
-  explicit Impl(const World& world) : circles{}, moving(world.moving), origin(center(world)) {
+  explicit Impl(const World& world) : moving(world.moving), origin(center(world)) {
     const b2BodyDef definition;  // one static body for all: a body per wall costs time and gives nothing
     b2Body& body = *box2d.CreateBody(&definition);
     walls.reserve(world.walls.size());
@@ -78,7 +78,7 @@ struct RayCaster::Impl {
     }
   }
 
-  void add(b2Body& body, const b2Shape& shape) {
+  void add(b2Body& body, const b2Shape& shape) const {
     b2FixtureDef fixture;
     fixture.shape = &shape;
     fixture.userData.pointer = walls.size() + circles.size();
@@ -98,9 +98,9 @@ struct RayCaster::Impl {
     const Impl& world;
     const b2BroadPhase& broad_phase;
     const Ray& ray;
-    double begin;
-    double length;
-    Nearest nearest;
+    double begin = 0.0;
+    double length = 0.0;
+    Nearest nearest = {};
 
     float RayCastCallback(const b2RayCastInput& input, int32 proxy_id) {
       const auto* proxy = static_cast<const b2FixtureProxy*>(broad_phase.GetUserData(proxy_id));

@@ -45,6 +45,8 @@ class RayCaster {
   /// Copies what it needs. Throws what validate() throws.
   explicit RayCaster(const World& world);
   ~RayCaster();
+  RayCaster(const RayCaster&) = delete;
+  RayCaster& operator=(const RayCaster&) = delete;
   RayCaster(RayCaster&&) noexcept;
   RayCaster& operator=(RayCaster&&) noexcept;
 

@@ -38,6 +38,7 @@ class Alignment : public Figure {
     const auto& frames = input.recording.observed.frames;
     if (frames.empty()) return {};
     std::vector<Pose2> odometry;
+    odometry.reserve(frames.size());
     for (const Frame& frame : frames) odometry.push_back(frame.odom_from_sensor);
 
     Scene scene;
@@ -78,6 +79,7 @@ class Alignment : public Figure {
     if (poses.size() <= kMostColored) {
       // Neighbours on the way overlap most, so they differ most.
       std::vector<Vec2> places;
+      places.reserve(poses.size());
       for (const Pose2& pose : poses) places.push_back(pose.translation());
       const std::vector<Color> colors = cluster_colors(places);
       const std::size_t budget = kPointBudget / panels / poses.size();

@@ -25,7 +25,7 @@ std::vector<Color> cluster_colors(std::span<const Vec2> places) {
   std::vector<Color> colors;
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    std::array<double, kClusterColors.size()> nearest;
+    std::array<double, kClusterColors.size()> nearest{};
     nearest.fill(INFINITY);
     for (std::size_t k = 0; k < i; ++k)
       nearest[chosen[k]] = std::min(nearest[chosen[k]], (places[k] - places[i]).squaredNorm());

@@ -93,6 +93,7 @@ class CollinearClusters : public Figure {
   static void set_window(const MeanShiftRows& rows, const std::vector<std::size_t>& members,
                          const std::optional<Ellipse>& kernel, Panel& panel) {
     std::vector<Segment> shown;
+    shown.reserve(members.size());
     for (const std::size_t k : members) shown.push_back(rows.pieces[k].segment);
     if (kernel) {
       const Vec2 along = kernel->semi_axes.x() * Vec2(std::cos(kernel->angle_rad), std::sin(kernel->angle_rad));

@@ -86,7 +86,7 @@ class Environment : public Figure {
       Polyline circle{.stroke = round, .closed = true};
       for (int k = 0; k < 48; ++k) {
         const double angle = 2 * kPi * k / 48;
-        circle.points.push_back(thing.center + thing.radius_m * Vec2(std::cos(angle), std::sin(angle)));
+        circle.points.emplace_back(thing.center + thing.radius_m * Vec2(std::cos(angle), std::sin(angle)));
       }
       panel.items.emplace_back(std::move(circle));
     }

@@ -28,7 +28,7 @@ struct CollinearCluster {
   double theta_rad = 0.0;
   std::optional<Ellipse> kernel;  ///< one standard deviation
   struct Projection {
-    std::size_t piece;
+    std::size_t piece = 0;
     Segment on_line;
   };
   std::vector<Projection> projections;
