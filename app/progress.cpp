@@ -78,7 +78,7 @@ Progress::Style progress_style(bool quiet) {
 
 bool use_color() {
   const char* term = std::getenv("TERM");
-  return isatty(STDOUT_FILENO) && std::getenv("NO_COLOR") == nullptr &&
+  return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr &&
          (term == nullptr || std::string_view(term) != "dumb");
 }
 

@@ -38,6 +38,7 @@ class MergeDetail : public Figure {
     const std::vector<Vec2> points = frame_points(input.recording, frame, both.world_from_sensor[frame]);
 
     std::vector<Vec2> places;
+    places.reserve(found.size());
     for (const Segment& s : found) places.push_back(s.midpoint());
     if (places.empty()) places = points;
     const double side = params_.size_m > 0 ? params_.size_m : std::max(extent_of(found) / 3.0, 1.0);
