@@ -80,11 +80,14 @@ class Composer {
         rows_((count_ + columns_ - 1) / columns_) {
     out_.width = 72.0 * scene.width_in;
     out_.panels.resize(scene.panels.size());
+    widest_label_.resize(scene.panels.size());
   }
 
   Layout compose() {
     ranges();
-    for (int pass = 0; pass < 3; ++pass) {  // widths of tick labels depend on the ticks, those on the boxes
+    // Widths of tick labels depend on the ticks, those on the boxes. Room that was needed once is kept: where labels
+    // come and go with it, the last ones find it.
+    for (int pass = 0; pass < 4; ++pass) {
       boxes();
       ticks();
     }
@@ -120,7 +123,7 @@ class Composer {
   /// Room left of a box for tick labels and the axis label.
   double left_room(int i) {
     if (!left_axis(i)) return 0.0;
-    double widest = 0.0;
+    double& widest = widest_label_[static_cast<std::size_t>(i)];
     for (const Tick& t : place(i).y_ticks) widest = std::max(widest, width_em(t.label) * tick_size_);
     return kTickLength + 2.0 + widest + (panel(i).y.label.empty() ? 0.0 : 1.35 * em_);
   }
@@ -153,7 +156,7 @@ class Composer {
       aspect = std::max(aspect, panel(i).equal_aspect ? std::clamp((p.y_max - p.y_min) / (p.x_max - p.x_min), 0.3, 2.5)
                                                       : scene_.box_aspect);
     }
-    const double gap_x = 1.1 * em_, gap_y = 0.5 * em_;
+    const double gap_x = 1.4 * em_, gap_y = 0.5 * em_;
     double fixed_x = 2 * pad + right + gap_x * (columns_ - 1), fixed_y = 2 * pad + title + gap_y * (rows_ - 1);
     for (const double l : left) fixed_x += l;
     for (std::size_t r = 0; r < rows; ++r) fixed_y += above[r] + below[r];
@@ -207,10 +210,14 @@ class Composer {
       p.x_ticks = ticks_of(panel(i).x, p.x_min, p.x_max, count(p.box.width(), 3.6 * em_));
       p.y_ticks = ticks_of(panel(i).y, p.y_min, p.y_max, count(p.box.height(), 2.6 * em_));
       if (!panel(i).equal_aspect || !panel(i).x.ticks.empty() || !panel(i).y.ticks.empty()) continue;
-      // A map has one step in both directions: squares of a round number of metres.
-      const double step = 3.2 * em_ * (p.x_max - p.x_min) / p.box.width();
-      const std::vector<Tick> x = ticks_apart(p.x_min, p.x_max, step), y = ticks_apart(p.y_min, p.y_max, step);
-      if (x.size() >= 2 && y.size() >= 2) p.x_ticks = x, p.y_ticks = y;
+      // A map has one step in both directions: squares of a round number of metres, two lines each way at least.
+      for (const double apart : {3.2 * em_, 2.0 * em_}) {
+        const double step = apart * (p.x_max - p.x_min) / p.box.width();
+        const std::vector<Tick> x = ticks_apart(p.x_min, p.x_max, step), y = ticks_apart(p.y_min, p.y_max, step);
+        if (x.size() < 2 || y.size() < 2) continue;
+        p.x_ticks = x, p.y_ticks = y;
+        break;
+      }
     }
   }
 
@@ -290,6 +297,7 @@ class Composer {
   const Scene& scene_;
   double em_, tick_size_;
   int count_, columns_, rows_;
+  std::vector<double> widest_label_;  // of each panel's y axis so far [pt]
   std::vector<PanelLayout> natural_;  // ranges before they grow to fill their boxes
   double legend_top_ = 0.0;
   Layout out_;

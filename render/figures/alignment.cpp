@@ -1,7 +1,6 @@
 // Figure 8 of Lakaemper 2009: the points of all scans, superimposed by odometry (or as recorded), by the poses that a
 // pipeline used, and by the true ones.
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -13,14 +12,6 @@ namespace {
 
 const Stroke kPathStroke{kPathColor, 0.7, Dash::solid};
 constexpr std::size_t kMostColored = 40;  // beyond, colours of single scans mix to grey
-
-/// By more than a file of numbers may round.
-bool differ(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
-  return !std::ranges::equal(a, b, [](const Pose2& p, const Pose2& q) {
-    const Pose2 step = p.inverse() * q;
-    return step.translation().norm() < 1e-9 && std::abs(step.yaw()) < 1e-9;
-  });
-}
 
 class Alignment : public Figure {
  public:

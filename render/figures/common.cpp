@@ -14,8 +14,10 @@ std::size_t shown_frame(const Recording& recording, int wanted) {
 
 std::string to_string(PoseSource source) {
   switch (source) {
-    case PoseSource::estimated:
-      return "estimated poses";
+    case PoseSource::aligned:
+      return "as aligned";
+    case PoseSource::odometry:
+      return "odometry";
     case PoseSource::truth:
       return "true poses";
     default:
@@ -23,15 +25,23 @@ std::string to_string(PoseSource source) {
   }
 }
 
+bool differ(std::span<const Pose2> a, std::span<const Pose2> b) {
+  return !std::ranges::equal(a, b, [](const Pose2& p, const Pose2& q) {
+    const Pose2 step = p.inverse() * q;
+    return step.translation().norm() < 1e-9 && std::abs(step.yaw()) < 1e-9;
+  });
+}
+
 PlacedFrames place_frames(const Recording& recording, const PipelineResult* result) {
   const std::size_t frames = recording.observed.frames.size();
+  std::vector<Pose2> own;
+  for (const Frame& frame : recording.observed.frames) own.push_back(frame.odom_from_sensor);
+  const PoseSource source = recording.truth ? PoseSource::odometry : PoseSource::recorded;
   if (result != nullptr && frames > 0 && result->world_from_sensor.size() == frames)
-    return {PoseSource::estimated, result->world_from_sensor};
+    return {differ(result->world_from_sensor, own) ? PoseSource::aligned : source, result->world_from_sensor};
   if (recording.truth && recording.truth->world_from_sensor.size() == frames)
     return {PoseSource::truth, recording.truth->world_from_sensor};
-  PlacedFrames placed;
-  for (const Frame& frame : recording.observed.frames) placed.world_from_sensor.push_back(frame.odom_from_sensor);
-  return placed;
+  return {source, std::move(own)};
 }
 
 std::vector<Vec2> frame_points(const Recording& recording, std::size_t frame, const Pose2& world_from_sensor) {

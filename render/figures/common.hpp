@@ -26,11 +26,14 @@ inline constexpr std::size_t kPointBudget = 9000;
 /// The frame to show: `wanted`, -1 for the middle one, the last one if there are fewer. The recording has frames.
 std::size_t shown_frame(const Recording& recording, int wanted);
 
-enum class PoseSource { estimated, truth, recorded };
-std::string to_string(PoseSource source);  ///< "estimated poses", "true poses", "recorded poses"
+/// By more than a file of numbers may round.
+bool differ(std::span<const Pose2> a, std::span<const Pose2> b);
 
-/// World poses of all frames: estimated ones if the result has them, else true ones, else those of the log. `result`
-/// may be nullptr.
+enum class PoseSource { aligned, odometry, truth, recorded };
+std::string to_string(PoseSource source);  ///< "as aligned", "odometry", "true poses", "recorded poses"
+
+/// World poses of all frames: those of the result if it has any, aligned if they are not the recording's own, else true
+/// ones, else those of the log. `result` may be nullptr.
 struct PlacedFrames {
   PoseSource source = PoseSource::recorded;
   std::vector<Pose2> world_from_sensor;

@@ -155,7 +155,7 @@ TEST(Environment, SpeaksOfLabelsOnlyWhereTheyAreDrawn) {
   EXPECT_EQ(seen.size(), 2U);
 }
 
-TEST(LinesWorld, PlacesLinesByEstimatedPosesIfThereAreAnyElseByTrueOnes) {
+TEST(LinesWorld, PlacesLinesByThePosesOfThePipelineIfThereAreAnyElseByTrueOnes) {
   Case c = simulated(2);
   const Pose2 moved(100, 0, 0);
   for (const Pose2& pose : c.recording.truth->world_from_sensor) c.results[0].world_from_sensor.push_back(moved * pose);
@@ -168,7 +168,8 @@ TEST(LinesWorld, PlacesLinesByEstimatedPosesIfThereAreAnyElseByTrueOnes) {
   const Pose2 true_pose = c.recording.truth->world_from_sensor[0];
   EXPECT_EQ(first(0), (moved * true_pose) * c.results[0].lines[0].lines[0].segment);
   EXPECT_EQ(first(1), true_pose * c.results[1].lines[0].lines[0].segment);
-  EXPECT_NE(scenes[0].scene.panels[0].title.find("estimated"), std::string::npos);
+  EXPECT_NE(scenes[0].scene.panels[0].title.find("as aligned"), std::string::npos);
+  EXPECT_NE(scenes[0].scene.panels[1].title.find("true poses"), std::string::npos);
 }
 
 TEST(Map, HasAPanelForEachPipelineWithAMapAndKeepsItsColour) {
