@@ -98,7 +98,7 @@ bool ComparedColumn::printed(std::size_t subject) const {
 
 std::size_t ComparedColumn::printed_subjects() const {
   std::size_t count = 0;
-  for (std::size_t s = 0; s < subjects.size(); ++s) count += printed(s);
+  for (std::size_t s = 0; s < subjects.size(); ++s) count += printed(s) ? 1 : 0;
   return count;
 }
 
@@ -157,7 +157,7 @@ std::vector<Ordering> orderings(const ComparedColumn& column) {
         const ComparedCell& lower = column.at(s, ordering.lower);
         const ComparedCell& upper = column.at(s, ordering.upper);
         ordering.holds = lower.our_median() < upper.our_median();
-        for (std::size_t k = 0; k < column.seeds; ++k) ordering.seeds_holding += ordering.holds_for(column, k);
+        for (std::size_t k = 0; k < column.seeds; ++k) ordering.seeds_holding += ordering.holds_for(column, k) ? 1 : 0;
         result.push_back(ordering);
       }
   return result;
@@ -166,7 +166,7 @@ std::vector<Ordering> orderings(const ComparedColumn& column) {
 std::vector<double> orderings_per_seed(const ComparedColumn& column) {
   std::vector<double> held(column.seeds, 0.0);
   for (const auto& ordering : orderings(column))
-    for (std::size_t k = 0; k < column.seeds; ++k) held[k] += ordering.holds_for(column, k);
+    for (std::size_t k = 0; k < column.seeds; ++k) held[k] += ordering.holds_for(column, k) ? 1 : 0;
   return held;
 }
 
@@ -178,6 +178,7 @@ std::vector<BestCount> best_counts(const ComparedColumn& column, Ties ties) {
 
   const auto winners = [&](std::size_t subject, auto&& value_of) {
     std::vector<double> values;
+    values.reserve(counts.size());
     for (const auto& count : counts) values.push_back(value_of(column.at(subject, count.method)));
     auto best = best_of(values, column.metric.direction);
     if (ties == Ties::nobodys && best.size() > 1) best.clear();

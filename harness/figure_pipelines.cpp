@@ -19,6 +19,7 @@ std::string complaint(const ModuleChoice& figure, const std::vector<PipelineSpec
   const auto* wanted = param != figure.params.end() ? std::get_if<std::string>(&param->second) : nullptr;
   if (wanted == nullptr || wanted->empty()) return "";
   std::vector<std::string> names;
+  names.reserve(pipelines.size());
   for (const auto& pipeline : pipelines) names.push_back(pipeline.name);
   if (std::ranges::find(names, *wanted) != names.end()) return "";
   return fmt::format("{} of the figure {}: no pipeline is called {}{}", kParam, figure.module, quoted_excerpt(*wanted),

@@ -78,7 +78,7 @@ void set_limits(const WorkerLimits& limits) {
   std::set_new_handler(say_out_of_memory);
   limit(RLIMIT_CORE, 0);
   // Behind the wall-clock limit, for the case that the parent cannot act.
-  const double cores = std::max(1u, std::thread::hardware_concurrency());
+  const double cores = std::max(1U, std::thread::hardware_concurrency());
   limit(RLIMIT_CPU, std::ceil(limits.seconds) * cores + 2.0);
   // Each thread reserves address space for its stack and its heap arena without using it.
   const double reserve = 144.0 * 1024 * 1024 * (limits.threads > 1 ? limits.threads : 0);
@@ -129,7 +129,7 @@ std::string perform(const std::function<std::string()>& task) {
 
 /// Reads what is there. False at the end.
 bool drain(int fd, std::string& text) {
-  std::array<char, 1 << 14> block;
+  std::array<char, 1 << 14> block{};
   while (true) {
     const ssize_t n = ::read(fd, block.data(), block.size());
     if (n > 0) {
