@@ -11,6 +11,7 @@
 #include "harness/atomic_file.hpp"
 #include "harness/cell_files.hpp"
 #include "harness/csv.hpp"
+#include "harness/figures.hpp"
 #include "harness/recording_folder.hpp"
 
 namespace scanbench::harness {
@@ -35,6 +36,24 @@ template <class T>
 void append(std::vector<T>& all, std::vector<T> more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
+
+/// Would a run of a scenario make a cell at this address?
+class ScenarioAddresses {
+ public:
+  bool is_of(const Scenario& scenario, const CellKey& key, const std::string& address) {
+    const auto pipeline = std::ranges::find(scenario.pipelines, key.pipeline, &PipelineSpec::name);
+    if (pipeline == scenario.pipelines.end()) return false;
+    const auto [input, is_new] = inputs_.try_emplace(scenario.name);
+    if (is_new) input->second = input_address(scenario);
+    const TraceChoice traces[] = {{}, {.all = true}, traces_drawn(scenario, key.pipeline)};
+    return std::ranges::any_of(traces, [&](const TraceChoice& trace) {
+      return address == cell_address(input->second, scenario.metrics, *pipeline, key.seed, trace);
+    });
+  }
+
+ private:
+  std::map<std::string, std::string> inputs_;  // a log's is the hash of the whole file
+};
 
 /// Files that a score of any families may have left in a cell, beside metrics.csv.
 std::set<std::string> table_files() {
@@ -108,6 +127,7 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
   const std::set<std::string> known_tables = table_files();
   std::vector<std::pair<fs::path, std::string>> files;  // written when all are known: whoever stops it changes nothing
   std::vector<fs::path> stale;                          // tables of an earlier score that this one does not make
+  ScenarioAddresses addresses;
   std::map<std::pair<std::string, std::uint64_t>, Recording> recordings;  // at most one at a time
   for (std::size_t i = 0; i < manifest.cells.size(); ++i) {
     const CellKey& key = manifest.cells[i];
@@ -124,6 +144,10 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
     }
     const Scores scores = score_cell(scenario->metrics, recordings.at(source), cell);
     files.emplace_back(cell / "metrics.csv", metrics_csv(scores.rows));
+    if (CellRecord record = load_status(cell); !addresses.is_of(*scenario, key, record.address)) {
+      record.address.clear();  // no run makes what is scored with other metrics: --resume makes the cell anew
+      files.emplace_back(cell / "status.json", status_json(record));
+    }
     std::set<std::string> others = known_tables;
     for (const auto& table : scores.tables) {
       files.emplace_back(cell / (table.name + ".csv"), metric_table_csv(table));

@@ -48,9 +48,17 @@ TEST(Score, OfARunReadsFilesOnlyAndMayBeRepeatedWithOtherMetrics) {
   EXPECT_EQ(score_run(run, {scenario}), 2u);
   EXPECT_EQ(testing::artefacts(run), before);
 
+  const auto stands = [&] {
+    const auto cells = testing::run_here({scenario}, {.out = run, .resume = true}).cells;
+    return std::ranges::count_if(cells, [](const CellResult& cell) { return cell.reused; });
+  };
+  EXPECT_EQ(stands(), 2);
+  const auto metrics = scenario.metrics;
   scenario.metrics = {};
   score_run(run, {scenario});
   EXPECT_EQ(read_file(run / "summary.csv"), summary_header());
+  scenario.metrics = metrics;
+  EXPECT_EQ(stands(), 0);  // cells without metrics are not those of the scenario
   scenario.metrics = {{"metrics", "test_metrics", {}}};
   // The labels decide, not what the run once computed.
   const fs::path cell = cell_path(run, {"s", "good", 1});
