@@ -165,7 +165,7 @@ std::vector<Table> departure_tables(const std::string& scenario, const std::vect
               {}};
   std::size_t stated = 0;
   auto columns = compared(all);
-  std::ranges::stable_partition(columns, [](const auto* column) { return !column->metric.timing; });
+  std::stable_partition(columns.begin(), columns.end(), [](const auto* column) { return !column->metric.timing; });
   for (const auto* column : columns) {
     double largest = 0.0;
     for (const auto& cell : column->cells)

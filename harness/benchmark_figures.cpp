@@ -111,7 +111,6 @@ class Drawer {
   Drawer(const fs::path& run, const std::vector<Scenario>& scenarios, const BenchmarkSpec& spec, bool pdf)
       : run_(run),
         scenarios_(scenarios),
-        spec_(spec),
         pdf_(pdf),
         rows_(load_summary(run / "summary.csv")),
         seeds_(seeds_of(rows_)),
@@ -237,7 +236,6 @@ class Drawer {
 
   const fs::path& run_;
   const std::vector<Scenario>& scenarios_;
-  const BenchmarkSpec& spec_;
   bool pdf_;
   std::vector<SummaryRow> rows_;
   std::vector<std::uint64_t> seeds_;

@@ -43,11 +43,11 @@ class ScenarioAddresses {
   bool is_of(const Scenario& scenario, const CellKey& key, const std::string& address) {
     const auto pipeline = std::ranges::find(scenario.pipelines, key.pipeline, &PipelineSpec::name);
     if (pipeline == scenario.pipelines.end()) return false;
-    const auto [input, is_new] = inputs_.try_emplace(scenario.name);
-    if (is_new) input->second = input_address(scenario);
+    std::string& input = inputs_[scenario.name];
+    if (input.empty()) input = input_address(scenario);
     const TraceChoice traces[] = {{}, {.all = true}, traces_drawn(scenario, key.pipeline)};
     return std::ranges::any_of(traces, [&](const TraceChoice& trace) {
-      return address == cell_address(input->second, scenario.metrics, *pipeline, key.seed, trace);
+      return address == cell_address(input, scenario.metrics, *pipeline, key.seed, trace);
     });
   }
 
