@@ -32,8 +32,8 @@ struct RunProgress {
 
 struct RunOptions {
   std::filesystem::path out;
-  int jobs = 1;                           ///< children at once
-  std::vector<std::string> only = {};     ///< names of scenarios or pipelines, or "scenario/pipeline"; empty: all
+  int jobs = 1;                        ///< children at once
+  std::vector<std::string> only = {};  ///< names of scenarios or pipelines, or "scenario/pipeline"; empty: all
   bool resume = false;
   bool journal = false;                ///< the whole trace.csv in every cell; else the rows that the figures draw from
   std::vector<std::string> argv = {};  ///< for the manifest
