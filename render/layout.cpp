@@ -61,7 +61,12 @@ void equalise(PanelLayout& place) {
 }
 
 std::vector<Tick> ticks_of(const Axis& axis, double low, double high, int count) {
-  if (axis.ticks.empty()) return axis.log ? log_ticks(low, high, count) : linear_ticks(low, high, count);
+  if (axis.ticks.empty() && axis.log) return log_ticks(low, high, count);
+  if (axis.ticks.empty()) {
+    std::vector<Tick> ticks = linear_ticks(low, high, count);
+    while (ticks.size() < 2 && count <= 10) ticks = linear_ticks(low, high, count *= 2);  // one alone gives no scale
+    return ticks;
+  }
   std::vector<Tick> ticks;
   for (const auto& [value, label] : axis.ticks)
     if (value >= low && value <= high) ticks.push_back({value, label});

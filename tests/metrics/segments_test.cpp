@@ -55,7 +55,7 @@ TEST(Segments, CountsOneOfEachKind) {
     const Vec2 a = true_point(run, beams.front());
     return Vec2(a + share * (true_point(run, beams.back()) - a));
   };
-  // South in two pieces of 60 % and 40 %, east as a whole, a line through the room, a short stub, north and west not.
+  // South in two pieces of 60 % and 40 %, east as a whole, a line through the room, a short piece, north and west not.
   add_line(run, 0, line_between(at(south, 0.0), at(south, 0.6)), {});
   add_line(run, 0, line_between(at(south, 0.6), at(south, 1.0)), {});
   add_line(run, 0, line_between(at(east, 0.0), at(east, 1.0)), {});
@@ -76,7 +76,7 @@ TEST(Segments, CountsOneOfEachKind) {
 TEST(Segments, RightLinesOnPiecesTooSmallToCountAreFalseAndSaidToBeSmall) {
   // A wall, and 0.45 m of another one, 1 m apart in depth.
   MadeUpRun run = make_run(ScanGeometry(radians(10), radians(0.5), 320),
-                           {{"wall", {{0.0, 2.5}, {-2.0, 2.5}}}, {"stub", {{0.95, 1.5}, {0.5, 1.5}}}});
+                           {{"wall", {{0.0, 2.5}, {-2.0, 2.5}}}, {"post", {{0.95, 1.5}, {0.5, 1.5}}}});
   cast_frame(run, {});
   add_line(run, 0, line_between({0.0, 2.5}, {-2.0, 2.5}), {});
   add_line(run, 0, line_between({0.99, 1.5}, {0.47, 1.5}), {});

@@ -71,6 +71,33 @@ TEST(Layout, KeepsEveryTextOnTheCanvas) {
   }
 }
 
+TEST(Layout, AnyExtentKeepsItsAxisLabelsAndHasTwoGridLinesEachWay) {
+  // Ticks decide how wide their labels are, labels how wide the boxes, boxes what ticks there are.
+  CounterRng rng(11, RngStream::range);
+  for (int i = 0; i < 4000; ++i) {
+    const double width = std::pow(10.0, 3.0 * rng.uniform());
+    const double height = width * (0.4 + rng.uniform());
+    const Vec2 low(-width * rng.uniform(), -height * rng.uniform());
+    Scene scene = one_panel({Lines{.segments = {{low, low + Vec2(width, height)}}}});
+    scene.width_in = kDoubleColumnIn;
+    scene.panels[0].x.label = scene.panels[0].y.label = "y [m]";
+    scene.panels.resize(3, scene.panels[0]);
+    scene.columns = 1 + i % 3;
+    scene.share_axes = true;
+    const bool map = i % 4 != 0;
+    for (Panel& panel : scene.panels) panel.equal_aspect = map;
+    const Layout placed = layout(scene);
+    for (const PanelLayout& p : placed.panels) {
+      EXPECT_GE(p.x_ticks.size(), 2u) << "extent " << width << " x " << height << " from " << low.transpose();
+      EXPECT_GE(p.y_ticks.size(), 2u) << "extent " << width << " x " << height << " from " << low.transpose();
+    }
+    for (const TextShape* text : shapes_of<TextShape>(placed, -1))
+      if (text->upwards) {
+        EXPECT_GE(text->origin.x() - 0.73 * text->size, 0.0) << "extent " << width << " x " << height;
+      }
+  }
+}
+
 TEST(Layout, ScaleBarIsARoundNumberOfMetresLongOnPaper) {
   Scene scene = one_panel({Lines{.segments = {{{0, 0}, {14, 13}}}}});
   scene.scale_bar = true;
