@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "harness/benchmark.hpp"
-#include "harness/scenario.hpp"
+#include "harness/analysis/benchmark.hpp"
+#include "harness/scenario/benchmark_spec.hpp"
+#include "harness/scenario/scenario.hpp"
 
 namespace scanbench::app {
 

@@ -5,8 +5,12 @@
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
-#include "harness/catalog.hpp"
-#include "harness/suite.hpp"
+#include "harness/report/catalog.hpp"
+#include "harness/run/make_recording.hpp"
+#include "harness/scenario/benchmark_spec.hpp"
+#include "harness/scenario/effective.hpp"
+#include "harness/scenario/scenario_file.hpp"
+#include "harness/scenario/suite.hpp"
 
 namespace scanbench::app {
 namespace {

@@ -9,8 +9,9 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "core/error.hpp"
-#include "harness/run_folder.hpp"
-#include "harness/yaml_reader.hpp"
+#include "harness/store/manifest.hpp"
+#include "harness/store/run_folder.hpp"
+#include "harness/yaml/reader.hpp"
 
 namespace {
 

@@ -5,12 +5,15 @@
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
-#include "harness/atomic_file.hpp"
-#include "harness/cell_files.hpp"
-#include "harness/export.hpp"
-#include "harness/polygon_files.hpp"
-#include "harness/recording_folder.hpp"
-#include "harness/run_folder.hpp"
+#include "harness/exchange/export.hpp"
+#include "harness/exchange/polygon_files.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/run/make_recording.hpp"
+#include "harness/scenario/effective.hpp"
+#include "harness/store/cell_files.hpp"
+#include "harness/store/manifest.hpp"
+#include "harness/store/recording_folder.hpp"
+#include "harness/store/run_folder.hpp"
 
 namespace scanbench::app {
 namespace {

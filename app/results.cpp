@@ -6,13 +6,15 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "core/number_text.hpp"
-#include "harness/atomic_file.hpp"
-#include "harness/compare.hpp"
-#include "harness/run_folder.hpp"
-#include "harness/run_report.hpp"
-#include "harness/runner.hpp"
-#include "harness/score.hpp"
-#include "harness/table.hpp"
+#include "harness/analysis/compare.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/report/run_report.hpp"
+#include "harness/report/table.hpp"
+#include "harness/run/runner.hpp"
+#include "harness/run/score.hpp"
+#include "harness/store/manifest.hpp"
+#include "harness/store/run_files.hpp"
+#include "harness/store/run_folder.hpp"
 
 namespace scanbench::app {
 namespace {

@@ -7,9 +7,14 @@
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
-#include "harness/run_report.hpp"
-#include "harness/runner.hpp"
-#include "harness/scenario_tables.hpp"
+#include "harness/report/page_input.hpp"
+#include "harness/report/run_report.hpp"
+#include "harness/report/scenario_tables.hpp"
+#include "harness/run/run_options.hpp"
+#include "harness/run/runner.hpp"
+#include "harness/scenario/benchmark_spec.hpp"
+#include "harness/store/cell_status.hpp"
+#include "harness/store/run_files.hpp"
 
 namespace scanbench::app {
 namespace {

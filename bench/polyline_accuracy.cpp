@@ -16,8 +16,8 @@
 #include "core/error.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
-#include "harness/csv.hpp"
-#include "harness/text_file.hpp"
+#include "harness/files/csv.hpp"
+#include "harness/files/text_file.hpp"
 
 namespace scanbench::accuracy {
 namespace {

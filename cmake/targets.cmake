@@ -38,19 +38,29 @@ function(scanbench_precompile target)
   endif()
 endfunction()
 
-# scanbench_library(folder [OBJECT]): target scanbench_<folder> from all of the folder's files.
-function(scanbench_library folder)
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
-  if(ARGN STREQUAL "OBJECT")
-    add_library(scanbench_${folder} OBJECT ${sources})
-  else()
-    add_library(scanbench_${folder} STATIC ${sources})
+# scanbench_library(name [OBJECT] [FOLDER folder] [REUSE other | PRECOMPILE header...]): target scanbench_<name> from all files of the folder,
+# which has that name unless it is given. It reuses the headers that another target
+# has precompiled, or precompiles more than the usual ones.
+function(scanbench_library name)
+  cmake_parse_arguments(arg "OBJECT" "FOLDER;REUSE" "PRECOMPILE" ${ARGN})
+  if(NOT arg_FOLDER)
+    set(arg_FOLDER ${name})
   endif()
-  target_sources(scanbench_${folder} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
-  set_target_properties(scanbench_${folder} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
-  scanbench_flags(scanbench_${folder})
-  scanbench_precompile(scanbench_${folder})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${arg_FOLDER}/*.cpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${arg_FOLDER}/*.hpp)
+  if(arg_OBJECT)
+    add_library(scanbench_${name} OBJECT ${sources})
+  else()
+    add_library(scanbench_${name} STATIC ${sources})
+  endif()
+  target_sources(scanbench_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
+  set_target_properties(scanbench_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+  scanbench_flags(scanbench_${name})
+  if(arg_REUSE)
+    scanbench_precompile(scanbench_${name} REUSE scanbench_${arg_REUSE})
+  else()
+    scanbench_precompile(scanbench_${name} ${arg_PRECOMPILE})
+  endif()
 endfunction()
 
 # scanbench_executable(name FOLDER folder | SOURCES file...): links every module. Files that register themselves must arrive
@@ -62,8 +72,10 @@ function(scanbench_executable name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   scanbench_flags(${name})
-  target_link_libraries(${name} PRIVATE scanbench_algorithms scanbench_harness scanbench_sim scanbench_metrics scanbench_render
-                                        scanbench_core)
+  # From the top down, so that no whole archive has to appear a second time.
+  target_link_libraries(${name} PRIVATE scanbench_algorithms scanbench_report scanbench_analysis scanbench_run scanbench_store
+                                        scanbench_scenario scanbench_exchange scanbench_yaml scanbench_files
+                                        scanbench_sim scanbench_metrics scanbench_render scanbench_core)
   set_target_properties(${name} PROPERTIES LINK_LIBRARY_OVERRIDE
     "WHOLE_ARCHIVE,scanbench_sim,scanbench_metrics,scanbench_render")
 endfunction()

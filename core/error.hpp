@@ -32,6 +32,12 @@ class InternalError : public std::logic_error {
 
 [[noreturn]] void fail_assertion(const char* condition, const char* file, int line);
 
+/// A module's result breaks the contract of its interface: labels of another length, numbers that are not finite.
+class InvalidResult : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace scanbench
 
 /// Checks a condition that only a bug of ours can break. Stays on in every build: none of them stands in an inner loop.

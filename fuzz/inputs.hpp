@@ -6,12 +6,14 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "harness/export.hpp"
-#include "harness/log.hpp"
-#include "harness/scenario.hpp"
-#include "harness/suite.hpp"
-#include "harness/world_file.hpp"
+#include "harness/exchange/export.hpp"
+#include "harness/exchange/log.hpp"
+#include "harness/scenario/scenario.hpp"
+#include "harness/scenario/suite.hpp"
+#include "harness/scenario/world_file.hpp"
 #include "sim/sensors.hpp"
+#include "harness/scenario/scenario_file.hpp"
+#include "harness/scenario/effective.hpp"
 
 namespace scanbench::fuzz {
 

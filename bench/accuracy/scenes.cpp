@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/rng.hpp"
-#include "harness/world_file.hpp"
+#include "harness/scenario/world_file.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulate.hpp"

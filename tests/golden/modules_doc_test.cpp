@@ -5,7 +5,7 @@
 #include <iterator>
 #include <string>
 
-#include "harness/catalog.hpp"
+#include "harness/report/catalog.hpp"
 #include "tests/support/places.hpp"
 
 namespace scanbench {

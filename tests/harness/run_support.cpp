@@ -16,7 +16,8 @@
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
-#include "harness/atomic_file.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/scenario/effective.hpp"
 #include "metrics/metric.hpp"
 #include "render/figure.hpp"
 

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "core/recording.hpp"
-#include "harness/runner.hpp"
+#include "harness/run/run_options.hpp"
+#include "harness/run/runner.hpp"
 
 namespace scanbench::harness::testing {
 

@@ -1,0 +1,169 @@
+// Student's t and BCa bootstrap intervals of a mean.
+#include "harness/analysis/statistics.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTail = 0.025;
+constexpr int kResamples = 2000;
+
+std::vector<double> finite(std::span<const double> values) {
+  std::vector<double> kept;
+  for (const double v : values)
+    if (std::isfinite(v)) kept.push_back(v);
+  return kept;
+}
+
+double mean_of(std::span<const double> values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+struct Ends {
+  double low;
+  double high;
+};
+
+Ends student_t(std::span<const double> values, double mean) {
+  const auto n = static_cast<double>(values.size());
+  double squares = 0.0;
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  const boost::math::students_t distribution(n - 1.0);
+  const double reach = boost::math::quantile(distribution, 1.0 - kTail) * std::sqrt(squares / (n - 1.0) / n);
+  return {mean - reach, mean + reach};
+}
+
+// Efron, "Better bootstrap confidence intervals", JASA 1987, with the jackknife's acceleration.
+Ends bca_bootstrap(std::span<const double> values, double mean) {
+  const std::size_t n = values.size();
+  std::vector<double> resampled(kResamples);
+  CounterRng rng(0, RngStream::resampling, static_cast<std::uint32_t>(n));
+  std::int64_t below = 0;
+  std::int64_t equal = 0;
+  for (double& r : resampled) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) sum += values[static_cast<std::size_t>(rng.uniform() * static_cast<double>(n))];
+    r = sum / static_cast<double>(n);
+    below += r < mean;
+    equal += r == mean;
+  }
+  std::ranges::sort(resampled);
+  const boost::math::normal normal;
+  const double share = std::clamp((static_cast<double>(below) + 0.5 * static_cast<double>(equal)) / kResamples,
+                                  1.0 / kResamples, 1.0 - 1.0 / kResamples);
+  const double bias = boost::math::quantile(normal, share);
+  // The mean without value i differs from their mean by (mean - v_i) / (n - 1): the factor cancels in the acceleration.
+  double cubes = 0.0;
+  double squares = 0.0;
+  for (const double v : values) {
+    cubes += std::pow(v - mean, 3);
+    squares += (v - mean) * (v - mean);
+  }
+  if (squares == 0.0) return {mean, mean};
+  const double acceleration = cubes / (6.0 * std::pow(squares, 1.5));
+  const auto end = [&](double probability) {
+    const double z = bias + boost::math::quantile(normal, probability);
+    const double adjusted = boost::math::cdf(normal, bias + z / (1.0 - acceleration * z));
+    const auto index = static_cast<std::size_t>(std::clamp(adjusted * kResamples, 0.0, kResamples - 1.0));
+    return resampled[index];
+  };
+  return {end(kTail), end(1.0 - kTail)};
+}
+
+}  // namespace
+
+Interval mean_interval(std::span<const double> all) {
+  const std::vector<double> values = finite(all);
+  const auto count = static_cast<std::int64_t>(values.size());
+  if (values.empty()) return {kNaN, kNaN, kNaN, 0};
+  const double mean = mean_of(values);
+  if (values.size() < 2) return {mean, mean, mean, count};
+  const Ends t = student_t(values, mean);
+  const Ends bootstrap = bca_bootstrap(values, mean);
+  return {mean, std::min(t.low, bootstrap.low), std::max(t.high, bootstrap.high), count};
+}
+
+double paired_p_value(std::span<const double> all) {
+  const std::vector<double> values = finite(all);
+  if (values.size() < 2) return kNaN;
+  const auto n = static_cast<double>(values.size());
+  const double mean = mean_of(values);
+  double squares = 0.0;
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  if (squares == 0.0) return mean == 0.0 ? 1.0 : 0.0;
+  const double t = mean / std::sqrt(squares / (n - 1.0) / n);
+  const boost::math::students_t distribution(n - 1.0);
+  return 2.0 * boost::math::cdf(boost::math::complement(distribution, std::fabs(t)));
+}
+
+std::vector<double> holm_adjusted(std::span<const double> p_values) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < p_values.size(); ++i)
+    if (std::isfinite(p_values[i])) order.push_back(i);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p_values[i]; });
+  std::vector<double> adjusted(p_values.begin(), p_values.end());
+  double largest = 0.0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const double corrected = static_cast<double>(order.size() - k) * p_values[order[k]];
+    largest = std::min(1.0, std::max(largest, corrected));
+    adjusted[order[k]] = largest;
+  }
+  return adjusted;
+}
+
+double median(std::span<const double> all) {
+  std::vector<double> values = finite(all);
+  if (values.empty()) return kNaN;
+  std::ranges::sort(values);
+  const std::size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+MedianInterval median_interval(std::span<const double> all) {
+  std::vector<double> values = finite(all);
+  std::ranges::sort(values);
+  const std::size_t n = values.size();
+  // The number of values below the median is binomial(n, 1/2): ranks k and n + 1 - k miss it with 2 P(X < k).
+  std::size_t k = 0;
+  double term = std::pow(0.5, static_cast<double>(n));
+  for (double below = term; below <= kTail && k < n / 2; below += term) {
+    ++k;
+    term *= static_cast<double>(n - k + 1) / static_cast<double>(k);
+  }
+  if (k == 0) return {kNaN, kNaN};
+  return {values[k - 1], values[n - k]};
+}
+
+double pearson_correlation(std::span<const double> x, std::span<const double> y) {
+  SCANBENCH_ASSERT(x.size() == y.size());
+  std::vector<double> a, b;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) continue;
+    a.push_back(x[i]);
+    b.push_back(y[i]);
+  }
+  if (a.size() < 2) return kNaN;
+  const double ma = mean_of(a);
+  const double mb = mean_of(b);
+  double saa = 0.0, sbb = 0.0, sab = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    saa += (a[i] - ma) * (a[i] - ma);
+    sbb += (b[i] - mb) * (b[i] - mb);
+    sab += (a[i] - ma) * (b[i] - mb);
+  }
+  return saa > 0 && sbb > 0 ? sab / std::sqrt(saa * sbb) : kNaN;
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,128 @@
+// Lines, angles, poses and readings: the rules that all log formats share.
+#include "harness/exchange/log_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "core/number_text.hpp"
+#include "harness/files/text_file.hpp"
+
+namespace scanbench::harness {
+
+bool LogLines::next() {
+  if (rest_.empty()) return false;
+  ends_open_ = rest_.find('\n') == std::string_view::npos;
+  line_ = take_line(rest_);
+  ++number_;
+  return true;
+}
+
+void LogLines::refuse(std::string_view word, const std::string& message) const {
+  throw PlacedError({number_, column_of(line_, word)},
+                    message + (cut_short() ? "; the file ends in this line: is it cut short?" : ""));
+}
+
+void LogLines::check_last_number(const std::vector<std::string_view>& words) const {
+  constexpr std::size_t kWitnesses = 32;
+  if (!cut_short() || words.size() <= kWitnesses) return;
+  const auto decimals = [](std::string_view word) {
+    const std::size_t point = word.find('.');
+    return point == std::string_view::npos ? 0 : word.size() - point - 1;
+  };
+  const auto before = std::span(words).last(kWitnesses + 1).first(kWitnesses);
+  const std::size_t usual = decimals(before.front());
+  if (decimals(words.back()) >= usual) return;
+  if (!std::ranges::all_of(before, [&](std::string_view word) { return decimals(word) == usual; })) return;
+  refuse(words.back(), fmt::format("{} has fewer than the {} decimals of the numbers before it; allowed: all of them, "
+                                   "or a line break behind a number that is whole",
+                                   quoted_excerpt(words.back()), usual));
+}
+
+double LogLines::number_of(std::string_view word, std::string_view what) const {
+  const auto number = parse_number(word);
+  if (!number) refuse(word, fmt::format("{} is {}; allowed: a number", what, quoted_excerpt(word)));
+  return *number;
+}
+
+LogBuilder::LogBuilder(const LogOptions& options)
+    : options_(options), robot_from_sensor_(options.sensor_x_m, options.sensor_y_m, radians(options.sensor_yaw_deg)) {}
+
+bool LogBuilder::wants_scan() {
+  return scans_++ % options_.every == 0;
+}
+
+bool LogBuilder::full() const {
+  return options_.max_frames > 0 && frames_.size() >= static_cast<std::size_t>(options_.max_frames);
+}
+
+void LogBuilder::check_beams(const LogLines& lines, std::size_t beams) {
+  if (beams_line_ == 0) {
+    beams_ = beams;
+    beams_line_ = lines.number();
+  } else if (beams != beams_) {
+    lines.refuse(lines.line(),
+                 fmt::format("{} ranges, but the scan in line {} has {}; allowed: one number of ranges in a log", beams,
+                             beams_line_, beams_));
+  }
+}
+
+BeamAngles LogBuilder::angles_by_rule(const LogLines& lines, std::size_t beams) const {
+  if (options_.step_deg != 0) return {options_.first_angle_deg, options_.step_deg};
+  const auto n = static_cast<double>(beams);
+  if (beams == 180 || beams == 360) return {-90.0, 180.0 / n};
+  if (beams == 181 || beams == 361) return {-90.0, 180.0 / (n - 1.0)};
+  lines.refuse(lines.line(),
+               fmt::format("a scan of {} ranges without beam angles; allowed: 180, 181, 360 or 361 ranges, or "
+                           "first_angle_deg and step_deg given",
+                           beams));
+}
+
+void LogBuilder::check_angles(const LogLines& lines, const BeamAngles& angles) {
+  if (!has_angles_) {
+    angles_ = angles;
+    has_angles_ = true;
+  } else if (angles.first_deg != angles_.first_deg || angles.step_deg != angles_.step_deg) {
+    lines.refuse(lines.line(),
+                 fmt::format("beams from {} deg in steps of {} deg, but the scan in line {} has {} and {}; "
+                             "allowed: one set of angles in a log",
+                             angles.first_deg, angles.step_deg, beams_line_, angles_.first_deg, angles_.step_deg));
+  }
+}
+
+Pose2 LogBuilder::pose(const LogLines& lines, double x_m, double y_m, double yaw_rad) const {
+  constexpr double kLargestYaw = 1e5;  // beyond it sine and cosine have no meaning, and portable::sincos gives NaN
+  if (std::abs(yaw_rad) > kLargestYaw)
+    lines.refuse(lines.line(), fmt::format("a heading of {} rad; allowed: up to 1e5 rad", yaw_rad));
+  const Pose2 world_from_robot(x_m, y_m, yaw_rad);
+  return robot_from_sensor_ == Pose2() ? world_from_robot : world_from_robot * robot_from_sensor_;
+}
+
+double LogBuilder::reading(double range_m) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (range_m == -kInfinity) return range_m;
+  if (!(range_m > 0)) return std::numeric_limits<double>::quiet_NaN();
+  if (range_m < options_.range_min_m) return -kInfinity;
+  return options_.no_return_m > 0 && range_m >= options_.no_return_m ? kInfinity : range_m;
+}
+
+Recording LogBuilder::finish(SensorModel sensor, bool has_stamps) {
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    if (!has_stamps) frames_[i].stamp_s = static_cast<double>(i) * sensor.scan_period_s * options_.every;
+    for (const double r : frames_[i].ranges)
+      if (std::isfinite(r)) greatest = std::max(greatest, r);
+  }
+  sensor.geometry = ScanGeometry(radians(angles_.first_deg), radians(angles_.step_deg), static_cast<int>(beams_));
+  sensor.range_min_m = options_.range_min_m;
+  sensor.range_max_m = options_.no_return_m > 0 ? options_.no_return_m : std::max(sensor.range_max_m, greatest);
+  Recording recording;
+  recording.observed.sensor = std::move(sensor);
+  recording.observed.frames = std::move(frames_);
+  return recording;
+}
+
+}  // namespace scanbench::harness

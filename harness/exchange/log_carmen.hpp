@@ -1,0 +1,14 @@
+// Logs with one message per line: CARMEN and DP-SLAM.
+#pragma once
+
+#include <string_view>
+
+#include "harness/exchange/log_builder.hpp"
+
+namespace scanbench::harness {
+
+/// Throws PlacedError for a line that is not as the format says (log.hpp).
+Recording parse_carmen(std::string_view text, const LogOptions& options, const SensorModel& sensor);
+Recording parse_dpslam(std::string_view text, const LogOptions& options, const SensorModel& sensor);
+
+}  // namespace scanbench::harness

@@ -1,0 +1,13 @@
+// Logs with one scan per row of numbers.
+#pragma once
+
+#include <string_view>
+
+#include "harness/exchange/log_builder.hpp"
+
+namespace scanbench::harness {
+
+/// Throws PlacedError for a row that does not fit the columns, ParamError for `columns` (log.hpp).
+Recording parse_csv_scans(std::string_view text, const LogOptions& options, const SensorModel& sensor);
+
+}  // namespace scanbench::harness

@@ -1,0 +1,170 @@
+// POSIX calls behind the atomic writers: std::filesystem has neither fsync nor exchange.
+#include "harness/files/atomic_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+
+namespace scanbench::harness {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void refuse(const std::string& verb, const fs::path& path, int error) {
+  throw ConfigError("cannot " + verb + " " + path.string() + ": " + std::strerror(error));
+}
+
+/// A file descriptor that closes itself.
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return fd_; }
+  explicit operator bool() const { return fd_ >= 0; }
+  /// close() reports what a network file system found only now.
+  int close() { return ::close(std::exchange(fd_, -1)); }
+
+ private:
+  int fd_;
+};
+
+/// 0, or errno.
+int write_and_flush(const fs::path& path, std::string_view bytes, bool flush) {
+  Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW);
+  if (!file) return errno;
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(file.get(), bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+  if (flush && ::fsync(file.get()) != 0) return errno;
+  return file.close() == 0 ? 0 : errno;
+}
+
+void flush_folder(const fs::path& path) {
+  const Descriptor folder(path.empty() ? fs::path(".") : path, O_RDONLY | O_DIRECTORY);
+  if (!folder || ::fsync(folder.get()) != 0) refuse("write", path, errno);
+}
+
+fs::path temporary_beside(const fs::path& path) {
+  return path.parent_path() / ("." + path.filename().string() + ".tmp-" + std::to_string(::getpid()));
+}
+
+}  // namespace
+
+std::string read_file(const fs::path& path) {
+  const Descriptor file(path, O_RDONLY);
+  if (!file) refuse("read", path, errno);
+  struct stat info {};
+  if (::fstat(file.get(), &info) != 0) refuse("read", path, errno);
+  if (S_ISDIR(info.st_mode)) refuse("read", path, EISDIR);
+  std::string bytes;
+  bytes.resize(static_cast<std::size_t>(info.st_size));
+  std::size_t filled = 0;
+  while (true) {
+    if (filled == bytes.size()) bytes.resize(bytes.size() + 1);  // proves the end; files in /proc say size 0
+    const ssize_t n = ::read(file.get(), bytes.data() + filled, bytes.size() - filled);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) refuse("read", path, errno);
+    if (n == 0) break;
+    filled += static_cast<std::size_t>(n);
+    if (filled == bytes.size() && filled > static_cast<std::size_t>(info.st_size)) bytes.resize(2 * filled);
+  }
+  bytes.resize(filled);
+  return bytes;
+}
+
+void write_file_atomically(const fs::path& path, std::string_view bytes) {
+  const fs::path temporary = temporary_beside(path);
+  int error = write_and_flush(temporary, bytes, true);
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    refuse("write", path, error);
+  }
+  flush_folder(path.parent_path());
+}
+
+void write_staged_file(const fs::path& path, std::string_view bytes) {
+  const int error = write_and_flush(path, bytes, false);
+  if (error != 0) refuse("write", path, error);
+}
+
+void remove_file(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) refuse("remove", path, error.value());
+}
+
+void make_folders(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) refuse("make the folder", path, error.value());
+}
+
+void exchange_folders(const fs::path& a, const fs::path& b) {
+  if (::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) return;
+  if (errno != EINVAL && errno != ENOSYS) refuse("replace", b, errno);
+  // A file system without exchange: for an instant b does not exist, but all of it stands beside.
+  const fs::path aside = temporary_beside(b).string() + "-aside";
+  if (::rename(b.c_str(), aside.c_str()) != 0) refuse("replace", b, errno);
+  if (::rename(a.c_str(), b.c_str()) != 0) {
+    const int error = errno;
+    ::rename(aside.c_str(), b.c_str());
+    refuse("replace", b, error);
+  }
+  if (::rename(aside.c_str(), a.c_str()) != 0) refuse("replace", b, errno);
+}
+
+bool is_temporary_name(std::string_view name) {
+  return name.starts_with('.') && name.find(".tmp-") != std::string_view::npos;
+}
+
+StagedFolder::StagedFolder(fs::path target) : target_(std::move(target)), staging_(temporary_beside(target_)) {
+  make_folders(target_.parent_path());
+  clear();
+}
+
+StagedFolder::StagedFolder(StagedFolder&& other) noexcept
+    : target_(std::move(other.target_)), staging_(std::exchange(other.staging_, {})) {}
+
+StagedFolder::~StagedFolder() {
+  std::error_code ignored;
+  if (!staging_.empty()) fs::remove_all(staging_, ignored);
+}
+
+void StagedFolder::clear() {
+  std::error_code error;
+  fs::remove_all(staging_, error);
+  if (error) refuse("write", staging_, error.value());
+  make_folders(staging_);
+}
+
+void StagedFolder::commit() {
+  {
+    // One call for all files of the folder: measured 3 ms instead of 20 ms for six calls of fsync.
+    const Descriptor folder(staging_, O_RDONLY | O_DIRECTORY);
+    if (!folder || ::syncfs(folder.get()) != 0) refuse("write", staging_, errno);
+  }
+  std::error_code ignored;
+  if (fs::exists(target_, ignored)) {
+    exchange_folders(staging_, target_);
+    fs::remove_all(staging_, ignored);
+  } else if (::rename(staging_.c_str(), target_.c_str()) != 0) {
+    refuse("write", target_, errno);
+  }
+  staging_.clear();
+  flush_folder(target_.parent_path());
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,67 @@
+// SHA-256 through OpenSSL's EVP interface.
+#include "harness/files/hash.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+#include <openssl/evp.h>
+
+#include "core/error.hpp"
+
+namespace scanbench::harness {
+
+void Sha256::Free::operator()(evp_md_ctx_st* context) const {
+  EVP_MD_CTX_free(context);
+}
+
+Sha256::Sha256() : context_(EVP_MD_CTX_new()) {
+  SCANBENCH_ASSERT(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+}
+
+Sha256& Sha256::add(std::string_view bytes) {
+  SCANBENCH_ASSERT(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1);
+  return *this;
+}
+
+Sha256& Sha256::part(std::string_view name, std::string_view bytes) {
+  add(std::to_string(name.size())).add(":").add(name);
+  return add(std::to_string(bytes.size())).add(":").add(bytes);
+}
+
+std::string Sha256::hex() {
+  std::array<unsigned char, 32> digest{};
+  SCANBENCH_ASSERT(EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr) == 1);
+  static constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  text.reserve(64);
+  for (const unsigned char byte : digest) {
+    text.push_back(kDigits[byte >> 4]);
+    text.push_back(kDigits[byte & 15]);
+  }
+  return text;
+}
+
+std::string sha256_hex(std::string_view bytes) {
+  return Sha256().add(bytes).hex();
+}
+
+std::string sha256_of_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw ConfigError("cannot read " + path.string() + ": " + std::strerror(errno));
+  Sha256 hash;
+  std::vector<char> block(1 << 16);
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
+    hash.add({block.data(), static_cast<std::size_t>(file.gcount())});
+  if (file.bad()) throw ConfigError("cannot read " + path.string() + ": " + std::strerror(errno));
+  return hash.hex();
+}
+
+const std::string& code_version() {
+  static const std::string version = sha256_of_file("/proc/self/exe");
+  return version;
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,258 @@
+// Curves from rows and matches; render/facets makes the panels.
+#include "harness/report/benchmark_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/registry.hpp"
+#include "harness/analysis/error_bins.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/files/csv.hpp"
+#include "harness/scenario/benchmark_spec.hpp"
+#include "harness/store/run_folder.hpp"
+#include "harness/store/summary.hpp"
+#include "render/facets.hpp"
+#include "render/figure.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+using render::Facet;
+using render::FacetChart;
+using render::FacetCurve;
+
+constexpr std::int64_t kLeastMatches = 30;  // of a point of a curve
+constexpr double kFirstRange = 1.0;         // m; and a third of an octave
+const double kRangeRatio = std::cbrt(2.0);
+constexpr double kFirstBound = 0.1;  // cm, deg; and a fourth of a decade
+const double kBoundRatio = std::pow(10.0, 0.25);
+
+/// The matches of one pipeline, binned.
+struct MatchBins {
+  ErrorBins offset_by_range{kFirstRange, kRangeRatio};
+  ErrorBins angle_by_range{kFirstRange, kRangeRatio};
+  ErrorBins offset_by_bound{kFirstBound, kBoundRatio};
+  ErrorBins angle_by_bound{kFirstBound, kBoundRatio};
+};
+
+void add_matches(const fs::path& file, std::uint64_t seed, bool by_range, MatchBins& bins) {
+  if (!fs::exists(file)) return;
+  const CsvTable csv(read_file(file), file, {"range_m", "offset_m", "angle_rad", "bound_offset_m", "bound_angle_rad"});
+  for (std::size_t r = 0; r < csv.rows(); ++r) {
+    const double range = csv.number(r, "range_m");
+    const double offset = 100.0 * csv.number(r, "offset_m");
+    const double angle = degrees(csv.number(r, "angle_rad"));
+    const double offset_bound = 100.0 * csv.number(r, "bound_offset_m");
+    const double angle_bound = degrees(csv.number(r, "bound_angle_rad"));
+    if (by_range) {
+      bins.offset_by_range.add(seed, range, offset, offset_bound);
+      bins.angle_by_range.add(seed, range, angle, angle_bound);
+    }
+    bins.offset_by_bound.add(seed, offset_bound, offset, offset_bound);
+    bins.angle_by_bound.add(seed, angle_bound, angle, angle_bound);
+  }
+}
+
+/// Only the cells of the example's noise go into the curves over range: elsewhere the noise would hide the range.
+MatchBins load_matches(const fs::path& run, const std::vector<Scenario>& scenarios, const std::string& pipeline,
+                       const std::vector<std::uint64_t>& seeds, double noise) {
+  MatchBins bins;
+  for (const auto& scenario : scenarios)
+    for (const std::uint64_t seed : seeds)
+      add_matches(cell_path(run, {scenario.name, pipeline, seed}) / "matches.csv", seed, noise_m(scenario) == noise,
+                  bins);
+  return bins;
+}
+
+enum class Against { range, bound };
+
+FacetCurve curve_of(const std::vector<ErrorPoint>& points, Against against) {
+  FacetCurve curve;
+  for (const ErrorPoint& p : points) {
+    const double x = against == Against::range ? p.x : p.bound;
+    curve.points.emplace_back(x, p.rms);
+    curve.intervals.push_back({x, p.low, p.high});
+  }
+  return curve;
+}
+
+std::vector<Vec2> bound_curve(const std::vector<ErrorPoint>& points) {
+  std::vector<Vec2> curve;
+  for (const ErrorPoint& p : points) curve.emplace_back(p.x, p.bound);
+  return curve;
+}
+
+/// A logarithmic range about the points of the curves, not about their intervals.
+std::pair<double, double> log_range(const std::vector<Facet>& facets, int coordinate) {
+  double low = INFINITY, high = 0.0;
+  const auto take = [&](const std::vector<Vec2>& points) {
+    for (const Vec2& p : points) low = std::min(low, p[coordinate]), high = std::max(high, p[coordinate]);
+  };
+  for (const Facet& facet : facets) {
+    take(facet.reference);
+    for (const FacetCurve& curve : facet.curves) take(curve.points);
+  }
+  return low < high ? std::pair(low / 1.25, high * 1.25) : std::pair(0.1, 10.0);
+}
+
+/// 1, 2, 5 times powers of ten.
+std::vector<std::pair<double, std::string>> round_ticks(double low, double high) {
+  std::vector<std::pair<double, std::string>> ticks;
+  for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10)
+    for (const double multiple : {1.0, 2.0, 5.0})
+      ticks.emplace_back(multiple * decade, fmt::format("{:.3g}", multiple * decade));
+  return ticks;
+}
+
+class Drawer {
+ public:
+  Drawer(const fs::path& run, const std::vector<Scenario>& scenarios, const BenchmarkSpec& spec, bool pdf)
+      : run_(run),
+        scenarios_(scenarios),
+        pdf_(pdf),
+        rows_(load_summary(run / "summary.csv")),
+        seeds_(seeds_of(rows_)),
+        example_(*std::ranges::find(scenarios, spec.example, &Scenario::name)) {
+    for (const auto& ranked : rank_pipelines(scenarios, rows_, spec)) names_.push_back(ranked.name);
+  }
+
+  std::vector<FigureFile> draw(const std::function<void(double, const std::string&)>& progress) {
+    const auto step = [&](double share, const std::string& what) {
+      if (progress) progress(share, what);
+    };
+    step(0.0, "f1_noise");
+    draw_f1();
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      step(0.1 + 0.6 * static_cast<double>(i) / static_cast<double>(names_.size()), "matches of " + names_[i]);
+      bins_.push_back(load_matches(run_, scenarios_, names_[i], seeds_, noise_m(example_)));
+    }
+    step(0.7, "error_range");
+    draw_errors_over_range();
+    step(0.8, "error_bound");
+    draw_errors_over_bound();
+    step(0.9, "scan_overlay");
+    draw_example();
+    return std::move(files_);
+  }
+
+ private:
+  void write(const std::string& name, const std::string& caption, const FacetChart& chart) {
+    write_figure(run_, "benchmark_" + name, render::facet_scene(chart), pdf_);
+    files_.push_back({"benchmark", "benchmark_" + name, caption});
+  }
+
+  void draw_f1() {
+    std::set<double> levels;
+    for (const auto& scenario : scenarios_) levels.insert(noise_m(scenario));
+    const CellValues f1 = values_of(rows_, "f1");
+    FacetChart chart{.title = "F1 against noise: what is missing to 100 %",
+                     .x = {.label = "σ of a range [cm]"},
+                     .y = {.label = "100 − F1 [%]", .log = true, .ticks = round_ticks(1e-3, 100.0)},
+                     .curve_names = {"this extractor"},
+                     .others_name = "the others"};
+    for (const double level : levels) chart.x.ticks.emplace_back(100 * level, fmt::format("{:.3g}", 100 * level));
+    for (const auto& name : names_) {
+      FacetCurve curve;
+      for (const double level : levels) {
+        std::vector<std::string> at_level;
+        for (const auto& scenario : scenarios_)
+          if (noise_m(scenario) == level) at_level.push_back(scenario.name);
+        const Interval interval = mean_interval(per_seed(f1, name, seeds_, at_level));
+        curve.points.emplace_back(100 * level, 100 * (1 - interval.mean));
+        curve.intervals.push_back({100 * level, std::max(1e-3, 100 * (1 - interval.high)), 100 * (1 - interval.low)});
+      }
+      chart.facets.push_back({name, {curve}, {}});
+    }
+    chart.y.range = log_range(chart.facets, 1);
+    write("f1_noise",
+          "F1 against the standard deviation of the readings, as what is missing to 100 %, lower is better: mean over "
+          "worlds and sensors, bars are 95 % intervals over the seeds. In every panel the other extractors in grey; "
+          "panels in the order of rank.",
+          chart);
+  }
+
+  void draw_errors_over_range() {
+    const auto chart_of = [&](const std::string& what, const std::string& unit, ErrorBins MatchBins::*bins) {
+      FacetChart chart{.title = what + " error against range",
+                       .x = {.label = "range [m]", .log = true, .ticks = round_ticks(0.1, 100.0)},
+                       .y = {.label = "rms error [" + unit + "]", .log = true},
+                       .curve_names = {"this extractor"},
+                       .reference_name = "Cramér–Rao bound of its lines",
+                       .others_name = "the others"};
+      for (std::size_t i = 0; i < names_.size(); ++i) {
+        const auto points = (bins_[i].*bins).points(kLeastMatches);
+        chart.facets.push_back({names_[i], {curve_of(points, Against::range)}, bound_curve(points)});
+      }
+      chart.x.range = log_range(chart.facets, 0);
+      chart.y.range = log_range(chart.facets, 1);
+      return chart;
+    };
+    const std::string caption = fmt::format(
+        "error of matched lines with 20 returns or more against the range of the line's midpoint, noise {:.3g} cm, all "
+        "worlds and sensors. Root mean square in bins of a third of an octave with at least {} lines, geometric mean "
+        "over "
+        "the seeds with its 95 % interval. Dotted: what the same lines' readings allow.",
+        100 * noise_m(example_), kLeastMatches);
+    write("offset_range", "Offset " + caption, chart_of("Offset", "cm", &MatchBins::offset_by_range));
+    write("angle_range", "Angle " + caption, chart_of("Angle", "°", &MatchBins::angle_by_range));
+  }
+
+  void draw_errors_over_bound() {
+    FacetChart chart{.title = "Errors against their bound",
+                     .x = {.label = "√bound [cm], [°]", .log = true},
+                     .y = {.label = "error [cm], [°]", .log = true},
+                     .curve_names = {"offset [cm]", "angle [°]"},
+                     .reference_name = "error = bound"};
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      chart.facets.push_back({names_[i],
+                              {curve_of(bins_[i].offset_by_bound.points(kLeastMatches), Against::bound),
+                               curve_of(bins_[i].angle_by_bound.points(kLeastMatches), Against::bound)},
+                              {}});
+    chart.x.range = log_range(chart.facets, 0);
+    chart.y.range = log_range(chart.facets, 1);
+    for (Facet& facet : chart.facets)
+      facet.reference = {Vec2::Constant(chart.x.range->first), Vec2::Constant(chart.x.range->second)};
+    chart.y.range->first = std::min(chart.y.range->first, chart.x.range->first);
+    write(
+        "error_bound",
+        fmt::format(
+            "Errors of matched lines with 20 returns or more against the root of their Cramér–Rao bound, all "
+            "conditions: root mean square in bins of a fourth of a decade with at least {} lines, geometric mean "
+            "over the seeds with its 95 % interval. On the dotted line an extractor is as good as the readings allow.",
+            kLeastMatches),
+        chart);
+  }
+
+  void draw_example() {
+    Scenario scenario = example_;
+    std::ranges::sort(scenario.pipelines, {},
+                      [&](const PipelineSpec& p) { return std::ranges::find(names_, p.name) - names_.begin(); });
+    const ParamSet params = resolve(Registry<render::Figure>::all().at("scan_overlay").params, {});
+    scenario.figures = {{"figure", "scan_overlay", params}};
+    for (auto& figure : draw_figures(run_, scenario, pdf_)) files_.push_back(std::move(figure));
+  }
+
+  const fs::path& run_;
+  const std::vector<Scenario>& scenarios_;
+  bool pdf_;
+  std::vector<SummaryRow> rows_;
+  std::vector<std::uint64_t> seeds_;
+  const Scenario& example_;
+  std::vector<std::string> names_;  ///< of the pipelines, by rank
+  std::vector<MatchBins> bins_;     ///< as names_
+  std::vector<FigureFile> files_;
+};
+
+}  // namespace
+
+std::vector<FigureFile> draw_benchmark_figures(const fs::path& run, const std::vector<Scenario>& scenarios,
+                                               const BenchmarkSpec& spec, bool pdf,
+                                               const std::function<void(double, const std::string&)>& progress) {
+  return Drawer(run, scenarios, spec, pdf).draw(progress);
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,22 @@
+// The figures of a benchmark: F1 against noise, errors against range and against their bound, one scan as every
+// extractor sees it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "harness/analysis/benchmark.hpp"
+#include "harness/report/figures.hpp"
+#include "harness/scenario/benchmark_spec.hpp"
+
+namespace scanbench::harness {
+
+/// Draws them from summary.csv, the cells' matches.csv and the example's recording into run/figures, pipelines in the
+/// order of their rank. Throws ConfigError if files are damaged or cannot be written.
+std::vector<FigureFile> draw_benchmark_figures(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
+                                               const BenchmarkSpec& spec, bool pdf,
+                                               const std::function<void(double, const std::string&)>& progress = {});
+
+}  // namespace scanbench::harness

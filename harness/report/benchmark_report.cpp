@@ -1,0 +1,237 @@
+// One page over all scenarios of a benchmark.
+#include "harness/report/benchmark_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/geometry.hpp"
+#include "harness/report/html_page.hpp"
+#include "harness/report/ranking_table.hpp"
+#include "harness/run/make_recording.hpp"
+#include "harness/scenario/benchmark_spec.hpp"
+#include "harness/scenario/modules.hpp"
+#include "harness/store/summary.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+const SimulatedInput& simulated(const Scenario& scenario) {
+  return std::get<SimulatedInput>(scenario.input);
+}
+
+std::set<double> noise_levels(const std::vector<Scenario>& scenarios) {
+  std::set<double> levels;
+  for (const auto& scenario : scenarios) levels.insert(100.0 * noise_m(scenario));
+  return levels;
+}
+
+/// Observations of a metric of one pipeline, over all cells.
+std::int64_t observations(const std::vector<SummaryRow>& rows, const std::string& pipeline, const std::string& metric) {
+  std::int64_t count = 0;
+  for (const auto& row : rows)
+    if (row.pipeline == pipeline && row.metric == metric) count += row.count;
+  return count;
+}
+
+std::string run_text(const ReportInput& input, const BenchmarkSpec& spec) {
+  std::set<std::string> worlds, sensors;
+  for (const auto& scenario : input.scenarios) {
+    worlds.insert(simulated(scenario).world.name);
+    sensors.insert(simulated(scenario).sensor_preset);
+  }
+  const auto& scenarios = input.scenarios;
+  const std::size_t seeds = seeds_of(input.rows).size();
+  return fmt::format(
+      "{} extractors on {} conditions: {} worlds, {} sensors, noise of {:.3g} cm. {} seeds make {} recordings with "
+      "{} scans and {} true lines in all; every extractor sees all of them, with the same noise.",
+      scenarios.front().pipelines.size(), scenarios.size(), worlds.size(), sensors.size(),
+      fmt::join(noise_levels(scenarios), ", "), seeds, scenarios.size() * seeds,
+      observations(input.rows, spec.baseline, "t_scan"), observations(input.rows, spec.baseline, "recall"));
+}
+
+Table worlds_table(const ReportInput& input) {
+  Table table{"worlds", "Worlds", "", {"world", "what it is"}, {{"", "walls"}, {"", "scans a recording"}}, {}};
+  std::set<std::string> seen;
+  for (const auto& scenario : input.scenarios) {
+    const auto& world = simulated(scenario).world;
+    if (!seen.insert(world.name).second) continue;
+    const auto scans = simulation_input(scenario, scenario.seeds.front()).trajectory.poses.size();
+    table.rows.push_back(
+        {{world.name, scenario.about}, {{std::to_string(world.walls.size())}, {std::to_string(scans)}}, false});
+  }
+  return table;
+}
+
+Table sensors_table(const ReportInput& input) {
+  Table table{"sensors",
+              "Sensors",
+              "",
+              {"sensor"},
+              {{"", "beams"}, {"", "step [°]"}, {"", "field of view [°]"}, {"", "range [m]"}},
+              {}};
+  std::set<std::string> seen;
+  for (const auto& scenario : input.scenarios) {
+    const auto& [preset, sensor] = std::tie(simulated(scenario).sensor_preset, simulated(scenario).sensor);
+    if (!seen.insert(preset).second) continue;
+    const double step = degrees(sensor.geometry.angle_step());
+    table.rows.push_back({{preset},
+                          {{std::to_string(sensor.geometry.beams())},
+                           {fmt::format("{:.3g}", step)},
+                           {fmt::format("{:.0f}", step * (sensor.geometry.beams() - 1))},
+                           {fmt::format("{:.3g} – {:.3g}", sensor.range_min_m, sensor.range_max_m)}},
+                          false});
+  }
+  return table;
+}
+
+/// "threshold_m 0.04 / 0.12 / 0.2", one value a noise level if they differ; empty for the default everywhere.
+std::string param_text(const std::vector<Scenario>& scenarios, std::size_t pipeline, const ParamSpec& spec) {
+  std::map<double, std::set<std::string>> by_noise;
+  std::set<std::string> all;
+  for (const auto& scenario : scenarios) {
+    const std::string value = to_text(scenario.pipelines[pipeline].slots.front().params.at(spec.name));
+    by_noise[noise_m(scenario)].insert(value);
+    all.insert(value);
+  }
+  if (all.size() == 1) return *all.begin() == to_text(spec.default_value) ? "" : spec.name + " " + *all.begin();
+  std::vector<std::string> values;
+  for (const auto& [noise, of_noise] : by_noise) {
+    if (of_noise.size() > 1) return spec.name + " differs, see effective/";
+    values.push_back(*of_noise.begin());
+  }
+  return fmt::format("{} {}", spec.name, fmt::join(values, " / "));
+}
+
+Table extractors_table(const ReportInput& input, const std::vector<RankedPipeline>& ranking) {
+  const auto& scenarios = input.scenarios;
+  Table table{
+      "extractors", "Extractors", "", {"extractor", "what it does", "parameters other than the defaults"}, {}, {}};
+  for (const auto& ranked : ranking) {
+    const auto& pipelines = scenarios.front().pipelines;
+    const auto k =
+        static_cast<std::size_t>(std::ranges::find(pipelines, ranked.name, &PipelineSpec::name) - pipelines.begin());
+    const ModuleEntry module = find_module("extract", pipelines[k].slots.front().module);
+    std::vector<std::string> params;
+    for (const auto& spec : module.params)
+      if (auto text = param_text(scenarios, k, spec); !text.empty()) params.push_back(std::move(text));
+    table.rows.push_back({{ranked.name, module.info.summary, fmt::format("{}", fmt::join(params, ", "))}, {}, false});
+  }
+  table.caption =
+      fmt::format("Values with / belong to the noise levels {:.3g} cm.", fmt::join(noise_levels(scenarios), " / "));
+  return table;
+}
+
+/// Adjacent ranks that the seeds tell apart, and those that they do not.
+std::string significance_text(const std::vector<RankedPipeline>& ranking) {
+  std::vector<std::string> ties;
+  std::size_t tests = 0;
+  for (std::size_t i = 0; i + 1 < ranking.size(); ++i) {
+    if (std::isnan(ranking[i].next_p)) continue;
+    ++tests;
+    if (ranking[i].next_p >= 0.05) ties.push_back(ranking[i].name + " and " + ranking[i + 1].name);
+  }
+  if (tests == 0) return "One seed: no differences can be tested.";
+  const std::string method = fmt::format(
+      "Neighbours in the ranking were compared by paired t tests over the seeds, corrected for their number ({}) after "
+      "Holm. ",
+      tests);
+  if (ties.empty()) return method + "All of them differ at the 5 % level.";
+  return method + fmt::format("All of them differ at the 5 % level but {}.", fmt::join(ties, "; "));
+}
+
+std::vector<std::pair<std::string, std::string>> definitions(const BenchmarkSpec& spec) {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const auto& column : benchmark_columns()) {
+    std::string text = column.definition;
+    if (column.geometric) text += "; geometric mean over the conditions";
+    all.emplace_back(column.metric == "t_ratio" ? "time / " + spec.baseline : column.head, text);
+  }
+  all.emplace_back("F1 − next", "mean difference of F1 to the next in rank, in points, with the p-value");
+  all.emplace_back("best in", "conditions in which its F1 is the highest; equals all count");
+  return all;
+}
+
+constexpr std::string_view kMatching =
+    "A true line is a run of consecutive beams on one wall with at least 9 returns over 0.5 m. A found line matches it "
+    "if "
+    "they differ by at most 10° and 15 cm and overlap by more than half of the shorter; pairs are taken one to one by "
+    "decreasing overlap. Found lines shorter than 0.5 m that match nothing are passed over. A value is averaged over "
+    "the "
+    "conditions, each counting the same, for every seed; shown are the mean over the seeds and, behind ±, half of its "
+    "95 % interval (the wider of Student's t and a bootstrap). What is undefined in a "
+    "cell is left out. * marks the best.";
+
+const std::vector<std::string>& limits_of_the_page() {
+  static const std::vector<std::string> kLimits{
+      "The seeds change the noise, not the worlds: intervals and tests say that a difference would come again on these "
+      "worlds, not that it would on others. \"Best in\" shows how far it depends on the condition.",
+      "Errors are those of the lines that an extractor found and that passed the gate of the matching. One that finds "
+      "only easy lines has smaller errors than one that finds all; and no error can be much larger than the gate.",
+      "The bound is that of a line whose beams are known, from the returns between its first and last beam. A ratio "
+      "below 1 is possible where an extractor used beams of two runs of one wall for one line.",
+      "Noise is Gaussian, of one size at all ranges, and known to the extractors that ask for it; there are no mixed "
+      "pixels, no lost returns, no rounding and nothing that moves. Walls are straight.",
+      "Times are CPU times on a machine that may have been busy; the ratio to the baseline, taken in the same "
+      "condition "
+      "and seed, is the steadier number."};
+  return kLimits;
+}
+
+std::string figure_html(const ReportInput& input, const std::string& name, const std::string& number) {
+  const auto figure = std::ranges::find(input.figures, name, &FigureFile::name);
+  if (figure == input.figures.end()) return "";
+  return html_figure(input.run, *figure, "<b>" + number + ".</b> " + html_escaped(figure->caption));
+}
+
+std::vector<std::pair<std::string, std::string>> numbered_figures(const BenchmarkSpec& spec) {
+  return {{"benchmark_f1_noise", "Figure 1"},
+          {"benchmark_offset_range", "Figure 2a"},
+          {"benchmark_angle_range", "Figure 2b"},
+          {"benchmark_error_bound", "Figure 3"},
+          {spec.example + "_scan_overlay", "Figure 4"}};
+}
+
+}  // namespace
+
+std::string benchmark_html(const ReportInput& input, const BenchmarkSpec& spec) {
+  const auto ranking = rank_pipelines(input.scenarios, input.rows, spec);
+  std::string out = fmt::format("<p>{}</p>\n", html_escaped(spec.about)) + html_status(input.cells);
+  out += fmt::format("<h2>What was run</h2>\n<p>{}</p>\n", html_escaped(run_text(input, spec)));
+  out += "<div class=\"figures compact plain\">\n" + to_html(worlds_table(input)) + to_html(sensors_table(input)) +
+         "</div>\n";
+  out += "<h2>Ranking</h2>\n<div class=\"compact\">" + to_html(ranking_table(ranking, spec)) + "</div>\n";
+  out += fmt::format("<p>{}</p>\n", html_escaped(significance_text(ranking)));
+  out += "<h2>Figures</h2>\n<div class=\"beside\">\n";
+  for (const auto& [name, number] : numbered_figures(spec)) out += figure_html(input, name, number);
+  out += "</div>\n<h2>How the columns are defined</h2>\n<p>" + html_escaped(std::string(kMatching)) + "</p>\n<dl>\n";
+  for (const auto& [head, text] : definitions(spec))
+    out += "<dt>" + html_escaped(head) + "</dt><dd>" + html_escaped(text) + "</dd>\n";
+  out += "</dl>\n<div class=\"prose plain\">" + to_html(extractors_table(input, ranking)) +
+         "</div>\n<h2>What it does not show</h2>\n<ul>\n";
+  for (const auto& limit : limits_of_the_page()) out += "<li>" + html_escaped(limit) + "</li>\n";
+  return html_page(input.title, out + "</ul>\n" + html_facts(input.facts));
+}
+
+std::string benchmark_markdown(const ReportInput& input, const BenchmarkSpec& spec) {
+  const auto ranking = rank_pipelines(input.scenarios, input.rows, spec);
+  Table ranks = ranking_table(ranking, spec);
+  ranks.title = "Ranking";
+  std::string out = "# " + input.title + "\n\n" + spec.about + "\n\n" + markdown_status(input.cells);
+  out += "\n" + run_text(input, spec) + "\n\n" + to_markdown(worlds_table(input)) + "\n" +
+         to_markdown(sensors_table(input)) + "\n" + to_markdown(ranks) + "\n" + significance_text(ranking) + "\n";
+  for (const auto& [name, number] : numbered_figures(spec))
+    if (const auto figure = std::ranges::find(input.figures, name, &FigureFile::name); figure != input.figures.end())
+      out += fmt::format("\n![{0}](figures/{1}.svg)\n\n{2}. {0}\n", figure->caption, name, number);
+  out += "\n## How the columns are defined\n\n" + std::string(kMatching) + "\n\n";
+  for (const auto& [head, text] : definitions(spec)) out += "- " + head + ": " + text + "\n";
+  out += "\n" + to_markdown(extractors_table(input, ranking)) + "\n## What it does not show\n\n";
+  for (const auto& limit : limits_of_the_page()) out += "- " + limit + "\n";
+  return out + markdown_facts(input.facts);
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,125 @@
+// Recording and results from files, through the registered figures, to files.
+#include "harness/report/figures.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/registry.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/run/make_recording.hpp"
+#include "harness/scenario/figure_pipelines.hpp"
+#include "harness/scenario/modules.hpp"
+#include "harness/store/cell_files.hpp"
+#include "harness/store/cell_status.hpp"
+#include "harness/store/recording_folder.hpp"
+#include "harness/store/run_folder.hpp"
+#include "harness/store/traces.hpp"
+#include "render/figure.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct LoadedResult {
+  std::string pipeline;
+  PipelineResult result;
+  TraceRows trace;
+};
+
+std::vector<LoadedResult> finished_results(const fs::path& run, const Scenario& scenario, std::uint64_t seed) {
+  std::vector<LoadedResult> results;
+  for (const auto& pipeline : scenario.pipelines) {
+    const fs::path cell = cell_path(run, {scenario.name, pipeline.name, seed});
+    if (!fs::exists(cell / "status.json") || load_status(cell).outcome.status != CellStatus::ok) continue;
+    results.push_back({pipeline.name, load_result(cell), load_trace(cell, traces_drawn(scenario, pipeline.name))});
+  }
+  return results;
+}
+
+/// The values of metrics.csv of all finished cells, pipeline by pipeline.
+std::vector<render::MeasuredPipeline> measured_pipelines(const fs::path& run, const Scenario& scenario) {
+  std::vector<render::MeasuredPipeline> all;
+  for (const auto& pipeline : scenario.pipelines) {
+    render::MeasuredPipeline measured{.pipeline = pipeline.name, .slots = {}, .units = {}, .metrics = {}};
+    for (const auto& slot : pipeline.slots) {
+      measured.slots[slot.kind + " " + slot.module] = slot.params;
+      for (const auto& spec : find_module(slot.kind, slot.module).params)
+        measured.units[slot.kind + "." + spec.name] = spec.unit;
+    }
+    for (const std::uint64_t seed : scenario.seeds) {
+      const fs::path cell = cell_path(run, {scenario.name, pipeline.name, seed});
+      if (!fs::exists(cell / "metrics.csv")) continue;
+      for (const auto& row : load_metrics(cell))
+        if (row.subject == "all" && std::isfinite(row.value)) measured.metrics[row.metric].push_back(row.value);
+    }
+    all.push_back(std::move(measured));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenario, bool pdf,
+                                     const std::function<void(double, const std::string&)>& progress) {
+  const std::uint64_t seed = scenario.seeds.front();
+  const fs::path folder = recording_path(run, scenario.name, seed);
+  if (scenario.figures.empty() || !fs::exists(folder)) return {};
+  const Recording recording = load_recording(folder);
+  const std::vector<LoadedResult> results = finished_results(run, scenario, seed);
+  render::FigureInput input{.title = scenario.name, .recording = recording, .waypoints = {}, .results = {}};
+  input.measured = measured_pipelines(run, scenario);
+  if (std::holds_alternative<SimulatedInput>(scenario.input)) {
+    const sim::SimulationInput simulated = simulation_input(scenario, seed);
+    input.waypoints = simulated.trajectory.waypoints;
+    input.continuous = simulated.trajectory.continuous;
+    for (const sim::Circle& circle : simulated.world.circles)
+      input.round_things.push_back({circle.center, circle.radius_m});
+    for (const sim::MovingBody& body : simulated.world.moving) input.body_paths.push_back(body.path);
+  }
+  for (const auto& loaded : results) input.results.push_back({loaded.pipeline, &loaded.result, &loaded.trace});
+
+  std::vector<FigureFile> files;
+  for (std::size_t i = 0; i < scenario.figures.size(); ++i) {
+    const auto& choice = scenario.figures[i];
+    if (progress) progress(static_cast<double>(i) / static_cast<double>(scenario.figures.size()), choice.module);
+    for (const auto& drawn : Registry<render::Figure>::make(choice.module, choice.params)->draw(input)) {
+      const std::string name = scenario.name + "_" + drawn.name;
+      write_figure(run, name, drawn.scene, pdf);
+      files.push_back({scenario.name, name, drawn.caption});
+    }
+  }
+  return files;
+}
+
+void write_figure(const fs::path& run, const std::string& name, const render::Scene& scene, bool pdf) {
+  make_folders(run / "figures");
+  write_file_atomically(run / "figures" / (name + ".svg"), render::to_svg(scene));
+  write_file_atomically(run / "figures" / (name + ".png"), render::to_png(scene));
+  if (pdf) write_file_atomically(run / "figures" / (name + ".pdf"), render::to_pdf(scene));
+}
+
+void save_figure_index(const fs::path& run, const std::vector<FigureFile>& figures) {
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& figure : figures)
+    list.push_back({{"scenario", figure.scenario}, {"name", figure.name}, {"caption", figure.caption}});
+  make_folders(run / "figures");
+  write_file_atomically(run / "figures" / "index.json", list.dump(2) + "\n");
+}
+
+std::vector<FigureFile> load_figure_index(const fs::path& run) {
+  const fs::path path = run / "figures" / "index.json";
+  if (!fs::exists(path)) return {};
+  std::vector<FigureFile> figures;
+  try {
+    for (const auto& entry : nlohmann::json::parse(read_file(path)))
+      figures.push_back({entry.at("scenario"), entry.at("name"), entry.at("caption")});
+  } catch (const nlohmann::json::exception& error) {
+    throw ConfigError(path.string() + ": " + error.what());
+  }
+  return figures;
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,124 @@
+// The frame of report pages.
+#include "harness/report/html_page.hpp"
+
+#include <optional>
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include "harness/files/atomic_file.hpp"
+#include "harness/report/table.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+constexpr std::string_view kStyle = R"css(
+:root { --ink: #1b1f24; --faint: #667079; --rule: #d5dade; --paper: #fff; --tint: #f4f6f8; --accent: #0072b2; }
+@media (prefers-color-scheme: dark) {
+  :root { --ink: #e6e9ec; --faint: #98a3ac; --rule: #3a4249; --paper: #15181b; --tint: #1f2428; --accent: #56b4e9; }
+  figure img { background: #fff; }
+}
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 78rem; padding: 1.5rem; background: var(--paper); color: var(--ink);
+       font: 15px/1.5 system-ui, "DejaVu Sans", sans-serif; }
+h1 { font-size: 1.7rem; margin: 0 0 .2rem; } h2 { margin: 2.2rem 0 .4rem; font-size: 1.3rem; border-top: 2px solid var(--ink); padding-top: .6rem; }
+h3 { margin: 1.4rem 0 .4rem; font-size: 1.05rem; } p { margin: .4rem 0; max-width: 60rem; }
+a { color: var(--accent); } .faint, .caption { color: var(--faint); font-size: .88rem; }
+section.table { margin-bottom: .9rem; }
+.scroll { overflow-x: auto; } table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .86rem; }
+th, td { padding: .18rem .55rem; text-align: right; white-space: nowrap; } thead { border-bottom: 1.5px solid var(--ink); }
+th.head { text-align: left; font-weight: 600; } th.group { text-align: left; border-bottom: 1px solid var(--rule); }
+.first { padding-left: 1.3rem; } tbody tr:nth-child(even) { background: var(--tint); }
+td.best { font-weight: 700; } td small { display: block; color: var(--faint); font-weight: 400; font-size: .78rem; line-height: 1.1; } .published { color: var(--faint); font-style: italic; }
+figure { margin: 1rem 0; } figure img { max-width: 100%; height: auto; } figcaption { color: var(--faint); font-size: .88rem; }
+.compact table { font-size: .8rem; } .compact th { white-space: normal; } .compact th, .compact td { padding: .18rem .4rem; }
+.prose table { width: 100%; } .prose th.head { white-space: normal; vertical-align: top; } .plain tbody th.head:not(:first-child) { font-weight: 400; }
+.beside figure { display: grid; grid-template-columns: minmax(0, 43rem) minmax(12rem, 1fr); gap: 1.4rem; align-items: center; }
+.figures { display: flex; flex-wrap: wrap; gap: 1.2rem; align-items: flex-start; }
+.status { display: inline-block; padding: 0 .5rem; border-radius: .3rem; border: 1px solid currentColor; font-size: .85rem; }
+dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; font-size: .86rem; } dt { color: var(--faint); } dd { margin: 0; overflow-wrap: anywhere; }
+)css";
+
+std::string base64(const std::string& bytes) {
+  std::string out(4 * ((bytes.size() + 2) / 3) + 1, '\0');
+  const int length =
+      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(out.data()),
+                      reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
+  out.resize(static_cast<std::size_t>(length));
+  return out;
+}
+
+struct Verdict {
+  std::size_t ok = 0;
+  std::size_t all = 0;
+  std::string text() const {
+    if (all == ok) return fmt::format("all {} cells ok", all);
+    return fmt::format("{} of {} cells ok", ok, all);
+  }
+};
+
+Verdict verdict(const std::vector<CellLine>& cells) {
+  Verdict result;
+  for (const auto& cell : cells) {
+    ++result.all;
+    result.ok += cell.status == "ok";
+  }
+  return result;
+}
+
+// Cells that did not end well, as a table; empty if all did.
+std::optional<Table> failures(const std::vector<CellLine>& cells) {
+  Table table{"failures", "Cells that did not end well", "", {"scenario", "pipeline", "seed", "status", "message"}, {},
+              {}};
+  for (const auto& cell : cells) {
+    if (cell.status == "ok") continue;
+    table.rows.push_back(
+        {{cell.scenario, cell.pipeline, std::to_string(cell.seed), cell.status, cell.message}, {}, false});
+  }
+  if (table.rows.empty()) return std::nullopt;
+  return table;
+}
+
+}  // namespace
+
+std::string html_page(const std::string& title, const std::string& body) {
+  return fmt::format(
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width\">\n"
+      "<title>{0}</title><style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n{2}</body></html>\n",
+      html_escaped(title), kStyle, body);
+}
+
+std::string html_status(const std::vector<CellLine>& cells) {
+  std::string out = fmt::format("<p><span class=\"status\">{}</span></p>\n", html_escaped(verdict(cells).text()));
+  if (const auto table = failures(cells)) out += to_html(*table);
+  return out;
+}
+
+std::string markdown_status(const std::vector<CellLine>& cells) {
+  std::string out = verdict(cells).text() + ".\n";
+  if (const auto table = failures(cells)) out += "\n" + to_markdown(*table);
+  return out;
+}
+
+std::string html_figure(const std::filesystem::path& run, const FigureFile& figure, const std::string& caption) {
+  const std::string svg = read_file(run / "figures" / (figure.name + ".svg"));
+  return fmt::format(
+      "<figure><img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption>{2}</figcaption></figure>\n",
+      html_escaped(figure.caption), base64(svg), caption);
+}
+
+std::string html_facts(const std::vector<std::pair<std::string, std::string>>& facts) {
+  std::string out = "<h2>How to get these numbers again</h2>\n<dl>\n";
+  for (const auto& [name, value] : facts)
+    out += "<dt>" + html_escaped(name) + "</dt><dd>" + html_escaped(value) + "</dd>\n";
+  return out + "</dl>\n";
+}
+
+std::string markdown_facts(const std::vector<std::pair<std::string, std::string>>& facts) {
+  std::string out = "\n## How to get these numbers again\n\n";
+  for (const auto& [name, value] : facts) out += "- " + name + ": " + value + "\n";
+  return out;
+}
+
+}  // namespace scanbench::harness

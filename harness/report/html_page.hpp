@@ -1,0 +1,29 @@
+// What all report pages share: the frame with its styles, the verdict over the cells, figures inside the page, and how
+// to get the numbers again. Markdown pages share the same parts.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/report/figures.hpp"
+#include "harness/report/page_input.hpp"
+
+namespace scanbench::harness {
+
+/// A whole page: self-contained, it can be mailed.
+std::string html_page(const std::string& title, const std::string& body);
+
+/// How many cells ended well, and a table of those that did not.
+std::string html_status(const std::vector<CellLine>& cells);
+std::string markdown_status(const std::vector<CellLine>& cells);
+
+/// run/figures/<name>.svg as data, so that the ids of two figures cannot meet. The caption is HTML.
+std::string html_figure(const std::filesystem::path& run, const FigureFile& figure, const std::string& caption);
+
+/// "How to get these numbers again".
+std::string html_facts(const std::vector<std::pair<std::string, std::string>>& facts);
+std::string markdown_facts(const std::vector<std::pair<std::string, std::string>>& facts);
+
+}  // namespace scanbench::harness

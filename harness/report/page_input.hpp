@@ -1,0 +1,37 @@
+// What a report shows.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/report/figures.hpp"
+#include "harness/scenario/scenario.hpp"
+#include "harness/store/summary.hpp"
+
+namespace scanbench::harness {
+
+/// A cell as the report lists it.
+struct CellLine {
+  std::string scenario;
+  std::string pipeline;
+  std::uint64_t seed = 0;
+  std::string status;
+  std::string message;
+  double wall_seconds = 0.0;
+  double peak_memory_bytes = 0.0;
+};
+
+struct ReportInput {
+  std::filesystem::path run;  ///< figures are read from run/figures
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< "commit", "compiler", ...: shown at the end
+  std::vector<Scenario> scenarios;
+  std::vector<SummaryRow> rows;
+  std::vector<CellLine> cells;
+  std::vector<FigureFile> figures;
+};
+
+}  // namespace scanbench::harness

@@ -1,0 +1,71 @@
+// Tables first, then figures, then what is needed to get the same numbers again.
+#include "harness/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include "harness/report/html_page.hpp"
+#include "harness/report/scenario_tables.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+constexpr std::size_t kPageWidth = 136;  // characters of a table that fit the page
+
+std::string input_text(const Scenario& scenario) {
+  if (const auto* simulated = std::get_if<SimulatedInput>(&scenario.input)) {
+    return fmt::format("World {} with {} walls, sensor {}, trajectory {}, {} seed{}.", simulated->world.name,
+                       simulated->world.walls.size(), simulated->sensor_preset, simulated->trajectory.module,
+                       scenario.seeds.size(), scenario.seeds.size() == 1 ? "" : "s");
+  }
+  if (const auto* lines = std::get_if<LinesInput>(&scenario.input)) {
+    if (!lines->file.empty())
+      return fmt::format("Lines of {}{}.", lines->file.filename().string(),
+                         lines->world ? ", with world " + lines->world->name + " as the truth"
+                                      : ". There is no truth: metrics that need it are absent");
+    return fmt::format("{} copies of the {} walls of world {}, {} seed{}.", lines->copies.copies,
+                       lines->world->walls.size(), lines->world->name, scenario.seeds.size(),
+                       scenario.seeds.size() == 1 ? "" : "s");
+  }
+  const auto& recorded = std::get<RecordedInput>(scenario.input);
+  return fmt::format("Recorded log {} ({}). There is no truth: metrics that need it are absent.",
+                     recorded.log.filename().string(), recorded.format);
+}
+
+std::vector<FigureFile> figures_of(const ReportInput& input, const std::string& scenario) {
+  std::vector<FigureFile> figures;
+  for (const auto& figure : input.figures)
+    if (figure.scenario == scenario) figures.push_back(figure);
+  return figures;
+}
+
+}  // namespace
+
+std::string report_html(const ReportInput& input) {
+  std::string out = html_status(input.cells);
+  for (const auto& scenario : input.scenarios) {
+    out += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n<p class=\"faint\">{2}</p>\n", html_escaped(scenario.name),
+                       html_escaped(scenario.about), html_escaped(input_text(scenario)));
+    for (const auto& table : scenario_tables(scenario, input.rows, TableDetail::departures))
+      for (const auto& part : parts_of_width(table, kPageWidth)) out += to_html(part);
+    out += "<div class=\"figures\">\n";
+    for (const auto& figure : figures_of(input, scenario.name)) {
+      out += html_figure(input.run, figure, html_escaped(figure.caption));
+    }
+    out += "</div>\n";
+  }
+  return html_page(input.title, out + html_facts(input.facts));
+}
+
+std::string report_markdown(const ReportInput& input) {
+  std::string out = "# " + input.title + "\n\n" + markdown_status(input.cells);
+  for (const auto& scenario : input.scenarios) {
+    out += "\n## " + scenario.name + "\n\n" + scenario.about + "\n\n" + input_text(scenario) + "\n";
+    for (const auto& table : scenario_tables(scenario, input.rows, TableDetail::departures))
+      out += "\n" + to_markdown(table);
+    for (const auto& figure : figures_of(input, scenario.name))
+      out += fmt::format("\n![{0}](figures/{1}.svg)\n\n{0}\n", figure.caption, figure.name);
+  }
+  return out + markdown_facts(input.facts);
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,91 @@
+// Gathers what a report shows; writes figures and reports.
+#include "harness/report/run_report.hpp"
+
+#include "harness/analysis/agreement.hpp"
+#include "harness/analysis/agreement_files.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/report/benchmark_figures.hpp"
+#include "harness/report/benchmark_report.hpp"
+#include "harness/report/ranking_table.hpp"
+#include "harness/report/report.hpp"
+#include "harness/report/scenario_tables.hpp"
+#include "harness/scenario/benchmark_spec.hpp"
+#include "harness/store/cell_files.hpp"
+#include "harness/store/manifest.hpp"
+#include "harness/store/run_folder.hpp"
+#include "harness/store/summary.hpp"
+
+namespace scanbench::harness {
+
+namespace fs = std::filesystem;
+namespace {
+
+// published/*.csv, if a scenario has values of a paper.
+void write_agreement(const fs::path& run, const ReportInput& input) {
+  std::vector<std::pair<std::string, std::vector<ComparedColumn>>> compared;
+  for (const auto& scenario : input.scenarios)
+    if (auto columns = compare_with_paper(scenario, input.rows); !columns.empty())
+      compared.emplace_back(scenario.name, std::move(columns));
+  if (compared.empty()) return;
+  make_folders(run / "published");
+  for (const auto& file : agreement_files(compared)) write_file_atomically(run / "published" / file.name, file.bytes);
+}
+
+}  // namespace
+
+ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& scenarios) {
+  ReportInput input;
+  input.run = run;
+  input.title = "scanbench: " + fs::absolute(run).lexically_normal().filename().string();
+  input.facts = manifest_facts(run);
+  input.scenarios = scenarios;
+  if (fs::exists(run / "summary.csv")) input.rows = load_summary(run / "summary.csv");
+  for (const auto& key : load_manifest(run).cells) {
+    const fs::path cell = cell_path(run, key);
+    CellLine line{key.scenario, key.pipeline, key.seed, "missing", "not run", 0.0, 0.0};
+    if (fs::exists(cell / "status.json")) {
+      const CellRecord record = load_status(cell);
+      line.status = to_string(record.outcome.status);
+      line.message = record.outcome.message;
+      line.wall_seconds = record.outcome.wall_seconds;
+      line.peak_memory_bytes = record.outcome.peak_memory_bytes;
+    }
+    input.cells.push_back(std::move(line));
+  }
+  input.figures = load_figure_index(run);
+  return input;
+}
+
+void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenarios, bool pdf,
+                      const std::function<void(double, const std::string&)>& progress) {
+  std::vector<FigureFile> figures;
+  const auto benchmark = load_benchmark(run);
+  if (benchmark) figures = draw_benchmark_figures(run, scenarios, *benchmark, pdf, progress);
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const auto part = [&](double share, const std::string& what) {
+      if (progress) progress((static_cast<double>(i) + share) / static_cast<double>(scenarios.size()), what);
+    };
+    for (auto& figure : draw_figures(run, scenarios[i], pdf, part)) figures.push_back(std::move(figure));
+  }
+  save_figure_index(run, figures);
+  refresh_manifest(run);
+}
+
+std::vector<Table> closing_tables(const ReportInput& input) {
+  if (const auto benchmark = load_benchmark(input.run))
+    return {ranking_table(rank_pipelines(input.scenarios, input.rows, *benchmark), *benchmark)};
+  std::vector<Table> tables;
+  for (const auto& scenario : input.scenarios)
+    for (auto& table : scenario_tables(scenario, input.rows, TableDetail::summary)) tables.push_back(std::move(table));
+  return tables;
+}
+
+void write_reports(const fs::path& run, const ReportInput& input) {
+  const auto benchmark = load_benchmark(run);
+  write_file_atomically(run / "report.html", benchmark ? benchmark_html(input, *benchmark) : report_html(input));
+  write_file_atomically(run / "report.md", benchmark ? benchmark_markdown(input, *benchmark) : report_markdown(input));
+  write_agreement(run, input);
+  refresh_manifest(run);
+}
+
+}  // namespace scanbench::harness

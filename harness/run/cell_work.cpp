@@ -1,0 +1,24 @@
+// One pipeline on one recording, to files.
+#include "harness/run/cell_work.hpp"
+
+#include "harness/files/atomic_file.hpp"
+#include "harness/run/pipeline.hpp"
+#include "harness/run/score.hpp"
+#include "harness/store/cell_files.hpp"
+
+namespace scanbench::harness {
+
+std::string make_cell(const std::filesystem::path& folder, const Scenario& scenario, const PipelineSpec& pipeline,
+                      const TraceChoice& trace, const Recording& recording) {
+  Journal journal(trace);
+  const bool traced = !trace.nothing();
+  const PipelineRun run = run_pipeline(pipeline, recording.observed, traced ? &journal : nullptr);
+  write_result(folder, pipeline, run.result);
+  if (traced) write_staged_file(folder / "trace.csv", journal.csv());
+  const Scores scores = score_cell(scenario.metrics, recording, folder);
+  write_staged_file(folder / "metrics.csv", metrics_csv(scores.rows));
+  for (const auto& table : scores.tables) write_staged_file(folder / (table.name + ".csv"), metric_table_csv(table));
+  return run.remarks;
+}
+
+}  // namespace scanbench::harness

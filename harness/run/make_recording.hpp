@@ -1,0 +1,25 @@
+// From a scenario to its recording.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "core/recording.hpp"
+#include "harness/scenario/scenario.hpp"
+#include "sim/simulate.hpp"
+
+namespace scanbench::harness {
+
+/// What simulate() gets; its trajectory has the waypoints that figures show. Only for scenarios with a simulated world.
+sim::SimulationInput simulation_input(const Scenario& scenario, std::uint64_t seed);
+
+/// Checks what loading leaves until a run: that the path is clear of walls, and that the memory suffices. Throws
+/// ConfigError.
+void check_scenario(const Scenario& scenario);
+
+/// The recording of a scenario for one seed: simulates, or reads the log (the seed is then unused).
+/// Throws ConfigError if it would need more memory than the limit, with the arithmetic.
+Recording make_recording(const Scenario& scenario, std::uint64_t seed, int threads,
+                         const std::function<void(double)>& progress = {});
+
+}  // namespace scanbench::harness

@@ -1,0 +1,296 @@
+// The chain extract -> (align | match) -> (map | merge).
+#include "harness/run/pipeline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/modules.hpp"
+#include "core/registry.hpp"
+#include "harness/run/stopwatch.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+/// Where the modules' traces go in one pass.
+class Listener {
+ public:
+  virtual ~Listener() = default;
+  virtual Trace& begin(std::string_view slot, int frame) = 0;
+  virtual void end() {}
+};
+
+class NobodyListens final : public Listener {
+ public:
+  Trace& begin(std::string_view, int) override { return nothing_; }
+
+ private:
+  Trace nothing_;
+};
+
+class JournalListener final : public Listener {
+ public:
+  explicit JournalListener(Journal& journal) : journal_(journal) {}
+  Trace& begin(std::string_view slot, int frame) override {
+    journal_.begin(slot, frame);
+    return journal_;
+  }
+
+ private:
+  Journal& journal_;
+};
+
+class StopwatchListener final : public Listener {
+ public:
+  explicit StopwatchListener(std::vector<StageTime>& times) : times_(times) {}
+  Trace& begin(std::string_view slot, int frame) override {
+    slot_ = slot;
+    frame_ = frame;
+    watch_.start();
+    return watch_;
+  }
+  void end() override { watch_.stop(slot_, slot_ == "extract" ? "" : slot_ + ".", frame_, times_); }
+
+ private:
+  std::vector<StageTime>& times_;
+  Stopwatch watch_;
+  std::string slot_;
+  int frame_ = -1;
+};
+
+void check_lines(const ScanLines& lines, int beams, std::size_t frame) {
+  const auto refuse = [&](const std::string& what) {
+    throw InvalidResult("extract, frame " + std::to_string(frame) + ": " + what);
+  };
+  if (lines.labels.size() != static_cast<std::size_t>(beams))
+    refuse(std::to_string(lines.labels.size()) + " labels for " + std::to_string(beams) + " beams");
+  for (const int label : lines.labels)
+    if (label < -1 || label >= static_cast<int>(lines.lines.size()))
+      refuse("label " + std::to_string(label) + " with " + std::to_string(lines.lines.size()) + " lines");
+  for (std::size_t i = 0; i < lines.lines.size(); ++i) {
+    const LineFeature& line = lines.lines[i];
+    if (!line.segment.a.allFinite() || !line.segment.b.allFinite() || !std::isfinite(line.line.rho) ||
+        !std::isfinite(line.line.alpha))
+      refuse("line " + std::to_string(i) + " is not finite");
+    if (line.covariance && !line.covariance->allFinite())
+      refuse("the covariance of line " + std::to_string(i) + " is not finite");
+  }
+}
+
+void check_pose(const Pose2& pose, const std::string& where) {
+  if (!pose.translation().allFinite() || !std::isfinite(pose.cos()) || !std::isfinite(pose.sin()))
+    throw InvalidResult(where + ": the pose is not finite");
+}
+
+void check_map(const LineMap& map, const std::string& slot) {
+  for (std::size_t i = 0; i < map.lines.size(); ++i)
+    if (!map.lines[i].segment.a.allFinite() || !map.lines[i].segment.b.allFinite() ||
+        !map.lines[i].covariance.allFinite())
+      throw InvalidResult(slot + ": map line " + std::to_string(i) + " is not finite");
+}
+
+/// One pass over the slots behind `extract`.
+class Chain {
+ public:
+  Chain(const ScanSet& scans, PipelineResult& result, Listener& listener)
+      : scans_(scans), result_(result), listener_(listener) {
+    views_.reserve(scans.frames.size());
+    for (std::size_t k = 0; k < scans.frames.size(); ++k) {
+      views_.push_back(scans.scan(k));
+      poses_.push_back(scans.frames[k].odom_from_sensor);
+    }
+  }
+
+  void run(const ModuleChoice& slot) {
+    if (slot.kind == "align") {
+      align(slot);
+    } else if (slot.kind == "match") {
+      match(slot);
+    } else if (slot.kind == "map") {
+      map(slot);
+    } else {
+      merge(slot);
+    }
+    result_.world_from_sensor = poses_;
+  }
+
+  std::string remarks() const {
+    std::string text;
+    for (const auto& [slot, counts] : outcomes_) {
+      text += (text.empty() ? "" : "; ") + slot + ": ";
+      bool first = true;
+      for (const auto& [status, count] : counts) {
+        text += (first ? "" : ", ") + std::to_string(count) + " " + std::string(to_string(status));
+        first = false;
+      }
+    }
+    return text;
+  }
+
+ private:
+  Observation observation(std::size_t k) const { return {views_[k], result_.lines[k]}; }
+
+  void note(const std::string& slot, Status status) {
+    if (status != Status::converged) ++outcomes_[slot][status];
+  }
+
+  void align(const ModuleChoice& slot) {
+    const auto aligner = Registry<Aligner>::make(slot.module, slot.params);
+    std::vector<Observation> observations;
+    for (std::size_t k = 0; k < views_.size(); ++k) observations.push_back(observation(k));
+    Alignment alignment = aligner->align(observations, poses_, listener_.begin("align", -1));
+    listener_.end();
+    note("align", alignment.status);
+    if (alignment.world_from_sensor.size() != poses_.size())
+      throw InvalidResult("align: " + std::to_string(alignment.world_from_sensor.size()) + " poses for " +
+                          std::to_string(poses_.size()) + " scans");
+    for (std::size_t k = 0; k < poses_.size(); ++k)
+      check_pose(alignment.world_from_sensor[k], "align, frame " + std::to_string(k));
+    poses_ = std::move(alignment.world_from_sensor);
+  }
+
+  void match(const ModuleChoice& slot) {
+    const auto matcher = Registry<ScanMatcher>::make(slot.module, slot.params);
+    for (std::size_t k = 1; k < views_.size(); ++k) {
+      const Pose2 guess = scans_.frames[k - 1].odom_from_sensor.inverse() * scans_.frames[k].odom_from_sensor;
+      const Match found =
+          matcher->match(observation(k - 1), observation(k), guess, listener_.begin("match", static_cast<int>(k)));
+      listener_.end();
+      note("match", found.status);
+      const Pose2& step = found.status == Status::no_match ? guess : found.reference_from_current;
+      check_pose(step, "match, frame " + std::to_string(k));
+      poses_[k] = poses_[k - 1] * step;
+    }
+  }
+
+  void map(const ModuleChoice& slot) {
+    const auto mapper = Registry<Mapper>::make(slot.module, slot.params);
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      mapper->insert(observation(k), poses_[k], listener_.begin("map", static_cast<int>(k)));
+      listener_.end();
+    }
+    result_.map = mapper->map();
+    result_.has_map = true;
+    check_map(result_.map, "map");
+  }
+
+  void merge(const ModuleChoice& slot) {
+    const auto merger = Registry<SegmentMerger>::make(slot.module, slot.params);
+    std::vector<MapLine> lines;
+    std::vector<Vec2> points;
+    std::vector<MergeLabel> labels;
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      const auto& found = result_.lines[k].lines;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        // Offset and angle at the midpoint do not change with a rigid motion, nor does their covariance.
+        lines.push_back({.segment = poses_[k] * found[i].segment,
+                         .covariance = found[i].covariance.value_or(Eigen::Matrix2d::Zero()),
+                         .members = 1,
+                         .points = found[i].points});
+        labels.push_back({.frame = static_cast<int>(k), .line = static_cast<int>(i)});
+      }
+      for (const Vec2& p : valid_points(views_[k]).points) points.push_back(poses_[k] * p);
+    }
+    MergeResult merged = merger->merge({lines, points}, listener_.begin("merge", -1));
+    listener_.end();
+    note("merge", merged.status);
+    check_map(merged.map, "merge");
+    const auto label_at = [&](const std::vector<int>& of, std::size_t i, const std::string& name, bool required) {
+      if (of.empty() && !required) return -1;
+      if (of.size() != lines.size())
+        throw InvalidResult("merge: " + std::to_string(of.size()) + " entries in " + name + " for " +
+                            std::to_string(lines.size()) + " lines");
+      return of[i];
+    };
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      labels[i].cluster1 = label_at(merged.cluster1, i, "cluster1", false);
+      labels[i].cluster2 = label_at(merged.cluster2, i, "cluster2", false);
+      labels[i].map_line = label_at(merged.labels, i, "labels", true);
+      if (labels[i].map_line < -1 || labels[i].map_line >= static_cast<int>(merged.map.lines.size()))
+        throw InvalidResult("merge: label " + std::to_string(labels[i].map_line) + " with " +
+                            std::to_string(merged.map.lines.size()) + " map lines");
+    }
+    result_.map = std::move(merged.map);
+    result_.has_map = true;
+    result_.merge_labels = std::move(labels);
+  }
+
+  const ScanSet& scans_;
+  PipelineResult& result_;
+  Listener& listener_;
+  std::vector<Scan> views_;
+  std::vector<Pose2> poses_;
+  std::map<std::string, std::map<Status, int>> outcomes_;
+};
+
+std::vector<ScanLines> extract_all(const LineExtractor& extractor, const ScanSet& scans, Listener& listener) {
+  std::vector<ScanLines> lines;
+  lines.reserve(scans.frames.size());
+  for (std::size_t k = 0; k < scans.frames.size(); ++k) {
+    lines.push_back(extractor.extract(scans.scan(k), listener.begin("extract", static_cast<int>(k))));
+    listener.end();
+  }
+  return lines;
+}
+
+/// Lines that are given in place of scans, as an extractor would have found them.
+std::vector<ScanLines> given_lines(const ScanSet& scans) {
+  std::vector<ScanLines> lines(scans.frames.size());
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    for (const Segment& segment : scans.frames[k].lines)
+      lines[k].lines.push_back({.segment = segment, .line = line_through(segment.a, segment.b), .covariance = {}});
+  return lines;
+}
+
+void check_chain(const PipelineSpec& pipeline, bool scans) {
+  static const std::map<std::string, int, std::less<>> kPlaces{
+      {"extract", 0}, {"align", 1}, {"match", 1}, {"map", 2}, {"merge", 2}};
+  int last = -1;
+  for (const auto& slot : pipeline.slots) {
+    const auto place = kPlaces.find(slot.kind);
+    if (place == kPlaces.end() || place->second <= last || (last < 0 && (place->second == 0) != scans))
+      throw ConfigError("pipeline '" + pipeline.name + "': the slot '" + slot.kind + "' cannot stand here; allowed: " +
+                        (scans ? "extract -> " : "") + "(align | match) -> (map | merge)");
+    last = place->second;
+  }
+  if (last < 0) throw ConfigError("pipeline '" + pipeline.name + "' has no slots");
+}
+
+}  // namespace
+
+PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Journal* journal) {
+  const bool given = scans.has_given_lines();
+  check_chain(pipeline, !given);
+  const std::span<const ModuleChoice> behind_lines = std::span(pipeline.slots).subspan(given ? 0 : 1);
+  std::unique_ptr<LineExtractor> extractor;
+  if (!given) extractor = Registry<LineExtractor>::make(pipeline.slots.front().module, pipeline.slots.front().params);
+  const auto all_lines = [&](Listener& listener) {
+    return given ? given_lines(scans) : extract_all(*extractor, scans, listener);
+  };
+
+  PipelineRun run;
+  NobodyListens nobody;
+  StopwatchListener stopwatch(run.result.times);
+  run.result.lines = all_lines(nobody);
+  const int beams = scans.sensor.geometry.beams();
+  for (std::size_t k = 0; k < run.result.lines.size(); ++k) check_lines(run.result.lines[k], beams, k);
+  all_lines(stopwatch);
+
+  Chain chain(scans, run.result, stopwatch);
+  for (const ModuleChoice& slot : behind_lines) chain.run(slot);
+  run.remarks = chain.remarks();
+
+  if (journal != nullptr) {
+    JournalListener listener(*journal);
+    PipelineResult again;
+    again.lines = all_lines(listener);
+    Chain journaled(scans, again, listener);
+    for (const ModuleChoice& slot : behind_lines) journaled.run(slot);
+  }
+  return run;
+}
+
+}  // namespace scanbench::harness

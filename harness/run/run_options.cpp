@@ -1,0 +1,18 @@
+// Exit codes of runs.
+#include "harness/run/run_options.hpp"
+
+#include <algorithm>
+
+#include "harness/store/cell_status.hpp"
+
+namespace scanbench::harness {
+
+int RunResult::exit_code() const {
+  if (interrupted) return 130;
+  if (std::ranges::any_of(cells, [](const CellResult& c) { return !c.done; })) return 4;
+  if (std::ranges::any_of(cells, [](const CellResult& c) { return c.record.outcome.status != CellStatus::ok; }))
+    return 3;
+  return 0;
+}
+
+}  // namespace scanbench::harness

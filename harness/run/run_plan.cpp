@@ -1,0 +1,81 @@
+// Scenarios x pipelines x seeds.
+#include "harness/run/run_plan.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.hpp"
+#include "harness/run/cell_address.hpp"
+#include "harness/scenario/figure_pipelines.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+void check_scenarios(const std::vector<Scenario>& scenarios, const RunOptions& options) {
+  std::set<std::string> names;
+  if (options.jobs < 1) throw ConfigError("jobs is " + std::to_string(options.jobs) + "; allowed: 1 or more");
+  for (const auto& scenario : scenarios) {
+    check_name("scenario", scenario.name);
+    if (!names.insert(scenario.name).second)
+      throw ConfigError("two scenarios have the name '" + scenario.name + "'; each needs a folder of its own");
+    std::set<std::string> pipelines;
+    for (const auto& pipeline : scenario.pipelines) {
+      check_name("pipeline", pipeline.name);
+      if (!pipelines.insert(pipeline.name).second)
+        throw ConfigError("scenario '" + scenario.name + "': two pipelines have the name '" + pipeline.name + "'");
+    }
+  }
+  for (const auto& only : options.only) {
+    std::string known;
+    bool found = false;
+    for (const auto& scenario : scenarios) {
+      known += (known.empty() ? "" : ", ") + scenario.name;
+      found = found || only == scenario.name;
+      for (const auto& pipeline : scenario.pipelines) {
+        known += ", " + scenario.name + "/" + pipeline.name;
+        found = found || only == pipeline.name || only == scenario.name + "/" + pipeline.name;
+      }
+    }
+    if (!found) throw ConfigError("nothing is named '" + only + "' here; known: " + known);
+  }
+}
+
+}  // namespace
+
+RunPlan plan_run(const std::vector<Scenario>& scenarios, const RunOptions& options) {
+  check_scenarios(scenarios, options);
+  RunPlan plan;
+  for (const auto& scenario : scenarios) {
+    const std::string input = input_address(scenario);
+    const auto& seeds = scenario.seeds;
+    const std::size_t first = plan.groups.size();
+    for (const std::uint64_t seed : seeds) {
+      if (std::ranges::count(seeds, seed) > 1)
+        throw ConfigError("the seed " + std::to_string(seed) + " is given twice");
+      plan.groups.push_back({&scenario, seed});
+    }
+    for (const auto& pipeline : scenario.pipelines) {
+      const TraceChoice drawn = traces_drawn(scenario, pipeline.name);
+      for (std::size_t i = 0; i < seeds.size(); ++i) {
+        PlannedCell cell;
+        cell.key = {scenario.name, pipeline.name, seeds[i]};
+        // Figures show the first seed.
+        cell.trace = options.journal ? TraceChoice{.all = true} : i == 0 ? drawn : TraceChoice{};
+        cell.address = cell_address(input, scenario.metrics, pipeline, seeds[i], cell.trace);
+        cell.scenario = &scenario;
+        cell.pipeline = &pipeline;
+        cell.group = first + i;
+        plan.cells.push_back(std::move(cell));
+      }
+    }
+  }
+  return plan;
+}
+
+bool selected(const RunOptions& options, const CellKey& key) {
+  return options.only.empty() || std::ranges::any_of(options.only, [&](const std::string& only) {
+           return only == key.scenario || only == key.pipeline || only == key.scenario + "/" + key.pipeline;
+         });
+}
+
+}  // namespace scanbench::harness

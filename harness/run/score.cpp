@@ -1,0 +1,153 @@
+// Metric families on recordings and results; the tidy table of a whole run.
+#include "harness/run/score.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/registry.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/files/csv.hpp"
+#include "harness/run/cell_address.hpp"
+#include "harness/scenario/figure_pipelines.hpp"
+#include "harness/scenario/trace_choice.hpp"
+#include "harness/store/cell_files.hpp"
+#include "harness/store/cell_status.hpp"
+#include "harness/store/manifest.hpp"
+#include "harness/store/recording_folder.hpp"
+#include "harness/store/summary.hpp"
+
+namespace scanbench::harness {
+namespace fs = std::filesystem;
+
+namespace {
+
+metrics::MetricInput metric_input(const Recording& recording, const PipelineResult& result) {
+  return {recording.observed, recording.truth ? &*recording.truth : nullptr, result};
+}
+
+/// Calls `use` with every chosen family that can say something of the input.
+template <class Use>
+void for_each_family(const std::vector<ModuleChoice>& families, const metrics::MetricInput& input, Use use) {
+  for (const auto& choice : families) {
+    const auto family = Registry<metrics::MetricFamily>::make(choice.module, choice.params);
+    if (family->applies(input)) use(*family);
+  }
+}
+
+template <class T>
+void append(std::vector<T>& all, std::vector<T> more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+/// Would a run of a scenario make a cell at this address?
+class ScenarioAddresses {
+ public:
+  bool is_of(const Scenario& scenario, const CellKey& key, const std::string& address) {
+    const auto pipeline = std::ranges::find(scenario.pipelines, key.pipeline, &PipelineSpec::name);
+    if (pipeline == scenario.pipelines.end()) return false;
+    std::string& input = inputs_[scenario.name];
+    if (input.empty()) input = input_address(scenario);
+    const TraceChoice traces[] = {{}, {.all = true}, traces_drawn(scenario, key.pipeline)};
+    return std::ranges::any_of(traces, [&](const TraceChoice& trace) {
+      return address == cell_address(input, scenario.metrics, *pipeline, key.seed, trace);
+    });
+  }
+
+ private:
+  std::map<std::string, std::string> inputs_;  // a log's is the hash of the whole file
+};
+
+/// Files that a score of any families may have left in a cell, beside metrics.csv.
+std::set<std::string> table_files() {
+  std::set<std::string> files;
+  for (const auto& family : Registry<metrics::MetricFamily>::names())
+    for (const auto& table : Registry<metrics::MetricFamily>::make(family, {})->table_names())
+      files.insert(table + ".csv");
+  return files;
+}
+
+}  // namespace
+
+std::vector<metrics::MetricRow> evaluate_metrics(const std::vector<ModuleChoice>& families, const Recording& recording,
+                                                 const PipelineResult& result) {
+  const metrics::MetricInput input = metric_input(recording, result);
+  std::vector<metrics::MetricRow> rows;
+  for_each_family(families, input, [&](const auto& family) { append(rows, family.evaluate(input)); });
+  return rows;
+}
+
+Scores score_cell(const std::vector<ModuleChoice>& families, const Recording& recording, const fs::path& cell) {
+  const PipelineResult result = load_result(cell);
+  if (result.lines.size() != recording.observed.frames.size())
+    throw ConfigError(cell.string() + ": " + std::to_string(result.lines.size()) + " frames; the recording has " +
+                      std::to_string(recording.observed.frames.size()));
+  Scores scores{evaluate_metrics(families, recording, result), {}};
+  const metrics::MetricInput input = metric_input(recording, result);
+  for_each_family(families, input, [&](const auto& family) {
+    for (auto& table : family.tables(input)) {
+      const auto names = family.table_names();
+      SCANBENCH_ASSERT(std::ranges::find(names, table.name) != names.end());
+      scores.tables.push_back(std::move(table));
+    }
+  });
+  return scores;
+}
+
+std::string metric_table_csv(const metrics::MetricTable& table) {
+  CsvWriter csv(table.columns);
+  for (const auto& row : table.rows) {
+    for (const double value : row) csv.number(value);
+    csv.end_row();
+  }
+  return csv.str();
+}
+
+std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenarios,
+                      const std::function<void(double, const std::string&)>& progress) {
+  const Manifest manifest = load_manifest(run);
+  std::string summary = summary_header();
+  std::size_t scored = 0;
+  const std::set<std::string> known_tables = table_files();
+  std::vector<std::pair<fs::path, std::string>> files;  // written when all are known: whoever stops it changes nothing
+  std::vector<fs::path> stale;                          // tables of an earlier score that this one does not make
+  ScenarioAddresses addresses;
+  std::map<std::pair<std::string, std::uint64_t>, Recording> recordings;  // at most one at a time
+  for (std::size_t i = 0; i < manifest.cells.size(); ++i) {
+    const CellKey& key = manifest.cells[i];
+    if (progress) progress(static_cast<double>(i) / static_cast<double>(manifest.cells.size()), to_string(key));
+    const fs::path cell = cell_path(run, key);
+    if (!fs::exists(cell / "status.json") || load_status(cell).outcome.status != CellStatus::ok) continue;
+    const auto scenario = std::ranges::find(scenarios, key.scenario, &Scenario::name);
+    if (scenario == scenarios.end())
+      throw ConfigError(run.string() + ": the scenario '" + key.scenario + "' of a cell is not at hand");
+    const std::pair source{key.scenario, key.seed};
+    if (!recordings.contains(source)) {
+      recordings.clear();
+      recordings.emplace(source, load_recording(recording_path(run, key.scenario, key.seed)));
+    }
+    const Scores scores = score_cell(scenario->metrics, recordings.at(source), cell);
+    files.emplace_back(cell / "metrics.csv", metrics_csv(scores.rows));
+    if (CellRecord record = load_status(cell); !addresses.is_of(*scenario, key, record.address)) {
+      record.address.clear();  // no run makes what is scored with other metrics: --resume makes the cell anew
+      files.emplace_back(cell / "status.json", status_json(record));
+    }
+    std::set<std::string> others = known_tables;
+    for (const auto& table : scores.tables) {
+      files.emplace_back(cell / (table.name + ".csv"), metric_table_csv(table));
+      others.erase(table.name + ".csv");
+    }
+    for (const auto& file : others) stale.push_back(cell / file);
+    summary += summary_lines(key, scores.rows);
+    ++scored;
+  }
+  for (const auto& path : stale) remove_file(path);
+  for (const auto& [path, text] : files) write_file_atomically(path, text);
+  write_file_atomically(run / "summary.csv", summary);
+  refresh_manifest(run);
+  return scored;
+}
+
+}  // namespace scanbench::harness

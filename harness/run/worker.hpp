@@ -1,0 +1,49 @@
+// Child processes with limits: a crash, a hang or a memory blow-up is an outcome, not a lost run.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "harness/store/cell_status.hpp"
+
+namespace scanbench::harness {
+
+struct WorkerLimits {
+  double seconds = 600.0;     ///< wall time
+  double memory_bytes = 4e9;  ///< address space beyond what the parent uses at the fork; not held under sanitizers
+  int threads = 1;            ///< the task starts up to this many
+};
+
+/// Runs tasks in forked children. The parent must have one thread only when start() is called. While a pool lives,
+/// SIGINT and SIGTERM are held back and seen only by wait(); the children are process groups of their own, so that an
+/// interrupt at the terminal reaches the parent alone, and die with it.
+class WorkerPool {
+ public:
+  WorkerPool();
+  ~WorkerPool();  ///< kills what still runs
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  struct Finished {
+    std::size_t id = 0;
+    WorkerOutcome outcome;
+  };
+
+  /// Forks. In the child the task runs, its result goes through a pipe, and the process ends without destructors of the
+  /// parent's objects. Throws ConfigError if the system refuses another process.
+  void start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits);
+  std::size_t running() const;
+  /// Blocks until a child has ended, or somebody interrupts: then interrupted() is true and the list may be empty.
+  std::vector<Finished> wait();
+  bool interrupted() const;
+  void kill_all();
+
+ private:
+  struct Worker;
+  std::vector<Worker> workers_;
+};
+
+}  // namespace scanbench::harness

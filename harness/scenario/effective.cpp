@@ -1,0 +1,99 @@
+// The effective scenario: every default written out, in one canonical form.
+#include "harness/scenario/effective.hpp"
+
+#include <algorithm>
+
+#include "harness/scenario/sections.hpp"
+#include "harness/scenario/world_file.hpp"
+#include "harness/yaml/reader.hpp"
+#include "harness/yaml/writer.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+void add_params(YamlNode& map, const ParamSet& params) {
+  for (const auto& [name, value] : params) yaml_add(map, name, to_yaml(value));
+}
+
+YamlNode choice_node(const ModuleChoice& choice, const std::string& key) {
+  YamlNode map = yaml_map();
+  yaml_add(map, key, yaml_text(choice.module));
+  yaml_add(map, "params", to_yaml(choice.params));
+  return map;
+}
+
+YamlNode choices_node(const std::vector<ModuleChoice>& choices) {
+  YamlNode list = yaml_sequence();
+  for (const auto& choice : choices) list.items.push_back(choice_node(choice, "name"));
+  return list;
+}
+
+void add_input(YamlNode& root, const SimulatedInput& input) {
+  yaml_add(root, "world", to_yaml(input.world));
+  YamlNode& sensor = yaml_add(root, "sensor", yaml_map());
+  yaml_add(sensor, "preset", yaml_text(input.sensor_preset));
+  add_params(sensor, input.sensor_params);
+  YamlNode& trajectory = yaml_add(root, "trajectory", yaml_map());
+  yaml_add(trajectory, "kind", yaml_text(input.trajectory.module));
+  add_params(trajectory, input.trajectory.params);
+  yaml_add(trajectory, "odometry", to_yaml(input.odometry_params));
+  yaml_add(trajectory, "tilt", to_yaml(input.tilt_params));
+  yaml_add(trajectory, "sweep", yaml_plain(input.sweep ? "true" : "false"));
+}
+
+/// A path with the variable holds anywhere; any other is made absolute, for this text is read from another folder.
+YamlNode path_node(const std::filesystem::path& path, const std::string& as_written) {
+  const bool portable = as_written.starts_with("${");
+  return yaml_text(portable ? as_written : std::filesystem::absolute(path).lexically_normal().string());
+}
+
+void add_input(YamlNode& root, const RecordedInput& input) {
+  YamlNode& recording = yaml_add(root, "recording", yaml_map());
+  yaml_add(recording, "log", path_node(input.log, input.log_as_written));
+  yaml_add(recording, "format", yaml_text(input.format));
+  add_params(recording, input.params);
+  YamlNode& sensor = yaml_add(root, "sensor", yaml_map());
+  yaml_add(sensor, "preset", yaml_text(input.sensor_preset));
+  for (const auto& spec : recorded_sensor_specs())
+    yaml_add(sensor, spec.name, to_yaml(input.sensor_params.at(spec.name)));
+}
+
+void add_input(YamlNode& root, const LinesInput& input) {
+  if (input.world) yaml_add(root, "world", to_yaml(*input.world));
+  YamlNode& lines = yaml_add(root, "lines", yaml_map());
+  if (input.file.empty())
+    add_params(lines, input.params);
+  else
+    yaml_add(lines, "file", path_node(input.file, input.file_as_written));
+}
+
+}  // namespace
+
+std::string effective_yaml(const Scenario& scenario) {
+  YamlNode root = yaml_map();
+  yaml_add(root, "schema", yaml_plain("1"));
+  yaml_add(root, "name", yaml_text(scenario.name));
+  yaml_add(root, "about", yaml_text(scenario.about));
+  std::visit([&](const auto& input) { add_input(root, input); }, scenario.input);
+  YamlNode& seeds = yaml_add(root, "seeds", yaml_sequence());
+  for (const std::uint64_t seed : scenario.seeds) seeds.items.push_back(yaml_plain(std::to_string(seed)));
+  YamlNode& pipelines = yaml_add(root, "pipelines", yaml_sequence());
+  for (const auto& pipeline : scenario.pipelines) {
+    YamlNode node = yaml_map();
+    yaml_add(node, "name", yaml_text(pipeline.name));
+    if (!pipeline.published.empty()) yaml_add(node, "published", yaml_text(pipeline.published));
+    for (const auto& slot : pipeline.slots) yaml_add(node, slot.kind, choice_node(slot, "module"));
+    pipelines.items.push_back(std::move(node));
+  }
+  yaml_add(root, "metrics", choices_node(scenario.metrics));
+  yaml_add(root, "figures", choices_node(scenario.figures));
+  if (!scenario.published_file.empty())
+    yaml_add(root, "published",
+             yaml_text(std::filesystem::absolute(scenario.published_file).lexically_normal().string()));
+  YamlNode& limits = yaml_add(root, "limits", yaml_map());
+  yaml_add(limits, "seconds", yaml_number(scenario.limits.seconds));
+  yaml_add(limits, "memory_mib", yaml_number(scenario.limits.memory_bytes / (1024.0 * 1024.0)));
+  return write_yaml(root);
+}
+
+}  // namespace scanbench::harness

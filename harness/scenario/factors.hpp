@@ -1,0 +1,30 @@
+// Factors of a suite: everything that a suite varies besides its scenarios, as levels that override parts of them.
+//
+//   factors:
+//     sensor: {ladar: {sensor.preset: ladar_2d30}, urg: {sensor.preset: urg_04lx, sensor.quantum_m: 0}}
+//     noise: {1cm: {sensor.sigma_m: 0.01}, 5cm: {sensor.sigma_m: 0.05, pipelines.iepf.extract.params.threshold_m: 0.2}}
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/yaml/reader.hpp"
+
+namespace scanbench::harness {
+
+/// One level of every factor.
+struct Variant {
+  std::string suffix;             ///< "-urg-5cm": what its scenarios' names end in
+  std::vector<std::string> sets;  ///< "key=value", as after --set
+  Mark mark;                      ///< of the last factor's level
+};
+
+/// All combinations, the last factor varying fastest. Throws PlacedError.
+std::vector<Variant> read_variants(const YamlNode& factors);
+
+/// The overrides whose keys begin with `section` and a dot.
+std::vector<std::string> sets_of_section(const std::vector<std::string>& sets, std::string_view section);
+/// The others.
+std::vector<std::string> sets_outside_section(const std::vector<std::string>& sets, std::string_view section);
+
+}  // namespace scanbench::harness

@@ -1,0 +1,59 @@
+// The names that figures give, held against the pipelines.
+#include "harness/scenario/figure_pipelines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/registry.hpp"
+#include "harness/files/text_file.hpp"
+#include "harness/yaml/reader.hpp"
+#include "render/figure.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+constexpr std::string_view kParam = "pipeline";
+
+/// What is wrong with the figure's `pipeline`; empty: nothing.
+std::string complaint(const ModuleChoice& figure, const std::vector<PipelineSpec>& pipelines) {
+  const auto param = figure.params.find(kParam);
+  const auto* wanted = param != figure.params.end() ? std::get_if<std::string>(&param->second) : nullptr;
+  if (wanted == nullptr || wanted->empty()) return "";
+  std::vector<std::string> names;
+  names.reserve(pipelines.size());
+  for (const auto& pipeline : pipelines) names.push_back(pipeline.name);
+  if (std::ranges::find(names, *wanted) != names.end()) return "";
+  return fmt::format("{} of the figure {}: no pipeline is called {}{}", kParam, figure.module, quoted_excerpt(*wanted),
+                     known_names(*wanted, names));
+}
+
+}  // namespace
+
+void check_figure_pipelines(const YamlNode& list, const std::vector<ModuleChoice>& figures,
+                            const std::vector<PipelineSpec>& pipelines) {
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const std::string wrong = complaint(figures[i], pipelines);
+    if (wrong.empty()) continue;
+    const YamlNode* params = list.items.at(i).find("params");
+    const YamlNode* node = params != nullptr ? params->find(kParam) : nullptr;
+    throw PlacedError(node != nullptr ? node->mark : list.items[i].mark, wrong);
+  }
+}
+
+void check_figure_pipelines(Mark mark, const Scenario& scenario) {
+  for (const auto& figure : scenario.figures)
+    if (const std::string wrong = complaint(figure, scenario.pipelines); !wrong.empty())
+      throw PlacedError(mark, fmt::format("{}: {}; `figures` of the suite take the place of the scenario's own",
+                                          scenario.name, wrong));
+}
+
+TraceChoice traces_drawn(const Scenario& scenario, std::string_view pipeline) {
+  TraceChoice choice;
+  for (const auto& figure : scenario.figures)
+    for (std::string& name : Registry<render::Figure>::make(figure.module, figure.params)->trace_rows(pipeline))
+      choice.names.insert(std::move(name));
+  return choice;
+}
+
+}  // namespace scanbench::harness

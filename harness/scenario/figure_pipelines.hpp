@@ -1,0 +1,24 @@
+// A figure may show one pipeline: its parameter `pipeline` names it, and the scenario must have it.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "harness/scenario/scenario.hpp"
+#include "harness/scenario/trace_choice.hpp"
+#include "harness/yaml/gate.hpp"
+
+namespace scanbench::harness {
+
+/// Refuses a figure whose `pipeline` (not empty) is none of these: nothing would be drawn. `list` is the YAML that the
+/// figures were read from. Throws PlacedError at that parameter, naming the pipelines that there are.
+void check_figure_pipelines(const YamlNode& list, const std::vector<ModuleChoice>& figures,
+                            const std::vector<PipelineSpec>& pipelines);
+
+/// The same for figures of a scenario whose pipelines a suite replaces at `mark`.
+void check_figure_pipelines(Mark mark, const Scenario& scenario);
+
+/// The rows of a pipeline's trace that the scenario's figures draw from.
+TraceChoice traces_drawn(const Scenario& scenario, std::string_view pipeline);
+
+}  // namespace scanbench::harness

@@ -1,0 +1,67 @@
+// One switch over the kinds of modules.
+#include "harness/scenario/modules.hpp"
+
+#include "core/error.hpp"
+#include "core/modules.hpp"
+#include "harness/files/text_file.hpp"
+#include "harness/yaml/reader.hpp"
+#include "metrics/metric.hpp"
+#include "render/figure.hpp"
+#include "sim/trajectory.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+template <class Interface>
+struct Kind {
+  using type = Interface;
+};
+
+template <class Use>
+auto with_kind(std::string_view kind, const Use& use) {
+  if (kind == LineExtractor::kKind) return use(Kind<LineExtractor>{});
+  if (kind == Aligner::kKind) return use(Kind<Aligner>{});
+  if (kind == ScanMatcher::kKind) return use(Kind<ScanMatcher>{});
+  if (kind == Mapper::kKind) return use(Kind<Mapper>{});
+  if (kind == SegmentMerger::kKind) return use(Kind<SegmentMerger>{});
+  if (kind == metrics::MetricFamily::kKind) return use(Kind<metrics::MetricFamily>{});
+  if (kind == render::Figure::kKind) return use(Kind<render::Figure>{});
+  if (kind == sim::TrajectoryKind::kKind) return use(Kind<sim::TrajectoryKind>{});
+  throw ConfigError("no kind of module is called " + quoted_excerpt(kind) + known_names(kind, module_kinds()));
+}
+
+}  // namespace
+
+const std::vector<std::string>& slot_kinds() {
+  static const std::vector<std::string> kinds = {"extract", "align", "match", "map", "merge"};
+  return kinds;
+}
+
+const std::vector<std::string>& module_kinds() {
+  static const std::vector<std::string> kinds = [] {
+    std::vector<std::string> all = slot_kinds();
+    all.insert(all.end(), {"metrics", "figure", "trajectory"});
+    return all;
+  }();
+  return kinds;
+}
+
+std::vector<std::string> module_names(std::string_view kind) {
+  return with_kind(kind, [](auto tag) { return Registry<typename decltype(tag)::type>::names(); });
+}
+
+ModuleEntry find_module(std::string_view kind, std::string_view name) {
+  return with_kind(kind, [&](auto tag) -> ModuleEntry {
+    const auto* entry = Registry<typename decltype(tag)::type>::find(name);
+    if (entry == nullptr)
+      throw ConfigError("no " + std::string(kind) + " is called " + quoted_excerpt(name) +
+                        known_names(name, module_names(kind)));
+    return {entry->info, entry->params};
+  });
+}
+
+void try_module(std::string_view kind, std::string_view name, const ParamSet& params) {
+  with_kind(kind, [&](auto tag) { Registry<typename decltype(tag)::type>::make(name, params); });
+}
+
+}  // namespace scanbench::harness

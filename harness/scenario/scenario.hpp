@@ -1,0 +1,99 @@
+// A scenario in memory: what is requested, with every default filled in. scenario_file.hpp reads it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/params.hpp"
+#include "core/recording.hpp"
+#include "sim/line_copies.hpp"
+#include "sim/simulate.hpp"
+
+namespace scanbench::harness {
+
+/// 2^53: the largest seed that every tool reads back exactly.
+inline constexpr std::uint64_t kLargestSeed = 9007199254740992U;
+
+/// A registered thing with its parameters, all of them.
+struct ModuleChoice {
+  std::string kind;  ///< slot: extract, align, match, map, merge; or metrics, figure
+  std::string module;
+  ParamSet params;
+};
+
+struct PipelineSpec {
+  std::string name;
+  std::vector<ModuleChoice> slots;  ///< in the order of the chain: extract -> (align | match) -> (map | merge)
+  std::string published;            ///< the method's name in Scenario::published_file; may be empty
+};
+
+/// True if the pipeline has a slot of this kind.
+bool has_slot(const PipelineSpec& pipeline, std::string_view kind);
+
+/// Scans come from a simulated world ...
+struct SimulatedInput {
+  std::string world_text;  ///< bytes of the world's file, unpacked; empty: the world is written into the scenario
+  sim::World world;
+  std::string sensor_preset;
+  ParamSet sensor_params;  ///< effective
+  SensorModel sensor;
+  ModuleChoice trajectory;
+  ParamSet odometry_params;  ///< effective, in the units of the file
+  sim::OdometryNoise odometry;
+  ParamSet tilt_params;  ///< effective, in the units of the file
+  sim::Tilt tilt;
+  bool sweep = false;
+};
+
+/// ... or from a recorded log.
+struct RecordedInput {
+  std::filesystem::path log;
+  std::string log_as_written;  ///< in the scenario, with ${SCANBENCH_DATA}
+  std::string format;          ///< carmen, csv, dpslam
+  ParamSet params;             ///< of the reader: no-return value, first angle, pose triple, ...; effective
+  std::string sensor_preset;
+  ParamSet sensor_params;  ///< effective; beam angles and range limits of it are not used: the log has its own
+  SensorModel sensor;
+};
+
+/// ... or there are no scans, but lines: copies of the world's walls, or those of a file.
+struct LinesInput {
+  std::optional<sim::World> world;           ///< the truth; present for copies
+  std::filesystem::path file;                ///< empty: copies
+  std::string file_as_written;               ///< in the scenario, with ${SCANBENCH_DATA}
+  std::vector<std::vector<Segment>> frames;  ///< what the file holds
+  ParamSet params;                           ///< of the copies, in the units of the scenario; effective
+  sim::LineCopies copies;
+};
+
+struct Limits {
+  double seconds = 600.0;                          ///< per cell, wall time
+  double memory_bytes = 4.0 * 1024 * 1024 * 1024;  ///< per cell, and of a recording before it starts
+};
+
+struct Scenario {
+  std::string name;  ///< key `name`, or the file's name without ending
+  std::filesystem::path path;
+  std::string text;  ///< the file's bytes
+  std::string about;
+  std::variant<SimulatedInput, RecordedInput, LinesInput> input;
+  std::vector<std::uint64_t> seeds;
+  std::vector<PipelineSpec> pipelines;
+  std::vector<ModuleChoice> metrics;
+  std::vector<ModuleChoice> figures;
+  std::filesystem::path
+      published_file;  ///< values that a paper prints, shown beside ours; empty: none (key `published`)
+  Limits limits;
+  std::vector<std::string>
+      notes;  ///< for the user: what reading passed over, like walls without length in a vector map
+};
+
+/// True if the recording depends on the seed: it is simulated, not read.
+bool has_chance(const Scenario& scenario);
+
+}  // namespace scanbench::harness

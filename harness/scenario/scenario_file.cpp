@@ -1,0 +1,231 @@
+// Reading a scenario: the sections in the order of the file.
+#include "harness/scenario/scenario_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "harness/exchange/line_set.hpp"
+#include "harness/exchange/log.hpp"
+#include "harness/files/placed_error.hpp"
+#include "harness/files/text_file.hpp"
+#include "harness/scenario/figure_pipelines.hpp"
+#include "harness/scenario/modules.hpp"
+#include "harness/scenario/sections.hpp"
+#include "harness/scenario/shared_keys.hpp"
+#include "harness/scenario/world_file.hpp"
+#include "harness/yaml/reader.hpp"
+#include "harness/yaml/sets.hpp"
+#include "sim/sensors.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+class ScenarioReader {
+ public:
+  ScenarioReader(const YamlNode& root, Scenario& scenario)
+      : root_(root), map_(root, "the scenario"), scenario_(scenario) {}
+
+  void read() {
+    read_schema(map_);
+    scenario_.name = map_.text_or("name", scenario_.path.stem().string());
+    const YamlNode* name = map_.find("name");
+    check_name(scenario_.name, name != nullptr ? name->mark : root_.mark, "the scenario's name");
+    scenario_.about = map_.text_or("about", "");
+    read_limits();
+    scenario_.seeds = read_seeds(map_);
+    if (const YamlNode* recording = map_.find("recording"))
+      read_recorded(*recording);
+    else if (const YamlNode* lines = map_.find("lines"))
+      read_lines(*lines);
+    else
+      read_simulated();
+    if (scenario_.seeds.empty()) scenario_.seeds = {1};
+    const bool scans = !std::holds_alternative<LinesInput>(scenario_.input);
+    if (const YamlNode* node = map_.find("pipelines")) scenario_.pipelines = read_pipelines(*node, scans);
+    if (const YamlNode* node = map_.find("metrics")) scenario_.metrics = read_choices(*node, "metrics");
+    if (const YamlNode* node = map_.find("figures")) {
+      scenario_.figures = read_choices(*node, "figure");
+      check_figure_pipelines(*node, scenario_.figures, scenario_.pipelines);
+    }
+    if (const YamlNode* node = map_.find("published"))
+      scenario_.published_file = resolve_path(*node, map_.text("published", "a file's path"), scenario_.path);
+    map_.done();
+  }
+
+ private:
+  /// A section of nothing but parameters, which may be left out.
+  template <class Params>
+  static Params read_optional(YamlMap& map, const std::string& key) {
+    const YamlNode* node = map.find(key);
+    if (node == nullptr) return {};
+    YamlMap section(*node, key);
+    const auto params = make_params<Params>(section.params(param_specs<Params>()));
+    section.done();
+    return params;
+  }
+
+  void read_limits() {
+    const auto params = read_optional<LimitParams>(map_, "limits");
+    scenario_.limits = {params.seconds, params.memory_mib * 1024.0 * 1024.0};
+  }
+
+  void read_simulated() {
+    SimulatedInput input;
+    LoadedWorld loaded = read_world_section(
+        map_.require("world", "{file: PATH}, or the keys of a world file; or a recording, or lines"));
+    input.world = std::move(loaded.world);
+    input.world_text = std::move(loaded.text);
+    const YamlNode& sensor = map_.require("sensor", "{preset: NAME}, with any of its fields beside it");
+    read_sensor(sensor, sim::sensor_param_specs(), input.sensor_preset, input.sensor_params, input.sensor);
+    read_trajectory(map_.require("trajectory", "{kind: NAME, ...}"), input);
+    scenario_.input = std::move(input);
+  }
+
+  /// `text` is empty for a world that is written into the scenario.
+  LoadedWorld read_world_section(const YamlNode& node) {
+    YamlMap map(node, "world");
+    LoadedWorld loaded;
+    if (const YamlNode* file = map.find("file")) {
+      const std::string as_written = map.text("file", "a path");
+      map.done();
+      loaded = load_world(resolve_path(*file, as_written, scenario_.path));
+      if (loaded.dropped > 0)
+        scenario_.notes.push_back(
+            fmt::format("{}: {} segments without length were passed over", as_written, loaded.dropped));
+    } else {
+      loaded.world = read_world(map, scenario_.name);
+      map.done();
+      at_param(node, [&] { sim::validate(loaded.world); });
+    }
+    return loaded;
+  }
+
+  static void read_sensor(const YamlNode& node, const std::vector<ParamSpec>& specs, std::string& preset,
+                          ParamSet& effective, SensorModel& sensor) {
+    YamlMap map(node, "sensor");
+    preset = map.text_or("preset", "custom");
+    const ParamSet overrides = map.params(specs);
+    map.done();
+    const bool known = sim::sensor_presets().contains(preset);
+    const YamlNode* preset_node = node.find("preset");
+    at_param(known || preset_node == nullptr ? node : *preset_node,
+             [&] { sensor = sim::make_sensor(preset, overrides, &effective); });
+  }
+
+  void read_trajectory(const YamlNode& node, SimulatedInput& input) {
+    YamlMap map(node, "trajectory");
+    const YamlNode& kind_node =
+        map.require("kind", fmt::format("one of {}", fmt::join(module_names("trajectory"), ", ")));
+    const std::string kind = map.text("kind", "a name");
+    const auto entry = at_param(kind_node, [&] { return find_module("trajectory", kind); });
+    const auto odometry = read_optional<OdometryParams>(map, "odometry");
+    input.odometry_params = to_param_set(odometry);
+    input.odometry = odometry.noise();
+    const auto tilt = read_optional<TiltParams>(map, "tilt");
+    input.tilt_params = to_param_set(tilt);
+    input.tilt = tilt.tilt();
+    ParamSpec sweep;
+    sweep.name = "sweep";
+    sweep.type = ParamType::boolean;
+    if (const YamlNode* sweep_node = map.find("sweep")) {
+      input.sweep = std::get<bool>(read_param(*sweep_node, sweep));
+      if (input.sweep && !(input.sensor.time_per_beam_s > 0))
+        throw PlacedError(sweep_node->mark,
+                          "sweep is true, but the sensor's time_per_beam_s is 0; allowed: a sensor that takes time");
+    }
+    input.trajectory = {"trajectory", kind, map.params(entry.params)};
+    map.done();
+    input.trajectory.params = resolve(entry.params, input.trajectory.params);
+    at_param(node, [&] {
+      Registry<sim::TrajectoryKind>::make(kind, input.trajectory.params)->generate(input.sensor.scan_period_s);
+    });
+  }
+
+  void read_recorded(const YamlNode& node) {
+    refuse_beside("recording", {"lines", "world", "trajectory"}, "a recording, or world, sensor and trajectory");
+    RecordedInput input;
+    YamlMap map(node, "recording");
+    const YamlNode& log = map.require("log", "a file's path");
+    input.log_as_written = map.text("log", "a file's path");
+    const YamlNode& format_node = map.require("format", fmt::format("one of {}", fmt::join(log_formats(), ", ")));
+    input.format = map.text("format", "a name");
+    const auto specs = at_param(format_node, [&] { return log_param_specs(input.format); });
+    if (input.format != "csv")
+      map.require("no_return_m",
+                  "the range in m from which on a reading means that nothing was in range, or 0 if none does");
+    input.params = resolve(specs, map.params(specs));
+    map.done();
+    input.log = resolve_path(log, input.log_as_written, scenario_.path);
+    if (const YamlNode* sensor = map_.find("sensor")) {
+      read_sensor(*sensor, recorded_sensor_specs(), input.sensor_preset, input.sensor_params, input.sensor);
+    } else {
+      input.sensor_preset = "custom";
+      input.sensor = sim::make_sensor("custom", {}, &input.sensor_params);
+    }
+    refuse_many_seeds("a recorded log");
+    scenario_.input = std::move(input);
+  }
+
+  void read_lines(const YamlNode& node) {
+    refuse_beside("lines", {"sensor", "trajectory"}, "lines and world, or world, sensor and trajectory");
+    LinesInput input;
+    YamlMap map(node, "lines");
+    if (const YamlNode* file = map.find("file")) {
+      input.file_as_written = map.text("file", "a path");
+      map.done();
+      input.file = resolve_path(*file, input.file_as_written, scenario_.path);
+      input.frames = load_line_set(input.file);
+      refuse_many_seeds("a file of lines");
+      if (const YamlNode* world = map_.find("world")) input.world = read_world_section(*world).world;
+    } else {
+      const auto params = make_params<LineCopiesParams>(map.params(param_specs<LineCopiesParams>()));
+      map.done();
+      input.params = to_param_set(params);
+      input.copies = params.copies_of();
+      input.world = read_world_section(
+                        map_.require("world", "{file: PATH}, or the keys of a world file: the walls that are copied"))
+                        .world;
+    }
+    scenario_.input = std::move(input);
+  }
+
+  void refuse_beside(std::string_view what, std::initializer_list<const char*> others, std::string_view allowed) {
+    for (const char* key : others)
+      if (const YamlNode* other = map_.find(key))
+        throw PlacedError(other->mark, fmt::format("both {} and {}; allowed: {}", what, key, allowed));
+  }
+
+  void refuse_many_seeds(std::string_view what) {
+    if (scenario_.seeds.size() > 1)
+      throw PlacedError(map_.find("seeds")->mark,
+                        fmt::format("seeds has {} values, but {} has no chance in it; allowed: one seed",
+                                    scenario_.seeds.size(), what));
+  }
+
+  const YamlNode& root_;
+  YamlMap map_;
+  Scenario& scenario_;
+};
+
+}  // namespace
+
+Scenario parse_scenario(std::string_view text, const std::filesystem::path& path,
+                        const std::vector<std::string>& sets) {
+  Scenario scenario;
+  scenario.path = path;
+  scenario.text = text;
+  in_file(path.string(), sets, [&] {
+    // A scenario may hold its world: the larger limit.
+    YamlNode root = parse_yaml(text, kMaxWorldBytes);
+    apply_sets(root, sets);
+    ScenarioReader(root, scenario).read();
+  });
+  return scenario;
+}
+
+Scenario load_scenario(const std::filesystem::path& path, const std::vector<std::string>& sets) {
+  return parse_scenario(read_text_file(path, kMaxWorldBytes), path, sets);
+}
+
+}  // namespace scanbench::harness

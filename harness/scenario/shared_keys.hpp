@@ -1,0 +1,48 @@
+// Parts of a scenario file that suites share.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "harness/scenario/scenario.hpp"
+#include "harness/yaml/reader.hpp"
+
+namespace scanbench::harness {
+
+/// The value of `seed` or `seeds`, whichever stands in the map; empty if neither does. Throws PlacedError.
+std::vector<std::uint64_t> read_seeds(YamlMap& map);
+
+/// A list of pipelines; they begin with `extract` where there are scans, and have none where lines are given. Throws
+/// PlacedError.
+std::vector<PipelineSpec> read_pipelines(const YamlNode& node, bool scans);
+
+/// A list of names or {name, params}; kind is `metrics` or `figure`. Throws PlacedError.
+std::vector<ModuleChoice> read_choices(const YamlNode& node, const std::string& kind);
+
+/// A name that can be a folder's: letters, digits, _ - . and no leading dot. Throws PlacedError.
+void check_name(const std::string& name, Mark mark, const std::string& what);
+
+/// A path with ${SCANBENCH_DATA} replaced, relative to the folder of `file`, or to the working directory if it
+/// came from a `--set`. Throws PlacedError if the variable is not
+/// set or the file does not exist.
+std::filesystem::path resolve_path(const YamlNode& node, const std::string& text, const std::filesystem::path& file);
+
+/// Runs `work` and gives its ParamErrors the place of the parameter in `map`, other ConfigErrors that of the map.
+template <class Work>
+auto at_param(const YamlNode& map, Work&& work) {
+  try {
+    return work();
+  } catch (const PlacedError&) {
+    throw;
+  } catch (const ParamError& error) {
+    for (const auto& entry : map.entries)
+      if (entry.key == error.param()) throw PlacedError(entry.value.mark, error.what());
+    throw PlacedError(map.mark, error.what());
+  } catch (const ConfigError& error) {
+    throw PlacedError(map.mark, error.what());
+  }
+}
+
+}  // namespace scanbench::harness

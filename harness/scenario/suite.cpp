@@ -1,0 +1,140 @@
+// Reading a suite: its scenarios, and what replaces parts of them.
+#include "harness/scenario/suite.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "harness/files/placed_error.hpp"
+#include "harness/files/text_file.hpp"
+#include "harness/scenario/factors.hpp"
+#include "harness/scenario/figure_pipelines.hpp"
+#include "harness/scenario/scenario_file.hpp"
+#include "harness/scenario/shared_keys.hpp"
+#include "harness/scenario/world_file.hpp"
+#include "harness/yaml/reader.hpp"
+#include "harness/yaml/sets.hpp"
+#include "harness/yaml/writer.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+class SuiteReader {
+ public:
+  SuiteReader(const YamlNode& root, const std::vector<std::string>& sets, Suite& suite)
+      : map_(root, "the suite"), sets_(sets), suite_(suite) {}
+
+  void read() {
+    read_schema(map_);
+    suite_.about = map_.text_or("about", "");
+    seeds_ = read_seeds(map_);
+    pipelines_ = map_.find("pipelines");
+    if (const YamlNode* node = map_.find("metrics")) metrics_ = read_choices(*node, "metrics");
+    figures_node_ = map_.find("figures");
+    if (figures_node_ != nullptr) figures_ = read_choices(*figures_node_, "figure");
+    if (const YamlNode* node = map_.find("published"))
+      published_ = resolve_path(*node, map_.text("published", "a file's path"), suite_.path);
+    const YamlNode* factors = map_.find("factors");
+    const YamlNode* benchmark = map_.find("benchmark");
+    const YamlNode& files = map_.require("scenarios", "a list of scenario files");
+    map_.done();
+    const std::vector<Variant> variants = factors != nullptr ? read_variants(*factors) : std::vector<Variant>{};
+    for (const auto& node : read_list(files, "scenarios", "a list of scenario files")) {
+      const auto path = resolve_path(node, read_word(node, "a scenario", "a file's path"), suite_.path);
+      Scenario plain = load(path, sets_);
+      if (variants.empty()) {
+        add(std::move(plain), node.mark);
+        continue;
+      }
+      for (const Variant& variant : variants) add(load_variant(path, plain.name, variant), node.mark);
+    }
+    if (suite_.scenarios.empty())
+      throw PlacedError(files.mark, "scenarios is empty; allowed: at least one scenario file");
+    if (benchmark == nullptr) return;
+    suite_.benchmark = read_benchmark(*benchmark, suite_.scenarios);
+    suite_.benchmark->about = suite_.about;
+  }
+
+ private:
+  /// A scenario with what the suite puts in place of its parts.
+  Scenario load(const std::filesystem::path& path, const std::vector<std::string>& sets) const {
+    Scenario scenario = load_scenario(path, pipelines_ != nullptr ? sets_outside_section(sets, "pipelines") : sets);
+    if (!seeds_.empty() && has_chance(scenario)) scenario.seeds = seeds_;
+    const bool scans = !std::holds_alternative<LinesInput>(scenario.input);
+    if (pipelines_ != nullptr) scenario.pipelines = pipelines_with(sets_of_section(sets, "pipelines"), scans);
+    if (metrics_) scenario.metrics = *metrics_;
+    if (figures_node_ != nullptr) {
+      scenario.figures = figures_;
+      check_figure_pipelines(*figures_node_, figures_, scenario.pipelines);
+    } else if (pipelines_ != nullptr) {
+      check_figure_pipelines(pipelines_->mark, scenario);
+    }
+    if (!published_.empty()) scenario.published_file = published_;
+    return scenario;
+  }
+
+  /// What is wrong here is wrong with the level: without it the scenario was good.
+  Scenario load_variant(const std::filesystem::path& path, const std::string& name, const Variant& variant) const {
+    std::vector<std::string> sets = variant.sets;
+    sets.insert(sets.end(), sets_.begin(), sets_.end());
+    try {
+      Scenario scenario = load(path, sets);
+      scenario.name = name + variant.suffix;
+      return scenario;
+    } catch (const ConfigError& error) {
+      throw PlacedError(variant.mark, fmt::format("{}{}: {}", name, variant.suffix, error.what()));
+    }
+  }
+
+  std::vector<PipelineSpec> pipelines_with(const std::vector<std::string>& sets, bool scans) const {
+    return in_file(suite_.path.string(), sets, [&] {
+      YamlNode root = yaml_map();
+      root.mark = pipelines_->mark;
+      YamlNode& pipelines = yaml_add(root, "pipelines", *pipelines_);
+      apply_sets(root, sets);
+      return read_pipelines(pipelines, scans);
+    });
+  }
+
+  void add(Scenario scenario, Mark mark) {
+    if (std::ranges::find(suite_.scenarios, scenario.name, &Scenario::name) != suite_.scenarios.end())
+      throw PlacedError(mark, fmt::format("a second scenario is called {}; allowed: different names", scenario.name));
+    suite_.scenarios.push_back(std::move(scenario));
+  }
+
+  YamlMap map_;
+  const std::vector<std::string>& sets_;
+  Suite& suite_;
+  std::vector<std::uint64_t> seeds_;
+  const YamlNode* pipelines_ = nullptr;
+  std::optional<std::vector<ModuleChoice>> metrics_;
+  const YamlNode* figures_node_ = nullptr;
+  std::vector<ModuleChoice> figures_;
+  std::filesystem::path published_;
+};
+
+}  // namespace
+
+bool is_suite(const std::filesystem::path& path) {
+  const std::string text = read_text_file(path, kMaxWorldBytes);
+  return in_file(path.string(), {}, [&] { return parse_yaml(text, kMaxWorldBytes).find("scenarios") != nullptr; });
+}
+
+Suite parse_suite(std::string_view text, const std::filesystem::path& path, const std::vector<std::string>& sets) {
+  Suite suite;
+  suite.name = path.stem().string();
+  suite.path = path;
+  suite.text = text;
+  in_file(path.string(), {}, [&] {
+    const YamlNode root = parse_yaml(text);
+    SuiteReader(root, sets, suite).read();
+  });
+  return suite;
+}
+
+Suite load_suite(const std::filesystem::path& path, const std::vector<std::string>& sets) {
+  return parse_suite(read_text_file(path, kMaxYamlBytes), path, sets);
+}
+
+}  // namespace scanbench::harness

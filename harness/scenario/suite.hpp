@@ -1,0 +1,49 @@
+// Suites: scenarios x levels of factors x pipelines x seeds in one file.
+//
+//   schema: 1
+//   about: what is compared                             # optional
+//   scenarios: [../abcdef.yaml, ../four_rooms.yaml]     # relative to the suite
+//   seeds: {first: 1, count: 20}                        # optional: in place of the scenarios' own (not of logs)
+//   pipelines: [...]                                    # optional: in place of the scenarios' own
+//   metrics: [...]                                      # optional: in place of the scenarios' own
+//   figures: [...]                                      # optional: in place of the scenarios' own
+//   published: ../published/paper.csv                   # optional: in place of the scenarios' own
+//   factors: {noise: {1cm: {sensor.sigma_m: 0.01}}}     # optional: every scenario at every combination of levels
+//   benchmark: {baseline: iepf, example: rooms-1cm}     # optional: one page that ranks the pipelines over all
+//   scenarios
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/scenario/benchmark_spec.hpp"
+#include "harness/scenario/scenario.hpp"
+
+namespace scanbench::harness {
+
+struct Suite {
+  std::string name;  ///< the file's name without ending
+  std::filesystem::path path;
+  std::string text;  ///< the file's bytes
+  std::string about;
+  /// With the suite's seeds, pipelines and metrics in them; different names. With factors each scenario stands here
+  /// once per combination of levels: rooms-ladar-1cm, rooms-ladar-5cm, ...
+  std::vector<Scenario> scenarios;
+  std::optional<BenchmarkSpec> benchmark;
+};
+
+/// True if the file has a key `scenarios` at its top, which is what tells a suite from a scenario. Throws ConfigError
+/// for a file that is not YAML.
+bool is_suite(const std::filesystem::path& path);
+
+/// `sets` are overrides of each scenario, and of the suite's pipelines where it has some. Throws ConfigError with
+/// file:line:col.
+Suite load_suite(const std::filesystem::path& path, const std::vector<std::string>& sets = {});
+
+/// The same from memory; scenarios are found relative to `path`.
+Suite parse_suite(std::string_view text, const std::filesystem::path& path, const std::vector<std::string>& sets = {});
+
+}  // namespace scanbench::harness

@@ -1,0 +1,21 @@
+// Names of trace rows as a set and as text.
+#include "harness/scenario/trace_choice.hpp"
+
+namespace scanbench::harness {
+
+bool TraceChoice::wants(std::string_view slot, std::string_view name) const {
+  if (all) return true;
+  const std::string prefix = std::string(slot) + ".";
+  if (!name.empty()) return names.contains(prefix + std::string(name));
+  const auto first = names.lower_bound(prefix);
+  return first != names.end() && first->starts_with(prefix);
+}
+
+std::string TraceChoice::text() const {
+  if (all) return "all";
+  std::string joined;
+  for (const auto& name : names) joined += (joined.empty() ? "" : " ") + name;
+  return joined.empty() ? "none" : joined;
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,285 @@
+// World files in YAML. Every wall is checked where it stands, so that the message can say line and column.
+#include "harness/scenario/world_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "harness/files/placed_error.hpp"
+#include "harness/files/text_file.hpp"
+#include "harness/yaml/writer.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+// Labels stand in tables and in names of metrics.
+const std::string& read_label(const YamlNode& node, std::string_view what) {
+  constexpr std::string_view kAllowed = "a label of 1 to 64 characters without comma, quote or line break";
+  const std::string& label = read_word(node, what, kAllowed);
+  const auto bad = [](char c) { return c == ',' || c == '"' || (c >= 0 && c < ' ') || c == 127; };
+  if (label.size() > 64 || std::ranges::any_of(label, bad))
+    throw PlacedError(node.mark, fmt::format("{} is {}; allowed: {}", what, quoted_excerpt(label), kAllowed));
+  return label;
+}
+
+class WorldReader {
+ public:
+  WorldReader(YamlMap& map, const std::string& default_name) : map_(map) {
+    world_.name = map.text_or("name", default_name);
+    world_.about = map.text_or("about", "");
+    ParamSpec unit;
+    unit.name = "unit_m";
+    unit.bounds = above(0);
+    unit.unit = "m";
+    if (const YamlNode* node = map.find("unit_m")) unit_m_ = std::get<double>(read_param(*node, unit));
+    read_segments();
+    read_chains("polylines", 2, false);
+    read_chains("polygons", 3, true);
+    read_circles();
+    read_moving();
+    if (world_.walls.empty())
+      throw PlacedError(map.mark(), "the world has no walls; allowed: at least one in segments, polylines or polygons");
+  }
+
+  sim::World take() { return std::move(world_); }
+
+ private:
+  Vec2 point(const YamlNode& x, const YamlNode& y, std::string_view what) const {
+    return unit_m_ * Vec2(read_number(x, what), read_number(y, what));
+  }
+
+  Vec2 point(const YamlNode& node, std::string_view what) const {
+    const auto& xy = read_list(node, what, "a point, [x, y]");
+    if (xy.size() != 2)
+      throw PlacedError(node.mark, fmt::format("{} has {} numbers; allowed: 2, [x, y]", what, xy.size()));
+    return point(xy[0], xy[1], what);
+  }
+
+  void add_wall(std::string label, const Segment& segment, Mark mark) {
+    if (!(segment.length() > 0))
+      throw PlacedError(mark, fmt::format("wall {} has no length; allowed: two different end points", label));
+    const auto [first, is_new] = lines_.emplace(label, mark.line);
+    if (!is_new)
+      throw PlacedError(
+          mark, fmt::format("wall {} stands here a second time; the first is in line {}", label, first->second));
+    world_.walls.push_back({std::move(label), segment});
+  }
+
+  const std::vector<YamlNode>* list(std::string_view key, std::string_view allowed) {
+    const YamlNode* node = map_.find(key);
+    return node == nullptr ? nullptr : &read_list(*node, key, allowed);
+  }
+
+  void read_segments() {
+    constexpr std::string_view kRow = "[label, x1, y1, x2, y2]";
+    const auto* rows = list("segments", "a list of [label, x1, y1, x2, y2]");
+    if (rows == nullptr) return;
+    for (const auto& row : *rows) {
+      const auto& v = read_list(row, "a segment", kRow);
+      if (v.size() != 5)
+        throw PlacedError(row.mark, fmt::format("a segment has {} values; allowed: 5, {}", v.size(), kRow));
+      add_wall(read_label(v[0], "a segment's label"), {point(v[1], v[2], "x1 or y1"), point(v[3], v[4], "x2 or y2")},
+               row.mark);
+    }
+  }
+
+  void read_chains(std::string_view key, std::size_t least, bool closed) {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    if (node->kind != YamlKind::map)
+      throw PlacedError(node->mark,
+                        fmt::format("{} is {}; allowed: a map, name: [[x, y], ...]", key, describe_node(*node)));
+    for (const auto& entry : node->entries) {
+      const auto& points = read_list(entry.value, entry.key, "a list of points, [[x, y], ...]");
+      if (points.size() < least)
+        throw PlacedError(entry.value.mark,
+                          fmt::format("{} has {} points; allowed: at least {}", entry.key, points.size(), least));
+      YamlNode name = yaml_text(entry.key);
+      name.mark = entry.mark;
+      const std::string label = read_label(name, "a name");
+      Vec2 from = point(points.front(), "a point");
+      for (std::size_t i = 1; i < points.size() + (closed ? 1 : 0); ++i) {
+        const YamlNode& to_node = points[i % points.size()];
+        const Vec2 to = point(to_node, "a point");
+        add_wall(fmt::format("{}.{}", label, i), {from, to}, to_node.mark);
+        from = to;
+      }
+    }
+  }
+
+  void read_circles() {
+    constexpr std::string_view kRow = "[label, x, y, radius]";
+    const auto* rows = list("circles", "a list of [label, x, y, radius]");
+    if (rows == nullptr) return;
+    for (const auto& row : *rows) {
+      const auto& v = read_list(row, "a circle", kRow);
+      if (v.size() != 4)
+        throw PlacedError(row.mark, fmt::format("a circle has {} values; allowed: 4, {}", v.size(), kRow));
+      const double radius = unit_m_ * read_number(v[3], "radius");
+      if (!(radius > 0)) throw PlacedError(v[3].mark, fmt::format("radius is {}; allowed: a number > 0", v[3].text));
+      world_.circles.push_back({read_label(v[0], "a circle's label"), point(v[1], v[2], "x or y"), radius});
+    }
+  }
+
+  struct MovingParams {
+    double radius_m = 0.2;
+    NumberRows path_m;
+    double speed_mps = 1.0;
+    bool loop = false;
+    static auto fields() {
+      return std::tuple{field("radius_m", &MovingParams::radius_m, above(0), "m", "radius"),
+                        field("path_m", &MovingParams::path_m, any_number(), "m", "points of the path"),
+                        field("speed_mps", &MovingParams::speed_mps, above(0), "m/s", "speed along the path"),
+                        field("loop", &MovingParams::loop, "back and forth, instead of staying at the end")};
+    }
+  };
+
+  void read_moving() {
+    const auto* bodies = list("moving", "a list of {label, radius_m, path_m, speed_mps, loop}");
+    if (bodies == nullptr) return;
+    for (const auto& node : *bodies) {
+      YamlMap body(node, "a moving body");
+      const std::string label = read_label(body.require("label", "a name"), "label");
+      body.require("path_m", "a list of points, [[x, y], ...]");
+      const auto params = make_params<MovingParams>(body.params(param_specs<MovingParams>()));
+      body.done();
+      const YamlNode& path = *node.find("path_m");
+      sim::MovingBody moving{label, params.radius_m, {}, params.speed_mps, params.loop};
+      for (std::size_t i = 0; i < params.path_m.size(); ++i) {
+        const auto& xy = params.path_m[i];
+        if (xy.size() != 2)
+          throw PlacedError(path.items[i].mark,
+                            fmt::format("path_m[{}] has {} numbers; allowed: 2, [x, y]", i, xy.size()));
+        moving.path.emplace_back(xy[0], xy[1]);
+        if (i > 0 && moving.path[i] == moving.path[i - 1])
+          throw PlacedError(path.items[i].mark, fmt::format("path_m[{}] repeats the point before it", i));
+      }
+      if (moving.path.size() < 2)
+        throw PlacedError(path.mark, fmt::format("path_m has {} points; allowed: at least 2", moving.path.size()));
+      world_.moving.push_back(std::move(moving));
+    }
+  }
+
+  YamlMap& map_;
+  sim::World world_;
+  double unit_m_ = 1.0;
+  std::unordered_map<std::string, int> lines_;  // of the walls, by label
+};
+
+bool is_vector_map(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  return name.ends_with(".txt") || name.ends_with(".txt.gz");
+}
+
+YamlNode row(std::initializer_list<double> numbers, const std::string& label) {
+  YamlNode node = yaml_sequence();
+  node.items.push_back(yaml_text(label));
+  for (const double v : numbers) node.items.push_back(yaml_number(v));
+  return node;
+}
+
+// Checks of the world as a whole, which have no line of their own.
+void validate_in_file(const sim::World& world, const std::string& file) {
+  try {
+    sim::validate(world);
+  } catch (const ConfigError& error) {
+    throw ConfigError(file + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+sim::World read_world(YamlMap& map, const std::string& default_name) {
+  return WorldReader(map, default_name).take();
+}
+
+sim::World parse_world(std::string_view text, const std::string& file) {
+  sim::World world = in_file(file, {}, [&] {
+    const YamlNode root = parse_yaml(text, kMaxWorldBytes);
+    YamlMap map(root, "the world file");
+    read_schema(map);
+    sim::World result = read_world(map, std::filesystem::path(file).stem().string());
+    map.done();
+    return result;
+  });
+  validate_in_file(world, file);
+  return world;
+}
+
+LoadedWorld parse_vector_map(std::string_view text, const std::string& file) {
+  LoadedWorld loaded;
+  std::string name = std::filesystem::path(file).filename().string();
+  loaded.world.name = name.substr(0, name.find('.'));
+  loaded.text = text;
+  in_file(file, {}, [&] {
+    std::vector<std::string_view> fields;
+    int number = 0;
+    for (std::string_view rest = text; !rest.empty();) {
+      const std::string_view whole = take_line(rest);
+      const std::string_view line = whole.substr(0, whole.find('#'));
+      ++number;
+      split_fields(line, fields);
+      if (fields.empty()) continue;
+      const auto refuse = [&](std::string_view at, const std::string& message) {
+        throw PlacedError({number, column_of(line, at)}, message + "; allowed: x1, y1, x2, y2 in metres");
+      };
+      if (fields.size() != 4) refuse(fields.front(), fmt::format("{} numbers in a line", fields.size()));
+      double v[4];
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto parsed = parse_number(fields[i]);
+        if (!parsed) refuse(fields[i], quoted_excerpt(fields[i]) + " is no number");
+        v[i] = *parsed;
+      }
+      const Segment segment{{v[0], v[1]}, {v[2], v[3]}};
+      if (segment.length() > 0)
+        loaded.world.walls.push_back({std::to_string(number), segment});
+      else
+        ++loaded.dropped;
+    }
+    if (loaded.world.walls.empty())
+      throw PlacedError({1, 1}, "the world has no walls; allowed: at least one line with x1, y1, x2, y2");
+  });
+  validate_in_file(loaded.world, file);
+  return loaded;
+}
+
+LoadedWorld load_world(const std::filesystem::path& path) {
+  std::string text = read_text_file(path, kMaxWorldBytes);
+  if (is_vector_map(path)) return parse_vector_map(text, path.string());
+  sim::World world = parse_world(text, path.string());
+  return {std::move(world), std::move(text), 0};
+}
+
+YamlNode to_yaml(const sim::World& world) {
+  YamlNode map = yaml_map();
+  yaml_add(map, "name", yaml_text(world.name));
+  if (!world.about.empty()) yaml_add(map, "about", yaml_text(world.about));
+  YamlNode& segments = yaml_add(map, "segments", yaml_sequence());
+  for (const auto& wall : world.walls)
+    segments.items.push_back(
+        row({wall.segment.a.x(), wall.segment.a.y(), wall.segment.b.x(), wall.segment.b.y()}, wall.label));
+  if (!world.circles.empty()) {
+    YamlNode& circles = yaml_add(map, "circles", yaml_sequence());
+    for (const auto& c : world.circles) circles.items.push_back(row({c.center.x(), c.center.y(), c.radius_m}, c.label));
+  }
+  if (!world.moving.empty()) {
+    YamlNode& moving = yaml_add(map, "moving", yaml_sequence());
+    for (const auto& body : world.moving) {
+      YamlNode node = yaml_map();
+      yaml_add(node, "label", yaml_text(body.label));
+      yaml_add(node, "radius_m", yaml_number(body.radius_m));
+      NumberRows path;
+      for (const auto& p : body.path) path.push_back({p.x(), p.y()});
+      yaml_add(node, "path_m", to_yaml(ParamValue(path)));
+      yaml_add(node, "speed_mps", yaml_number(body.speed_mps));
+      yaml_add(node, "loop", yaml_plain(body.loop ? "true" : "false"));
+      moving.items.push_back(std::move(node));
+    }
+  }
+  return map;
+}
+
+}  // namespace scanbench::harness

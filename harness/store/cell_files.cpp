@@ -1,0 +1,250 @@
+// PipelineResult <-> lines.csv, labels.npy, map.csv, poses.csv, merge_labels.csv, timing.csv; status.json; metrics.csv.
+#include "harness/store/cell_files.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/files/csv.hpp"
+#include "harness/files/npy.hpp"
+
+namespace scanbench::harness {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Columns = std::vector<std::string>;
+
+const Columns kLineColumns{"frame", "line",      "x1_m",       "y1_m",      "x2_m",   "y2_m",
+                           "rho_m", "alpha_rad", "first_beam", "last_beam", "points", "rms_m"};
+const Columns kMapColumns{"line", "x1_m", "y1_m", "x2_m", "y2_m", "members", "points"};
+const Columns kPoseColumns{"frame", "x_m", "y_m", "yaw_rad"};
+const Columns kMergeColumns{"frame", "line", "cluster1", "cluster2", "map_line"};
+const Columns kTimingColumns{"stage", "frame", "seconds"};
+const Columns kMetricColumns{"metric", "subject", "value", "unit", "count", "ci_low", "ci_high"};
+const Columns kCovarianceColumns{"cov_offset_m2", "cov_offset_angle", "cov_angle_rad2"};
+
+Columns with_covariance(Columns columns, bool wanted) {
+  if (wanted) columns.insert(columns.end(), kCovarianceColumns.begin(), kCovarianceColumns.end());
+  return columns;
+}
+
+void segment_fields(CsvWriter& csv, const Segment& s) {
+  csv.number(s.a.x()).number(s.a.y()).number(s.b.x()).number(s.b.y());
+}
+
+Segment segment_from(const CsvTable& csv, std::size_t row) {
+  return {{csv.number(row, "x1_m"), csv.number(row, "y1_m")}, {csv.number(row, "x2_m"), csv.number(row, "y2_m")}};
+}
+
+void covariance_fields(CsvWriter& csv, const Eigen::Matrix2d& c) {
+  csv.number(c(0, 0)).number(c(0, 1)).number(c(1, 1));
+}
+
+std::optional<Eigen::Matrix2d> covariance_from(const CsvTable& csv, std::size_t row) {
+  const auto offset = csv.optional_number(row, kCovarianceColumns[0]);
+  if (!offset) return std::nullopt;
+  Eigen::Matrix2d c;
+  c(0, 0) = *offset;
+  c(0, 1) = c(1, 0) = csv.number(row, kCovarianceColumns[1]);
+  c(1, 1) = csv.number(row, kCovarianceColumns[2]);
+  return c;
+}
+
+void write_lines(const fs::path& cell, const std::vector<ScanLines>& scans) {
+  bool covariance = false;
+  for (const auto& scan : scans)
+    for (const auto& line : scan.lines) covariance = covariance || line.covariance.has_value();
+  CsvWriter csv(with_covariance(kLineColumns, covariance));
+  std::vector<std::int32_t> labels;
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    labels.insert(labels.end(), scans[k].labels.begin(), scans[k].labels.end());
+    for (std::size_t i = 0; i < scans[k].lines.size(); ++i) {
+      const LineFeature& line = scans[k].lines[i];
+      csv.integer(static_cast<long long>(k)).integer(static_cast<long long>(i));
+      segment_fields(csv, line.segment);
+      csv.number(line.line.rho).number(line.line.alpha);
+      csv.integer(line.first_beam).integer(line.last_beam).integer(line.points).number(line.rms_m);
+      if (covariance && line.covariance)
+        covariance_fields(csv, *line.covariance);
+      else if (covariance)
+        csv.empty().empty().empty();
+      csv.end_row();
+    }
+  }
+  write_staged_file(cell / "lines.csv", csv.str());
+  const std::size_t beams = scans.empty() ? 0 : scans.front().labels.size();
+  write_staged_file(cell / "labels.npy", npy_bytes(labels, scans.size(), beams));
+}
+
+std::vector<ScanLines> load_lines(const fs::path& cell) {
+  const fs::path file = cell / "lines.csv";
+  const auto labels = parse_npy_int32(read_file(cell / "labels.npy"), cell / "labels.npy");
+  std::vector<ScanLines> scans(labels.rows);
+  for (std::size_t k = 0; k < labels.rows; ++k) {
+    const auto row = labels.values.begin() + static_cast<std::ptrdiff_t>(k * labels.columns);
+    scans[k].labels.assign(row, row + static_cast<std::ptrdiff_t>(labels.columns));
+  }
+  const CsvTable csv(read_file(file), file, kLineColumns);
+  const bool covariance = csv.has(kCovarianceColumns.front());
+  for (std::size_t r = 0; r < csv.rows(); ++r) {
+    const int frame = csv.index(r, "frame");
+    if (frame < 0 || static_cast<std::size_t>(frame) >= scans.size())
+      csv.refuse(r, "frame " + std::to_string(frame) + " is not in labels.npy");
+    auto& lines = scans[static_cast<std::size_t>(frame)].lines;
+    if (csv.index(r, "line") != static_cast<int>(lines.size())) csv.refuse(r, "lines must be numbered 0, 1, 2, ...");
+    lines.push_back({.segment = segment_from(csv, r),
+                     .line = {csv.number(r, "rho_m"), csv.number(r, "alpha_rad")},
+                     .covariance = covariance ? covariance_from(csv, r) : std::nullopt,
+                     .first_beam = csv.index(r, "first_beam"),
+                     .last_beam = csv.index(r, "last_beam"),
+                     .points = csv.index(r, "points"),
+                     .rms_m = csv.number(r, "rms_m")});
+  }
+  for (std::size_t k = 0; k < scans.size(); ++k)
+    for (const int label : scans[k].labels)
+      if (label < -1 || label >= static_cast<int>(scans[k].lines.size()))
+        throw ConfigError((cell / "labels.npy").string() + ": frame " + std::to_string(k) + " has the label " +
+                          std::to_string(label) + ", but lines.csv has " + std::to_string(scans[k].lines.size()) +
+                          " lines of it");
+  return scans;
+}
+
+void write_map(const fs::path& cell, const LineMap& map) {
+  bool covariance = false;
+  for (const auto& line : map.lines) covariance = covariance || !line.covariance.isZero(0.0);
+  CsvWriter csv(with_covariance(kMapColumns, covariance));
+  for (std::size_t i = 0; i < map.lines.size(); ++i) {
+    csv.integer(static_cast<long long>(i));
+    segment_fields(csv, map.lines[i].segment);
+    csv.integer(map.lines[i].members).integer(map.lines[i].points);
+    if (covariance) covariance_fields(csv, map.lines[i].covariance);
+    csv.end_row();
+  }
+  write_staged_file(cell / "map.csv", csv.str());
+}
+
+CsvTable table(const fs::path& file, const Columns& columns) {
+  return {read_file(file), file, columns};
+}
+
+}  // namespace
+
+std::string status_json(const CellRecord& record) {
+  const Json json{{"schema", 1},
+                  {"status", to_string(record.outcome.status)},
+                  {"message", record.outcome.message},
+                  {"wall_seconds", record.outcome.wall_seconds},
+                  {"cpu_seconds", record.outcome.cpu_seconds},
+                  {"peak_memory_bytes", record.outcome.peak_memory_bytes},
+                  {"address", record.address}};
+  // What a module printed need not be UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+CellRecord load_status(const fs::path& cell) {
+  const fs::path file = cell / "status.json";
+  const Json json = Json::parse(read_file(file), nullptr, false);
+  if (json.is_discarded() || !json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
+  try {
+    return {{.status = cell_status_from(json.at("status").get<std::string>()),
+             .message = json.at("message"),
+             .wall_seconds = json.at("wall_seconds"),
+             .cpu_seconds = json.at("cpu_seconds"),
+             .peak_memory_bytes = json.at("peak_memory_bytes")},
+            json.value("address", "")};
+  } catch (const std::exception& e) {
+    throw ConfigError(file.string() + ": " + e.what());
+  }
+}
+
+void write_result(const fs::path& cell, const PipelineSpec& pipeline, const PipelineResult& result) {
+  write_lines(cell, result.lines);
+  if (!result.world_from_sensor.empty()) {
+    CsvWriter csv(kPoseColumns);
+    for (std::size_t k = 0; k < result.world_from_sensor.size(); ++k) {
+      const Pose2& pose = result.world_from_sensor[k];
+      csv.integer(static_cast<long long>(k)).number(pose.x()).number(pose.y()).number(pose.yaw()).end_row();
+    }
+    write_staged_file(cell / "poses.csv", csv.str());
+  }
+  if (result.has_map) write_map(cell, result.map);
+  if (has_slot(pipeline, "merge")) {
+    CsvWriter csv(kMergeColumns);
+    for (const auto& l : result.merge_labels) {
+      csv.integer(l.frame).integer(l.line).integer(l.cluster1).integer(l.cluster2).integer(l.map_line);
+      csv.end_row();
+    }
+    write_staged_file(cell / "merge_labels.csv", csv.str());
+  }
+  CsvWriter csv(kTimingColumns);
+  for (const auto& time : result.times) csv.text(time.stage).integer(time.frame).number(time.seconds).end_row();
+  write_staged_file(cell / "timing.csv", csv.str());
+}
+
+PipelineResult load_result(const fs::path& cell) {
+  PipelineResult result;
+  result.lines = load_lines(cell);
+  if (fs::exists(cell / "poses.csv")) {
+    const CsvTable csv = table(cell / "poses.csv", kPoseColumns);
+    for (std::size_t r = 0; r < csv.rows(); ++r) {
+      const Eigen::Vector3d p(csv.number(r, "x_m"), csv.number(r, "y_m"), csv.number(r, "yaw_rad"));
+      if (!p.allFinite()) csv.refuse(r, "the pose is not finite");
+      result.world_from_sensor.emplace_back(p.x(), p.y(), p.z());
+    }
+    if (csv.rows() != result.lines.size())
+      throw ConfigError((cell / "poses.csv").string() + ": " + std::to_string(csv.rows()) + " poses for " +
+                        std::to_string(result.lines.size()) + " frames");
+  }
+  result.has_map = fs::exists(cell / "map.csv");
+  if (result.has_map) {
+    const CsvTable csv = table(cell / "map.csv", kMapColumns);
+    const bool covariance = csv.has(kCovarianceColumns.front());
+    for (std::size_t r = 0; r < csv.rows(); ++r) {
+      MapLine line{
+          .segment = segment_from(csv, r), .members = csv.index(r, "members"), .points = csv.index(r, "points")};
+      if (covariance) line.covariance = covariance_from(csv, r).value_or(Eigen::Matrix2d::Zero());
+      result.map.lines.push_back(line);
+    }
+  }
+  if (fs::exists(cell / "merge_labels.csv")) {
+    const CsvTable csv = table(cell / "merge_labels.csv", kMergeColumns);
+    for (std::size_t r = 0; r < csv.rows(); ++r)
+      result.merge_labels.push_back({csv.index(r, "frame"), csv.index(r, "line"), csv.index(r, "cluster1"),
+                                     csv.index(r, "cluster2"), csv.index(r, "map_line")});
+  }
+  if (fs::exists(cell / "timing.csv")) {
+    const CsvTable csv = table(cell / "timing.csv", kTimingColumns);
+    for (std::size_t r = 0; r < csv.rows(); ++r)
+      result.times.push_back({csv.text(r, "stage"), csv.index(r, "frame"), csv.number(r, "seconds")});
+  }
+  return result;
+}
+
+std::string metrics_csv(const std::vector<metrics::MetricRow>& rows) {
+  CsvWriter csv(kMetricColumns);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& row : rows)
+    csv.text(row.metric)
+        .text(row.subject)
+        .number(row.value)
+        .text(row.unit)
+        .integer(row.count)
+        .number(row.ci_low.value_or(nan))
+        .number(row.ci_high.value_or(nan))
+        .end_row();
+  return csv.str();
+}
+
+std::vector<metrics::MetricRow> load_metrics(const fs::path& cell) {
+  const CsvTable csv = table(cell / "metrics.csv", kMetricColumns);
+  std::vector<metrics::MetricRow> rows;
+  for (std::size_t r = 0; r < csv.rows(); ++r)
+    rows.push_back({csv.text(r, "metric"), csv.text(r, "subject"), csv.number(r, "value"), csv.text(r, "unit"),
+                    csv.integer(r, "count"), csv.optional_number(r, "ci_low"), csv.optional_number(r, "ci_high")});
+  return rows;
+}
+
+}  // namespace scanbench::harness

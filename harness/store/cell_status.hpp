@@ -1,0 +1,33 @@
+// How a cell ended.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace scanbench::harness {
+
+enum class CellStatus {
+  ok,
+  skipped,        ///< not started, because what it needs could not be made
+  invalid,        ///< a module's result breaks its interface's contract
+  failed,         ///< an exception, or an outcome of the module that leaves nothing to score
+  crashed,        ///< ended by a signal, or without a result
+  timeout,        ///< took longer than the limit
+  out_of_memory,  ///< needed more memory than the limit
+};
+std::string_view to_string(CellStatus status);
+/// Throws ConfigError for an unknown name.
+CellStatus cell_status_from(std::string_view name);
+
+/// How a task ended. On success `message` is what the task returned, else the exception's text, the signal, and the
+/// last lines that the child wrote to stdout or stderr.
+struct WorkerOutcome {
+  CellStatus status = CellStatus::failed;
+  std::string message;
+  double wall_seconds = 0.0;
+  double cpu_seconds = 0.0;
+  double peak_memory_bytes = 0.0;
+  bool bad_input = false;  ///< failed with a ConfigError: something that a user can mend
+};
+
+}  // namespace scanbench::harness

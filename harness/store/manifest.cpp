@@ -1,0 +1,166 @@
+// The manifest as JSON, and what the build knows of itself.
+#include "harness/store/manifest.hpp"
+
+#include <algorithm>
+#include <ctime>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "harness/files/hash.hpp"
+#include "scanbench_version.hpp"  // included here and nowhere else: it changes with every commit
+
+namespace scanbench::harness {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string cpu_name() {
+  const std::string info = read_file("/proc/cpuinfo");
+  const auto at = info.find("model name");
+  if (at == std::string::npos) return "unknown";
+  const auto colon = info.find(": ", at);
+  return colon == std::string::npos ? "unknown" : info.substr(colon + 2, info.find('\n', colon) - colon - 2);
+}
+
+/// "name 1.2,other 3.4" as an object.
+Json libraries() {
+  Json json = Json::object();
+  std::string_view rest = version::kLibraries;
+  while (!rest.empty()) {
+    const std::string_view item = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), item.size() + 1));
+    const auto blank = item.find(' ');
+    if (blank != std::string_view::npos) json[std::string(item.substr(0, blank))] = item.substr(blank + 1);
+  }
+  return json;
+}
+
+Json artefacts(const fs::path& run) {
+  std::set<std::string> paths;  // in a fixed order
+  for (const auto& entry : fs::recursive_directory_iterator(run)) {
+    const fs::path relative = entry.path().lexically_relative(run);
+    if (entry.is_regular_file() && is_run_file(relative) && relative != "manifest.json")
+      paths.insert(relative.generic_string());
+  }
+  Json list = Json::array();
+  for (const auto& path : paths) list.push_back({{"path", path}, {"sha256", sha256_of_file(run / path)}});
+  return list;
+}
+
+Json load_json(const fs::path& run) {
+  const fs::path file = run / "manifest.json";
+  std::error_code absent;
+  if (!fs::exists(file, absent)) throw ConfigError(run.string() + ": not the folder of a run: it has no manifest.json");
+  Json json = Json::parse(read_file(file), nullptr, false);
+  if (json.is_discarded() || !json.is_object() || json.value("program", Json()) != "scanbench")
+    throw ConfigError(file.string() + ": not the manifest of a scanbench run");
+  if (json.value("schema", Json()) != 1)
+    throw ConfigError(file.string() + ": schema is " + json.value("schema", Json()).dump() + "; allowed: 1");
+  return json;
+}
+
+void write_json(const fs::path& run, const Json& json) {
+  write_file_atomically(run / "manifest.json", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+void write_manifest(const fs::path& run, const Manifest& manifest) {
+  std::set<std::uint64_t> seeds;
+  Json cells = Json::array();
+  for (const auto& cell : manifest.cells) {
+    seeds.insert(cell.seed);
+    cells.push_back({{"scenario", cell.scenario}, {"pipeline", cell.pipeline}, {"seed", cell.seed}});
+  }
+  Json json{{"schema", 1},
+            {"program", "scanbench"},
+            {"state", manifest.state},
+            {"version", version::kVersion},
+            {"git_commit", version::kCommit},
+            {"code_version", code_version()},
+            {"compiler", version::kCompiler},
+            {"build_type", version::kBuildType},
+            {"flags", version::kFlags},
+            {"libraries", libraries()},
+            {"cpu", cpu_name()},
+            {"argv", manifest.argv},
+            {"seeds", seeds},
+            {"start", manifest.start},
+            {"end", manifest.end},
+            {"scenarios", manifest.scenarios},
+            {"cells", cells},
+            {"artefacts", manifest.state == "running" ? Json::array() : artefacts(run)}};
+  write_json(run, json);
+}
+
+Manifest load_manifest(const fs::path& run) {
+  const Json json = load_json(run);
+  try {
+    Manifest manifest{json.at("state"), json.at("start"), json.at("end"), json.at("argv"), json.at("scenarios"), {}};
+    for (const auto& cell : json.at("cells")) {
+      manifest.cells.push_back({cell.at("scenario"), cell.at("pipeline"), cell.at("seed")});
+      check_name("scenario", manifest.cells.back().scenario);
+      check_name("pipeline", manifest.cells.back().pipeline);
+    }
+    return manifest;
+  } catch (const Json::exception& e) {
+    throw ConfigError((run / "manifest.json").string() + ": " + e.what());
+  }
+}
+
+std::map<std::string, std::string> listed_hashes(const fs::path& run) {
+  const Json json = load_json(run);
+  try {
+    std::map<std::string, std::string> hashes;
+    for (const auto& file : json.at("artefacts")) hashes.emplace(file.at("path"), file.at("sha256"));
+    return hashes;
+  } catch (const Json::exception& e) {
+    throw ConfigError((run / "manifest.json").string() + ": " + e.what());
+  }
+}
+
+void refresh_manifest(const fs::path& run) {
+  Json json = load_json(run);
+  json["artefacts"] = artefacts(run);
+  write_json(run, json);
+}
+
+std::string version_text() {
+  const std::string commit = version::kCommit;
+  return std::string("scanbench ") + version::kVersion + " (" + commit.substr(0, 12) + ", " + version::kCompiler +
+         ", " + version::kBuildType + ")";
+}
+
+std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& run) {
+  const Json json = load_json(run);
+  std::string command;
+  for (const auto& word : json.value("argv", Json::array()))
+    command += (command.empty() ? "" : " ") + word.get<std::string>();
+  std::string used;
+  const Json libraries = json.value("libraries", Json::object());  // items() only refers to it
+  for (const auto& [name, number] : libraries.items())
+    used += (used.empty() ? "" : ", ") + name + " " + number.get<std::string>();
+  const auto text = [&](const char* key) { return json.value(key, std::string()); };
+  return {{"command", command},
+          {"version", text("version") + ", commit " + text("git_commit")},
+          {"started", text("start")},
+          {"ended", text("end")},
+          {"compiler", text("compiler") + ", " + text("build_type") + ", " + text("flags")},
+          {"libraries", used},
+          {"processor", text("cpu")},
+          {"files", "effective.yaml holds every parameter; manifest.json the SHA-256 of every file"}};
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,319 @@
+// Recording <-> walls.csv, frames.csv, lines.csv, rotations.npy, ranges.npy, true_ranges.npy, wall_ids.npy, scan.json.
+#include "harness/store/recording_folder.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/files/csv.hpp"
+#include "harness/files/hash.hpp"
+#include "harness/files/npy.hpp"
+
+namespace scanbench::harness {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Files = std::vector<std::pair<std::string, std::string>>;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// The numbers of a sensor that scan.json holds, by key.
+struct SensorNumber {
+  const char* key;
+  double SensorModel::*member;
+};
+constexpr SensorNumber kSensorNumbers[] = {{"range_min_m", &SensorModel::range_min_m},
+                                           {"range_max_m", &SensorModel::range_max_m},
+                                           {"time_per_beam_s", &SensorModel::time_per_beam_s},
+                                           {"scan_period_s", &SensorModel::scan_period_s}};
+struct NoiseNumber {
+  const char* key;
+  double SensorNoise::*member;
+};
+constexpr NoiseNumber kNoiseNumbers[] = {{"sigma_m", &SensorNoise::sigma_m},
+                                         {"sigma_relative", &SensorNoise::sigma_relative},
+                                         {"relative_from_m", &SensorNoise::relative_from_m},
+                                         {"bearing_sigma_rad", &SensorNoise::bearing_sigma_rad},
+                                         {"quantum_m", &SensorNoise::quantum_m},
+                                         {"dropout_probability", &SensorNoise::dropout_probability},
+                                         {"dropout_grazing", &SensorNoise::dropout_grazing},
+                                         {"spurious_probability", &SensorNoise::spurious_probability},
+                                         {"beam_divergence_rad", &SensorNoise::beam_divergence_rad}};
+
+/// JSON knows no infinities: they are text.
+Json json_number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(number_text(value));
+}
+
+double number_of(const Json& json, const char* key, const fs::path& file) {
+  const auto found = json.find(key);
+  if (found != json.end() && found->is_number()) return found->get<double>();
+  if (found != json.end() && *found == "inf") return std::numeric_limits<double>::infinity();
+  if (found != json.end() && *found == "-inf") return -std::numeric_limits<double>::infinity();
+  throw ConfigError(file.string() + ": '" + key + "' must be a number; found " +
+                    (found == json.end() ? "nothing" : found->dump()));
+}
+
+Json scan_json(const Recording& recording) {
+  const SensorModel& sensor = recording.observed.sensor;
+  Json json{{"schema", 1},
+            {"sensor_name", sensor.name},
+            {"sensor_source", sensor.source},
+            {"angle_min_rad", json_number(sensor.geometry.angle_min())},
+            {"angle_step_rad", json_number(sensor.geometry.angle_step())},
+            {"beams", sensor.geometry.beams()},
+            {"frames", recording.observed.frames.size()}};
+  for (const auto& [key, member] : kSensorNumbers) json[key] = json_number(sensor.*member);
+  for (const auto& [key, member] : kNoiseNumbers) json["noise"][key] = json_number(sensor.noise.*member);
+  return json;
+}
+
+std::string walls_csv(const Truth& truth) {
+  CsvWriter csv({"wall", "label", "x1_m", "y1_m", "x2_m", "y2_m"});
+  for (std::size_t i = 0; i < truth.walls.size(); ++i) {
+    const Segment& s = truth.walls[i].segment;
+    csv.integer(static_cast<long long>(i)).text(truth.walls[i].label);
+    csv.number(s.a.x()).number(s.a.y()).number(s.b.x()).number(s.b.y()).end_row();
+  }
+  return csv.str();
+}
+
+void pose_fields(CsvWriter& csv, const Pose2& pose) {
+  csv.number(pose.x()).number(pose.y()).number(pose.yaw());
+}
+
+std::string frames_csv(const Recording& recording) {
+  CsvWriter csv({"frame", "t_s", "true_x_m", "true_y_m", "true_yaw_rad", "odom_x_m", "odom_y_m", "odom_yaw_rad"});
+  for (std::size_t k = 0; k < recording.observed.frames.size(); ++k) {
+    const Frame& frame = recording.observed.frames[k];
+    csv.integer(static_cast<long long>(k)).number(frame.stamp_s);
+    if (recording.truth)
+      pose_fields(csv, recording.truth->world_from_sensor[k]);
+    else
+      csv.empty().empty().empty();
+    pose_fields(csv, frame.odom_from_sensor);
+    csv.end_row();
+  }
+  return csv.str();
+}
+
+std::string lines_csv(const ScanSet& scans) {
+  CsvWriter csv({"frame", "line", "x1_m", "y1_m", "x2_m", "y2_m"});
+  for (std::size_t k = 0; k < scans.frames.size(); ++k)
+    for (std::size_t i = 0; i < scans.frames[k].lines.size(); ++i) {
+      const Segment& s = scans.frames[k].lines[i];
+      csv.integer(static_cast<long long>(k)).integer(static_cast<long long>(i));
+      csv.number(s.a.x()).number(s.a.y()).number(s.b.x()).number(s.b.y()).end_row();
+    }
+  return csv.str();
+}
+
+void read_lines(const CsvTable& csv, ScanSet& scans) {
+  for (std::size_t r = 0; r < csv.rows(); ++r) {
+    const int frame = csv.index(r, "frame");
+    if (frame < 0 || static_cast<std::size_t>(frame) >= scans.frames.size())
+      csv.refuse(r, "frame " + std::to_string(frame) + " is not in frames.csv");
+    const Segment line{{csv.number(r, "x1_m"), csv.number(r, "y1_m")}, {csv.number(r, "x2_m"), csv.number(r, "y2_m")}};
+    if (!line.a.allFinite() || !line.b.allFinite()) csv.refuse(r, "the line is not finite");
+    scans.frames[static_cast<std::size_t>(frame)].lines.push_back(line);
+  }
+}
+
+/// All files but scan.json.
+Files data_files(const Recording& recording) {
+  const auto& frames = recording.observed.frames;
+  const auto beams = static_cast<std::size_t>(recording.observed.sensor.geometry.beams());
+  std::vector<double> rotations;
+  std::vector<double> ranges;
+  rotations.reserve(4 * frames.size());
+  ranges.reserve(beams * frames.size());
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Pose2& odom = frames[k].odom_from_sensor;
+    if (frames[k].ranges.size() != beams)
+      throw ConfigError("frame " + std::to_string(k) + " has " + std::to_string(frames[k].ranges.size()) +
+                        " ranges; the sensor has " + std::to_string(beams) + " beams");
+    ranges.insert(ranges.end(), frames[k].ranges.begin(), frames[k].ranges.end());
+    if (recording.truth) {
+      const Pose2& pose = recording.truth->world_from_sensor[k];
+      rotations.insert(rotations.end(), {pose.cos(), pose.sin(), odom.cos(), odom.sin()});
+    } else {
+      rotations.insert(rotations.end(), {kNan, kNan, odom.cos(), odom.sin()});
+    }
+  }
+  Files files;
+  files.emplace_back("frames.csv", frames_csv(recording));
+  files.emplace_back("rotations.npy", npy_bytes(rotations, frames.size(), 4));
+  files.emplace_back("ranges.npy", npy_bytes(ranges, frames.size(), beams));
+  if (recording.observed.has_given_lines()) files.emplace_back("lines.csv", lines_csv(recording.observed));
+  if (recording.truth) {
+    files.emplace_back("walls.csv", walls_csv(*recording.truth));
+    files.emplace_back("true_ranges.npy", npy_bytes(recording.truth->ranges, frames.size(), beams));
+    files.emplace_back("wall_ids.npy", npy_bytes(recording.truth->wall_ids, frames.size(), beams));
+  }
+  return files;
+}
+
+std::string hash_of(const Files& data, const Json& scan_without_hash) {
+  Sha256 hash;
+  for (const auto& [name, bytes] : data) hash.part(name, bytes);
+  return hash.part("scan.json", scan_without_hash.dump()).hex();
+}
+
+void check_truth(const Recording& recording) {
+  if (!recording.truth) return;
+  const std::size_t frames = recording.observed.frames.size();
+  const std::size_t cells = frames * static_cast<std::size_t>(recording.observed.sensor.geometry.beams());
+  SCANBENCH_ASSERT(recording.truth->world_from_sensor.size() == frames);
+  SCANBENCH_ASSERT(recording.truth->ranges.size() == cells);
+  SCANBENCH_ASSERT(recording.truth->wall_ids.size() == cells);
+}
+
+Json parse_scan_json(const fs::path& file) {
+  Json json = Json::parse(read_file(file), nullptr, false);
+  if (json.is_discarded() || !json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
+  return json;
+}
+
+SensorModel sensor_from(const Json& json, const fs::path& file) {
+  SensorModel sensor;
+  sensor.name = json.value("sensor_name", "");
+  sensor.source = json.value("sensor_source", "");
+  const double beams = number_of(json, "beams", file);
+  if (!(beams >= 0 && beams <= 1e7) || beams != std::floor(beams))
+    throw ConfigError(file.string() + ": beams is " + number_text(beams) + "; allowed: a whole number 0 .. 10000000");
+  sensor.geometry = ScanGeometry(number_of(json, "angle_min_rad", file), number_of(json, "angle_step_rad", file),
+                                 static_cast<int>(beams));
+  // Only the geometry and the range limits are demanded of a recording made elsewhere.
+  for (const auto& [key, member] : kSensorNumbers)
+    if (json.contains(key) || member == &SensorModel::range_min_m || member == &SensorModel::range_max_m)
+      sensor.*member = number_of(json, key, file);
+  if (const auto noise = json.find("noise"); noise != json.end() && noise->is_object())
+    for (const auto& [key, member] : kNoiseNumbers)
+      if (noise->contains(key)) sensor.noise.*member = number_of(*noise, key, file);
+  return sensor;
+}
+
+template <class T>
+void check_shape(const NpyArray<T>& array, std::size_t rows, std::size_t columns, const fs::path& file) {
+  if (array.rows != rows || array.columns != columns)
+    throw ConfigError(file.string() + ": found " + std::to_string(array.rows) + " x " + std::to_string(array.columns) +
+                      " values; expected frames x beams = " + std::to_string(rows) + " x " + std::to_string(columns));
+}
+
+/// The pose of a row of frames.csv; the exact rotation if there is one.
+Pose2 pose_from(const CsvTable& csv, std::size_t row, const std::string& prefix, const double* rotation) {
+  const Vec2 t(csv.number(row, prefix + "_x_m"), csv.number(row, prefix + "_y_m"));
+  const double yaw = csv.number(row, prefix + "_yaw_rad");
+  if (!t.allFinite() || !std::isfinite(yaw)) csv.refuse(row, "the " + prefix + " pose is not finite");
+  const Pose2 pose(t, yaw);
+  if (rotation == nullptr) return pose;
+  const double error = std::hypot(pose.cos() - rotation[0], pose.sin() - rotation[1]);
+  if (!(error < 1e-9)) csv.refuse(row, prefix + "_yaw_rad disagrees with rotations.npy");
+  return Pose2::from_unit(t, {rotation[0], rotation[1]});
+}
+
+}  // namespace
+
+Files recording_files(const Recording& recording) {
+  check_truth(recording);
+  Files files = data_files(recording);
+  Json scan = scan_json(recording);
+  scan["content_hash"] = hash_of(files, scan);
+  files.emplace_back("scan.json", scan.dump(2) + "\n");
+  return files;
+}
+
+std::string recording_hash(const Recording& recording) {
+  check_truth(recording);
+  return hash_of(data_files(recording), scan_json(recording));
+}
+
+std::string write_recording(const fs::path& folder, const Recording& recording) {
+  const Files files = recording_files(recording);
+  for (const auto& [name, bytes] : files) write_staged_file(folder / name, bytes);
+  return Json::parse(files.back().second)["content_hash"];
+}
+
+std::string save_recording(const fs::path& folder, const Recording& recording) {
+  StagedFolder staged(folder);
+  const std::string hash = write_recording(staged.path(), recording);
+  staged.commit();
+  return hash;
+}
+
+Recording load_recording(const fs::path& folder) {
+  const fs::path scan_file = folder / "scan.json";
+  Json scan = parse_scan_json(scan_file);
+  Recording recording;
+  recording.observed.sensor = sensor_from(scan, scan_file);
+  const auto beams = static_cast<std::size_t>(recording.observed.sensor.geometry.beams());
+  Files files;
+  const auto bytes_of = [&](const std::string& name) -> const std::string& {
+    return files.emplace_back(name, read_file(folder / name)).second;
+  };
+
+  const CsvTable frames(bytes_of("frames.csv"), folder / "frames.csv",
+                        {"frame", "t_s", "odom_x_m", "odom_y_m", "odom_yaw_rad"});
+  const std::size_t count = frames.rows();
+  NpyArray<double> rotations;
+  const bool exact = fs::exists(folder / "rotations.npy");
+  if (exact) {
+    rotations = parse_npy_float64(bytes_of("rotations.npy"), folder / "rotations.npy");
+    check_shape(rotations, count, 4, folder / "rotations.npy");
+  }
+  const auto ranges = parse_npy_float64(bytes_of("ranges.npy"), folder / "ranges.npy");
+  check_shape(ranges, count, beams, folder / "ranges.npy");
+  for (std::size_t k = 0; k < count; ++k) {
+    if (frames.index(k, "frame") != static_cast<int>(k)) frames.refuse(k, "frames must be numbered 0, 1, 2, ...");
+    const auto row = ranges.values.begin() + static_cast<std::ptrdiff_t>(k * beams);
+    const double* rotation = exact ? &rotations.values[4 * k] : nullptr;
+    recording.observed.frames.push_back({frames.number(k, "t_s"),
+                                         {row, row + static_cast<std::ptrdiff_t>(beams)},
+                                         pose_from(frames, k, "odom", exact ? rotation + 2 : nullptr),
+                                         {}});
+  }
+  if (fs::exists(folder / "lines.csv"))
+    read_lines({bytes_of("lines.csv"), folder / "lines.csv", {"frame", "line", "x1_m", "y1_m", "x2_m", "y2_m"}},
+               recording.observed);
+  if (fs::exists(folder / "walls.csv")) {
+    Truth truth;
+    const CsvTable walls(bytes_of("walls.csv"), folder / "walls.csv",
+                         {"wall", "label", "x1_m", "y1_m", "x2_m", "y2_m"});
+    for (std::size_t i = 0; i < walls.rows(); ++i)
+      truth.walls.push_back(
+          {walls.text(i, "label"),
+           {{walls.number(i, "x1_m"), walls.number(i, "y1_m")}, {walls.number(i, "x2_m"), walls.number(i, "y2_m")}}});
+    for (std::size_t k = 0; k < count; ++k)
+      truth.world_from_sensor.push_back(pose_from(frames, k, "true", exact ? &rotations.values[4 * k] : nullptr));
+    auto true_ranges = parse_npy_float64(bytes_of("true_ranges.npy"), folder / "true_ranges.npy");
+    check_shape(true_ranges, count, beams, folder / "true_ranges.npy");
+    truth.ranges = std::move(true_ranges.values);
+    auto ids = parse_npy_int32(bytes_of("wall_ids.npy"), folder / "wall_ids.npy");
+    check_shape(ids, count, beams, folder / "wall_ids.npy");
+    for (const std::int32_t id : ids.values)
+      if (id < -1 || id >= static_cast<std::int32_t>(truth.walls.size()))
+        throw ConfigError((folder / "wall_ids.npy").string() + ": wall " + std::to_string(id) +
+                          " is not in walls.csv; allowed: -1 .. " + std::to_string(truth.walls.size()) + " - 1");
+    truth.wall_ids = std::move(ids.values);
+    recording.truth = std::move(truth);
+  }
+  if (scan.contains("content_hash")) {
+    const Json stated = scan["content_hash"];
+    scan.erase("content_hash");
+    if (stated != hash_of(files, scan))
+      throw ConfigError(folder.string() + ": the recording is damaged: its bytes do not have the content hash " +
+                        stated.dump() + " that scan.json states");
+  }
+  return recording;
+}
+
+std::string stated_recording_hash(const fs::path& folder) {
+  return parse_scan_json(folder / "scan.json").value("content_hash", "");
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,53 @@
+// Traces as CSV.
+#include "harness/store/traces.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/number_text.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/files/csv.hpp"
+#include "harness/files/text_file.hpp"
+
+namespace scanbench::harness {
+
+Journal::Journal(TraceChoice choice) : choice_(std::move(choice)), text_("slot,frame,stage,name,values\n") {}
+
+void Journal::begin(std::string_view slot, int frame) {
+  slot_ = slot;
+  frame_ = frame;
+  stage_.clear();
+}
+
+void Journal::write(std::string_view name, std::span<const double> values) {
+  if (!choice_.wants(slot_, name)) return;
+  text_ += csv_field(slot_) + "," + std::to_string(frame_) + "," + csv_field(stage_) + "," + csv_field(name) + ",";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) text_.push_back(' ');
+    text_ += number_text(values[i]);
+  }
+  text_.push_back('\n');
+}
+
+TraceRows load_trace(const std::filesystem::path& cell, const TraceChoice& choice) {
+  const auto file = cell / "trace.csv";
+  TraceRows rows;
+  std::vector<std::string_view> words;
+  if (choice.nothing() || !std::filesystem::exists(file)) return rows;
+  const CsvTable csv(read_file(file), file, {"slot", "frame", "stage", "name", "values"});
+  for (std::size_t r = 0; r < csv.rows(); ++r) {
+    const std::string &slot = csv.text(r, "slot"), &name = csv.text(r, "name");
+    if (!choice.wants(slot, name)) continue;
+    TraceRow row{csv.index(r, "frame"), {}};
+    split_words(csv.text(r, "values"), words);
+    for (const std::string_view word : words) {
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), row.values.emplace_back());
+      if (error != std::errc() || end != word.data() + word.size())
+        csv.refuse(r, quoted_excerpt(word) + " is not a number");
+    }
+    rows[slot + "." + name].push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace scanbench::harness

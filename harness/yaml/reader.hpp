@@ -1,0 +1,69 @@
+// Typed reading of YAML trees: every key is asked for by somebody or refused, every value is checked against a
+// ParamSpec, every error stands at its line and column.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/params.hpp"
+#include "harness/yaml/gate.hpp"
+
+namespace scanbench::harness {
+
+/// A map being read. What it was asked for is what it knows; done() refuses the rest.
+class YamlMap {
+ public:
+  /// `what` names the map in messages: "the scenario", "sensor", "params of iepf". Throws PlacedError if it is none.
+  YamlMap(const YamlNode& node, std::string what);
+
+  const std::string& what() const { return what_; }
+  Mark mark() const { return node_->mark; }
+
+  /// The key's value or nullptr; the key is known from now on.
+  const YamlNode* find(std::string_view key);
+  /// The key's value; throws PlacedError, with `allowed`, if it is missing.
+  const YamlNode& require(std::string_view key, std::string_view allowed);
+  /// Text of a required key.
+  std::string text(std::string_view key, std::string_view allowed);
+  std::string text_or(std::string_view key, std::string fallback);
+
+  /// The values of the keys that `specs` name, checked; missing keys are absent. Bounds and types as the specs say.
+  ParamSet params(const std::vector<ParamSpec>& specs);
+
+  /// Throws PlacedError for the first key that nobody asked for; names the known ones and the nearest.
+  void done() const;
+
+ private:
+  const YamlNode* node_;
+  std::string what_;
+  std::vector<std::string> known_;
+};
+
+/// A value as the spec's type. Throws PlacedError. Accepted forms:
+/// boolean: true, false; integer, number: plain decimal (no .nan, .inf, hex, leading zeros, underscores; nothing in
+/// quotes); text: in quotes, or plain if it cannot be taken for a number or a boolean, or a list of such words, which
+/// are joined with ", "; lists: [1, 2]; rows: [[1, 2], [3, 4]]; named points: {A: [1, 2]}.
+ParamValue read_param(const YamlNode& node, const ParamSpec& spec);
+
+/// A scalar's text, quoted or plain, numbers included (a wall's label may be 1). Throws PlacedError.
+const std::string& read_word(const YamlNode& node, std::string_view name, std::string_view allowed);
+
+/// A finite number; `name` and `unit` are for the message. Fast: worlds have many.
+double read_number(const YamlNode& node, std::string_view name, std::string_view unit = "");
+
+/// What a node is, for messages: "empty", "a list", "'010' (a leading zero: some read 8, some 10)".
+std::string describe_node(const YamlNode& node);
+
+/// Throws PlacedError unless the node is a list.
+const std::vector<YamlNode>& read_list(const YamlNode& node, std::string_view name, std::string_view allowed);
+
+/// A value as a node that read_param() reads back.
+YamlNode to_yaml(const ParamValue& value);
+YamlNode to_yaml(const ParamSet& params);
+
+/// Checks a `schema` key: present, and 1. Throws PlacedError.
+void read_schema(YamlMap& map);
+
+}  // namespace scanbench::harness

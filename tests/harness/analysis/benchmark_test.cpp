@@ -1,0 +1,189 @@
+// Averages, ranks and tests of a benchmark against cases worked out by hand; the page of a small run.
+#include "harness/analysis/benchmark.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "harness/analysis/error_bins.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/report/benchmark_report.hpp"
+#include "harness/report/page_input.hpp"
+#include "harness/report/ranking_table.hpp"
+#include "harness/scenario/benchmark_spec.hpp"
+#include "harness/scenario/scenario_file.hpp"
+#include "harness/store/summary.hpp"
+#include "tests/harness/inputs_support.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kScene = R"(schema: 1
+world: {segments: [[a, 0, 0, 4, 0], [b, 0, 4, 4, 4], [c, 0, 0, 0, 4]]}
+sensor: {preset: ladar_2d30, sigma_m: 0.02}
+trajectory: {kind: waypoints, points_m: {A: [1, 1], B: [3, 1]}, scans: 4}
+pipelines:
+  - {name: a, extract: {module: iepf, params: {threshold_m: 0.25}}}
+  - {name: b, extract: {module: line_tracking}}
+  - {name: c, extract: {module: sef}}
+metrics: [segments, {name: efficiency, params: {matches: true}}, timing]
+)";
+
+std::vector<Scenario> two_scenarios() {
+  std::vector<Scenario> scenarios{parse_scenario(kScene, "x.yaml"), parse_scenario(kScene, "y.yaml")};
+  return scenarios;
+}
+
+/// Rows of one pipeline: values at x/1, y/1, x/2, y/2.
+void add_rows(std::vector<SummaryRow>& rows, const std::string& pipeline, const std::string& metric,
+              const std::vector<double>& values) {
+  std::size_t i = 0;
+  for (const std::uint64_t seed : {1U, 2U})
+    for (const char* scenario : {"x", "y"})
+      rows.push_back({scenario, pipeline, seed, metric, "all", values.at(i++), "", 10});
+}
+
+std::vector<SummaryRow> made_up_rows() {
+  std::vector<SummaryRow> rows;
+  add_rows(rows, "a", "f1", {0.9, 0.7, 0.8, 0.8});
+  add_rows(rows, "b", "f1", {0.8, 0.8, 0.9, 0.9});
+  add_rows(rows, "c", "f1", {0.5, 0.3, 0.4, 0.2});
+  add_rows(rows, "a", "t_scan", {2, 8, 4, 4});
+  add_rows(rows, "b", "t_scan", {1, 1, 1, 4});
+  add_rows(rows, "c", "t_scan", {4, 16, 8, 8});
+  add_rows(rows, "c", "sigma_offset", {std::nan(""), 0.01, 0.03, 0.05});
+  return rows;
+}
+
+const BenchmarkSpec kSpec{"what", "a", "x"};
+
+TEST(Benchmark, AveragesOverConditionsFirstAndOverSeedsThen) {
+  const auto ranking = rank_pipelines(two_scenarios(), made_up_rows(), kSpec);
+  ASSERT_EQ(ranking.size(), 3u);
+  EXPECT_EQ(ranking[0].name, "b");
+  EXPECT_EQ(ranking[1].name, "a");
+  EXPECT_EQ(ranking[2].name, "c");
+  EXPECT_NEAR(ranking[0].values.at("f1").mean, 0.85, 1e-12);  // 0.8 and 0.9
+  EXPECT_NEAR(ranking[1].values.at("f1").mean, 0.8, 1e-12);
+  EXPECT_NEAR(ranking[2].values.at("f1").mean, 0.35, 1e-12);
+  EXPECT_EQ(ranking[0].values.at("f1").count, 2);
+  // t(0.975, 1) = 12.706; the seeds' means 0.8 and 0.9 have the standard error 0.05.
+  EXPECT_LE(ranking[0].values.at("f1").low, 0.85 - 12.70 * 0.05);
+  // Undefined in x/1: seed 1 has 0.01, seed 2 the mean of 0.03 and 0.05.
+  EXPECT_NEAR(ranking[2].values.at("sigma_offset").mean, 0.025, 1e-12);
+  EXPECT_EQ(ranking[0].values.at("sigma_offset").count, 0);
+}
+
+TEST(Benchmark, TimesAreGeometricMeansAndTheirRatiosArePaired) {
+  const auto ranking = rank_pipelines(two_scenarios(), made_up_rows(), kSpec);
+  EXPECT_NEAR(ranking[1].values.at("t_scan").mean, 4.0, 1e-12);     // sqrt(2 8) and sqrt(4 4)
+  EXPECT_NEAR(ranking[0].values.at("t_scan").mean, 1.5, 1e-12);     // 1 and 2
+  EXPECT_NEAR(ranking[0].values.at("t_ratio").mean, 0.375, 1e-12);  // sqrt(1/2 1/8) = 1/4 and sqrt(1/4 1) = 1/2
+  EXPECT_NEAR(ranking[1].values.at("t_ratio").mean, 1.0, 1e-12);
+  EXPECT_NEAR(ranking[2].values.at("t_ratio").mean, 2.0, 1e-12);
+}
+
+TEST(Benchmark, TestsNeighboursInRankAndCountsTheConditionsWon) {
+  const auto ranking = rank_pipelines(two_scenarios(), made_up_rows(), kSpec);
+  // b - a: 0 and 0.1: t = 1 with one degree of freedom, p = 0.5. a - c: 0.4 and 0.5: t = 9, p = 1 - 2 atan(9) / pi.
+  EXPECT_NEAR(ranking[0].next_difference, 0.05, 1e-12);
+  EXPECT_NEAR(ranking[0].next_p, 0.5, 1e-9);
+  EXPECT_NEAR(ranking[1].next_difference, 0.45, 1e-12);
+  EXPECT_NEAR(ranking[1].next_p, 2 * (1 - 2 * std::atan(9.0) / kPi), 1e-9);  // the smaller of two tests
+  EXPECT_TRUE(std::isnan(ranking[2].next_p));
+  // x: a 0.85, b 0.85. y: a 0.75, b 0.85.
+  EXPECT_EQ(ranking[0].conditions_won + ranking[1].conditions_won, 3);
+  EXPECT_EQ(ranking[0].conditions_won, 2);
+  EXPECT_EQ(ranking[2].conditions_won, 0);
+}
+
+TEST(Benchmark, WhoMissesCellsComesLast) {
+  auto rows = made_up_rows();
+  std::erase_if(rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
+  const auto ranking = rank_pipelines(two_scenarios(), rows, kSpec);
+  EXPECT_EQ(ranking[2].name, "b");
+  EXPECT_EQ(ranking[2].missing, 1);
+  EXPECT_EQ(ranking[0].missing, 0);
+}
+
+TEST(Benchmark, TableMarksTheBestOfEveryColumn) {
+  const Table table = ranking_table(rank_pipelines(two_scenarios(), made_up_rows(), kSpec), kSpec);
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(table.rows[0].heads, (std::vector<std::string>{"1", "b"}));
+  ASSERT_EQ(table.columns.size(), table.rows[0].cells.size());
+  EXPECT_EQ(table.columns[0].head, "F1 [%]");
+  EXPECT_EQ(table.rows[0].cells[0].text, "85.00");
+  EXPECT_THAT(table.rows[0].cells[0].spread, HasSubstr("± "));
+  EXPECT_TRUE(table.rows[0].cells[0].best);
+  EXPECT_FALSE(table.rows[1].cells[0].best);
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (table.columns[c].head == "σ offset [cm]") {
+      EXPECT_EQ(table.rows[0].cells[c].text, "–");
+      EXPECT_EQ(table.rows[2].cells[c].text, "2.500");
+      EXPECT_TRUE(table.rows[2].cells[c].best);
+    }
+    if (table.columns[c].head == "F1 − next") {
+      EXPECT_THAT(table.rows[0].cells[c].spread, HasSubstr("n.s."));
+    }
+  }
+}
+
+TEST(Benchmark, FileOfTheRunReadsBack) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(load_benchmark(folder.path()).has_value());
+  folder.write("benchmark.json", benchmark_json(kSpec));
+  const auto spec = load_benchmark(folder.path());
+  ASSERT_TRUE(spec.has_value());
+  EXPECT_EQ(spec->about, "what");
+  EXPECT_EQ(spec->baseline, "a");
+  EXPECT_EQ(spec->example, "x");
+  folder.write("benchmark.json", "{\"baseline\": 3}");
+  EXPECT_THAT(config_refusal([&] { load_benchmark(folder.path()); }), HasSubstr("benchmark.json"));
+}
+
+TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
+  ReportInput input;
+  input.title = "scanbench: small";
+  input.scenarios = two_scenarios();
+  input.rows = made_up_rows();
+  input.cells = {{"x", "a", 1, "ok", "", 0, 0}, {"x", "b", 1, "timeout", "after 3 s", 0, 0}};
+  for (const std::string& page : {benchmark_html(input, kSpec), benchmark_markdown(input, kSpec)}) {
+    EXPECT_THAT(page, HasSubstr("3 extractors on 2 conditions"));
+    EXPECT_THAT(page, HasSubstr("2 seeds make 4 recordings with 40 scans"));
+    EXPECT_THAT(page, HasSubstr("noise of 2 cm"));
+    EXPECT_THAT(page, HasSubstr("All of them differ at the 5 % level but b and a"));
+    EXPECT_THAT(page, HasSubstr("threshold_m 0.25"));
+    EXPECT_THAT(page, HasSubstr("What it does not show"));
+    EXPECT_THAT(page, HasSubstr("1 of 2 cells ok"));
+    EXPECT_THAT(page, HasSubstr("after 3 s"));
+  }
+}
+
+TEST(ErrorBins, RootMeanSquareOfEverySeedAndTheirGeometricMean) {
+  ErrorBins bins(1.0, 2.0);
+  bins.add(1, 1.0, 3.0, 2.0);   // bin [1, 2)
+  bins.add(1, 1.5, -4.0, 2.0);  // seed 1: mean square 12.5
+  bins.add(2, 1.9, 5.0, 4.0);   // seed 2: 25
+  bins.add(1, 0.7, 1.0, 1.0);   // bin [0.5, 1)
+  bins.add(1, 2.0, 1.0, 1.0);   // bin [2, 4), too few
+  bins.add(1, -1.0, 9.0, 1.0);
+  bins.add(1, 1.2, std::nan(""), 1.0);
+  bins.add(1, 1.2, 9.0, std::nan(""));
+  EXPECT_EQ(bins.points(1).size(), 3u);
+  const auto points = bins.points(2);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].count, 3);
+  EXPECT_NEAR(points[0].x, (1.0 + 1.5 + 1.9) / 3, 1e-12);
+  EXPECT_NEAR(points[0].rms, std::sqrt(std::sqrt(12.5) * 5.0), 1e-12);
+  EXPECT_NEAR(points[0].bound, std::sqrt((4.0 + 4.0 + 16.0) / 3), 1e-12);
+  // Logarithms of sqrt(12.5) and 5: their standard error is half of their difference, t(0.975, 1) = 12.7062.
+  const double reach = 12.7062 * 0.5 * std::log(5.0 / std::sqrt(12.5));
+  EXPECT_NEAR(std::log(points[0].high / points[0].rms), reach, 1e-4);
+  EXPECT_NEAR(std::log(points[0].rms / points[0].low), reach, 1e-4);
+}
+
+}  // namespace
+}  // namespace scanbench::harness

@@ -1,0 +1,34 @@
+// The fuzzers' corpus through the readers: what a fuzzer once found stays found.
+#include <gtest/gtest.h>
+
+#include "fuzz/inputs.hpp"
+#include "harness/files/text_file.hpp"
+#include "tests/harness/inputs_support.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+void run_folder(const std::filesystem::path& folder, void (*run)(std::string_view)) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    EXPECT_NO_THROW(run(read_text_file(entry.path(), 1 << 20))) << entry.path();
+    ++count;
+  }
+  EXPECT_GT(count, 5) << folder;
+}
+
+TEST(FuzzCorpus, YamlIsReadOrRefused) {
+  run_folder(source_dir() / "fuzz/corpus/yaml", fuzz::run_yaml);
+}
+
+TEST(FuzzCorpus, LogsAreReadOrRefused) {
+  run_folder(source_dir() / "fuzz/corpus/log", fuzz::run_log);
+}
+
+TEST(FuzzCorpus, WrongFilesAndShippedFilesAreReadOrRefused) {
+  run_folder(source_dir() / "tests/harness/data/wrong", fuzz::run_yaml);
+  run_folder(source_dir() / "scenarios/worlds", fuzz::run_yaml);
+}
+
+}  // namespace
+}  // namespace scanbench::harness

@@ -1,0 +1,216 @@
+#include "harness/store/cell_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/files/csv.hpp"
+#include "harness/run/cell_address.hpp"
+#include "harness/run/pipeline.hpp"
+#include "harness/store/cell_status.hpp"
+#include "run_support.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+PipelineSpec full_pipeline(bool covariance) {
+  PipelineSpec pipeline = testing::extract_with("p", "test_line", {{"covariance", covariance}});
+  pipeline.slots.push_back({"align", "test_shift", {}});
+  pipeline.slots.push_back({"merge", "test_merge", {}});
+  return pipeline;
+}
+
+TEST(CellFiles, GiveBackAResult) {
+  const testing::TemporaryFolder folder;
+  const Recording recording = testing::random_recording(2, 5, 16, true);
+  for (const bool covariance : {false, true}) {
+    const PipelineSpec pipeline = full_pipeline(covariance);
+    PipelineResult saved = run_pipeline(pipeline, recording.observed).result;
+    saved.lines[1] = {{}, std::vector<int>(16, -1)};  // a frame without lines
+    saved.merge_labels.erase(saved.merge_labels.begin() + 1);
+    write_result(folder.path(), pipeline, saved);
+    const PipelineResult loaded = load_result(folder.path());
+    ASSERT_EQ(loaded.lines.size(), saved.lines.size());
+    for (std::size_t k = 0; k < saved.lines.size(); ++k) {
+      EXPECT_EQ(loaded.lines[k].labels, saved.lines[k].labels);
+      ASSERT_EQ(loaded.lines[k].lines.size(), saved.lines[k].lines.size());
+      for (std::size_t i = 0; i < saved.lines[k].lines.size(); ++i) {
+        const LineFeature& a = loaded.lines[k].lines[i];
+        const LineFeature& b = saved.lines[k].lines[i];
+        EXPECT_EQ(a.segment, b.segment);
+        EXPECT_EQ(a.line, b.line);
+        EXPECT_EQ(a.first_beam, b.first_beam);
+        EXPECT_EQ(a.last_beam, b.last_beam);
+        EXPECT_EQ(a.points, b.points);
+        EXPECT_EQ(a.rms_m, b.rms_m);
+        ASSERT_EQ(a.covariance.has_value(), covariance);
+        if (covariance) {
+          EXPECT_EQ(*a.covariance, *b.covariance);
+        }
+      }
+    }
+    ASSERT_EQ(loaded.world_from_sensor.size(), saved.world_from_sensor.size());
+    for (std::size_t k = 0; k < saved.world_from_sensor.size(); ++k) {
+      const Pose2& a = loaded.world_from_sensor[k];
+      const Pose2& b = saved.world_from_sensor[k];
+      EXPECT_EQ(a.translation(), b.translation());
+      EXPECT_NEAR(wrap_angle(a.yaw() - b.yaw()), 0.0, 1e-15);
+    }
+    ASSERT_EQ(loaded.map.lines.size(), 1u);
+    EXPECT_EQ(loaded.map.lines[0].segment, saved.map.lines[0].segment);
+    EXPECT_EQ(loaded.map.lines[0].members, saved.map.lines[0].members);
+    EXPECT_EQ(loaded.map.lines[0].points, saved.map.lines[0].points);
+    ASSERT_EQ(loaded.merge_labels.size(), saved.merge_labels.size());
+    EXPECT_EQ(loaded.merge_labels[2].frame, saved.merge_labels[2].frame);
+    EXPECT_EQ(loaded.merge_labels[2].cluster1, saved.merge_labels[2].cluster1);
+    EXPECT_EQ(loaded.merge_labels[2].map_line, saved.merge_labels[2].map_line);
+    ASSERT_EQ(loaded.times.size(), saved.times.size());
+    EXPECT_EQ(loaded.times[1].stage, saved.times[1].stage);
+    EXPECT_EQ(loaded.times[1].seconds, saved.times[1].seconds);
+  }
+}
+
+TEST(CellFiles, HaveTheNamesAndColumnsOfTheContract) {
+  const testing::TemporaryFolder folder;
+  const Recording recording = testing::random_recording(2, 5, 16, true);
+  write_result(folder.path(), full_pipeline(false), run_pipeline(full_pipeline(false), recording.observed).result);
+  const auto header = [&](const char* name) {
+    const std::string text = read_file(folder.path() / name);
+    return text.substr(0, text.find('\n'));
+  };
+  EXPECT_THAT(testing::listing(folder.path()),
+              ElementsAre("labels.npy", "lines.csv", "map.csv", "merge_labels.csv", "poses.csv", "timing.csv"));
+  EXPECT_EQ(header("lines.csv"), "frame,line,x1_m,y1_m,x2_m,y2_m,rho_m,alpha_rad,first_beam,last_beam,points,rms_m");
+  EXPECT_EQ(header("map.csv"), "line,x1_m,y1_m,x2_m,y2_m,members,points");
+  EXPECT_EQ(header("poses.csv"), "frame,x_m,y_m,yaw_rad");
+  EXPECT_EQ(header("merge_labels.csv"), "frame,line,cluster1,cluster2,map_line");
+  EXPECT_EQ(header("timing.csv"), "stage,frame,seconds");
+
+  const testing::TemporaryFolder alone;
+  const PipelineSpec extract = testing::extract_with("p", "test_line");
+  write_result(alone.path(), extract, run_pipeline(extract, recording.observed).result);
+  EXPECT_THAT(testing::listing(alone.path()), ElementsAre("labels.npy", "lines.csv", "timing.csv"));
+  EXPECT_FALSE(load_result(alone.path()).has_map);
+}
+
+TEST(CellFiles, TellAnEmptyMapFromNone) {
+  const testing::TemporaryFolder folder;
+  PipelineResult nothing_merged;
+  nothing_merged.has_map = true;
+  write_result(folder.path(), full_pipeline(false), nothing_merged);
+  const PipelineResult loaded = load_result(folder.path());
+  EXPECT_TRUE(loaded.has_map);
+  EXPECT_TRUE(loaded.map.lines.empty());
+}
+
+TEST(CellFiles, KeepStatusAndMetrics) {
+  const testing::TemporaryFolder folder;
+  CellRecord record;
+  record.outcome.status = CellStatus::timeout;
+  record.outcome.message = "quote \" and bad bytes \xff\n";
+  record.outcome.wall_seconds = 1.5;
+  record.outcome.cpu_seconds = 0.1;
+  record.outcome.peak_memory_bytes = 1e9;
+  record.address = "abc";
+  write_file_atomically(folder.path() / "status.json", status_json(record));
+  const CellRecord loaded = load_status(folder.path());
+  EXPECT_EQ(loaded.outcome.status, CellStatus::timeout);
+  EXPECT_THAT(loaded.outcome.message, HasSubstr("quote \" and bad bytes"));
+  EXPECT_EQ(loaded.outcome.wall_seconds, 1.5);
+  EXPECT_EQ(loaded.outcome.peak_memory_bytes, 1e9);
+  EXPECT_EQ(loaded.address, "abc");
+  for (const char* bad : {"", "[]", "{}", R"({"status": "fine"})", R"({"status": 5})"}) {
+    write_file_atomically(folder.path() / "status.json", bad);
+    EXPECT_THROW(load_status(folder.path()), ConfigError) << bad;
+  }
+
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string text = metrics_csv({{"eta", "w,1", 0.1, "m", 7, -0.5, {}}, {"missed", "all", nan, "", 0, {}, 2.0}});
+  EXPECT_EQ(text,
+            "metric,subject,value,unit,count,ci_low,ci_high\n"
+            "eta,\"w,1\",0.1,m,7,-0.5,\n"
+            "missed,all,,,0,,2\n");
+  write_file_atomically(folder.path() / "metrics.csv", text);
+  const auto rows = load_metrics(folder.path());
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].ci_low, -0.5);
+  EXPECT_FALSE(rows[0].ci_high.has_value());
+  EXPECT_TRUE(std::isnan(rows[1].value));
+  EXPECT_EQ(metrics_csv(rows), text);
+}
+
+TEST(CellFiles, ThatDoNotFitEachOtherAreRefused) {
+  const testing::TemporaryFolder folder;
+  const Recording recording = testing::random_recording(2, 5, 16, true);
+  const PipelineSpec extract = testing::extract_with("p", "test_line");
+  write_result(folder.path(), extract, run_pipeline(extract, recording.observed).result);
+  const std::string lines = read_file(folder.path() / "lines.csv");
+  write_file_atomically(folder.path() / "lines.csv", lines.substr(0, lines.find('\n') + 1));
+  EXPECT_THROW(load_result(folder.path()), ConfigError);  // labels of lines that are not there
+  write_file_atomically(folder.path() / "lines.csv", lines + "5,0,0,0,1,1,0,0,0,1,2,0\n");
+  EXPECT_THROW(load_result(folder.path()), ConfigError);  // frame 5 of 0 .. 4
+}
+
+TEST(CellAddress, ChangesWithEverythingThatTheResultDependsOn) {
+  const Scenario base = testing::scenario_with("s", {testing::extract_with("p", "test_line", {{"skip", 1.0}})});
+  const auto address = [](const Scenario& s, std::uint64_t seed = 1) {
+    return cell_address(input_address(s), s.metrics, s.pipelines[0], seed, {});
+  };
+  EXPECT_EQ(address(base), address(base));
+  std::vector<Scenario> others(7, base);
+  others[0].pipelines[0].slots[0].params["skip"] = 2.0;
+  others[1].pipelines[0].slots[0].params["skip"] = std::string("1");
+  others[2].metrics.pop_back();
+  std::get<SimulatedInput>(others[3].input).world.walls = {{"w", {Vec2(0, 0), Vec2(1, 0)}}};
+  std::get<SimulatedInput>(others[4].input).odometry.rotation_per_rad = 0.1;
+  std::get<SimulatedInput>(others[5].input).trajectory.params["scans"] = std::int64_t{3};
+  std::get<SimulatedInput>(others[6].input).tilt.pitch_sigma_rad = 0.1;
+  for (const auto& other : others) EXPECT_NE(address(other), address(base));
+  EXPECT_NE(address(base, 2), address(base, 1));
+  Scenario renamed = base;
+  renamed.about = "another text about the same";
+  EXPECT_EQ(address(renamed), address(base));
+}
+
+TEST(CellAddress, ChangesWithLinesTheirFramesTheCopiesAndTheTruth) {
+  Scenario base = testing::scenario_with("s", {});
+  LinesInput input;
+  input.world.emplace().walls = {{"a", {{0, 0}, {1, 0}}}};
+  input.params = {{"copies", std::int64_t{3}}};
+  input.frames = {{{{0, 0}, {1, 0}}, {{0, 1}, {1, 1}}}};
+  std::vector<LinesInput> others(4, input);
+  others[0].world.reset();
+  others[1].params["copies"] = std::int64_t{4};
+  others[2].frames[0][1].b.x() = 2;
+  others[3].frames = {{{{0, 0}, {1, 0}}}, {{{0, 1}, {1, 1}}}};
+  base.input = input;
+  for (const auto& other : others) {
+    Scenario changed = base;
+    changed.input = other;
+    EXPECT_NE(input_address(changed), input_address(base));
+  }
+}
+
+TEST(CellAddress, FollowsTheBytesOfALog) {
+  const testing::TemporaryFolder folder;
+  Scenario scenario = testing::scenario_with("s", {});
+  RecordedInput input;
+  input.log = folder.path() / "log";
+  scenario.input = input;
+  EXPECT_THROW(input_address(scenario), ConfigError);
+  write_file_atomically(folder.path() / "log", "1");
+  const std::string one = input_address(scenario);
+  write_file_atomically(folder.path() / "log", "2");
+  EXPECT_NE(input_address(scenario), one);
+}
+
+}  // namespace
+}  // namespace scanbench::harness

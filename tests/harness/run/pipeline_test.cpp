@@ -1,0 +1,170 @@
+#include "harness/run/pipeline.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/error.hpp"
+#include "harness/files/csv.hpp"
+#include "harness/run/stopwatch.hpp"
+#include "run_support.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const Recording& recording() {
+  static const Recording made = testing::random_recording(5, 6, 24, false);
+  return made;
+}
+
+PipelineRun run_slots(const std::vector<std::pair<std::string, std::string>>& slots, Journal* journal = nullptr) {
+  PipelineSpec pipeline;
+  pipeline.name = "p";
+  for (const auto& [kind, module] : slots) pipeline.slots.push_back({kind, module, {}});
+  return run_pipeline(pipeline, recording().observed, journal);
+}
+
+TEST(Pipeline, WithExtractAloneGivesLinesOfEveryFrameAndNoPoses) {
+  const PipelineResult result = run_slots({{"extract", "test_line"}}).result;
+  ASSERT_EQ(result.lines.size(), 6u);
+  for (const auto& scan : result.lines) EXPECT_EQ(scan.labels.size(), 24u);
+  EXPECT_TRUE(result.world_from_sensor.empty());
+  EXPECT_TRUE(result.map.lines.empty());
+}
+
+TEST(Pipeline, HandsParametersToTheModule) {
+  PipelineSpec pipeline;
+  pipeline.slots = {{"extract", "test_line", {{"skip", std::int64_t{2}}}}};
+  const auto skipped = run_pipeline(pipeline, recording().observed).result;
+  const auto whole = run_slots({{"extract", "test_line"}}).result;
+  EXPECT_EQ(whole.lines[0].lines[0].points - skipped.lines[0].lines[0].points, 2);
+}
+
+TEST(Pipeline, TimesEveryStageOfEveryFrameInOrder) {
+  const auto times =
+      run_slots({{"extract", "test_line"}, {"align", "test_shift"}, {"merge", "test_merge"}}).result.times;
+  ASSERT_EQ(times.size(), 2u * 6u + 2u);
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_EQ(times[2 * k].stage, "pre");
+    EXPECT_EQ(times[2 * k + 1].stage, "segment");
+    EXPECT_EQ(times[2 * k].frame, static_cast<int>(k));
+  }
+  EXPECT_EQ(times[12].stage, "align");  // a module that names no stage has one
+  EXPECT_EQ(times[13].stage, "merge.cluster");
+  EXPECT_EQ(times[13].frame, -1);
+  for (const auto& time : times) EXPECT_GE(time.seconds, 0.0);
+}
+
+TEST(Stopwatch, AddsUpAStageThatComesBackAndCountsOnlyTheTimeBetween) {
+  Stopwatch watch;
+  std::vector<StageTime> times;
+  const double before = thread_cpu_seconds();
+  watch.start();
+  watch.stage("a");
+  watch.stage("b");
+  watch.stage("a");
+  watch.stop("whole", "x.", 3, times);
+  const double elapsed = thread_cpu_seconds() - before;
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_EQ(times[0].stage, "x.a");
+  EXPECT_EQ(times[1].stage, "x.b");
+  EXPECT_EQ(times[0].frame, 3);
+  EXPECT_GT(times[0].seconds + times[1].seconds, 0.0);
+  EXPECT_LE(times[0].seconds + times[1].seconds, elapsed);
+}
+
+TEST(Pipeline, MergesLinesPlacedByOdometryOrByAlignedPoses) {
+  const auto plain = run_slots({{"extract", "test_line"}, {"merge", "test_merge"}}).result;
+  const auto shifted = run_slots({{"extract", "test_line"}, {"align", "test_shift"}, {"merge", "test_merge"}});
+  ASSERT_EQ(plain.map.lines.size(), 1u);
+  const Vec2 expected = recording().observed.frames[0].odom_from_sensor * plain.lines[0].lines[0].segment.a;
+  EXPECT_NEAR((plain.map.lines[0].segment.a - expected).norm(), 0.0, 1e-12);
+  const Vec2 moved = shifted.result.map.lines[0].segment.a - plain.map.lines[0].segment.a;
+  EXPECT_NEAR((moved - Vec2(10, 20)).norm(), 0.0, 1e-12);
+  EXPECT_EQ(shifted.remarks, "align: 1 max_iterations");
+
+  std::size_t valid = 0;
+  for (std::size_t k = 0; k < 6; ++k) valid += valid_points(recording().observed.scan(k)).size();
+  EXPECT_EQ(plain.map.lines[0].points, static_cast<int>(valid));
+  ASSERT_EQ(plain.merge_labels.size(), 6u);
+  EXPECT_EQ(plain.merge_labels[3].frame, 3);
+  EXPECT_EQ(plain.merge_labels[3].cluster1, 1);
+  EXPECT_EQ(plain.merge_labels[3].cluster2, -1);
+  EXPECT_EQ(plain.merge_labels[3].map_line, 0);
+}
+
+TEST(Pipeline, ChainsMatchesAndFallsBackOnOdometryWhereThereIsNone) {
+  const auto run = run_slots({{"extract", "test_line"}, {"match", "test_ahead"}, {"map", "test_mapper"}});
+  const auto& frames = recording().observed.frames;
+  Pose2 expected = frames[0].odom_from_sensor;
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (k == 2)
+      expected = expected * (frames[1].odom_from_sensor.inverse() * frames[2].odom_from_sensor);
+    else if (k > 0)
+      expected = expected * Pose2(1, 0, 0);
+    const Pose2& found = run.result.world_from_sensor[k];
+    EXPECT_NEAR((found.translation() - expected.translation()).norm(), 0.0, 1e-12) << k;
+    EXPECT_NEAR(wrap_angle(found.yaw() - expected.yaw()), 0.0, 1e-12) << k;
+    EXPECT_NEAR((run.result.map.lines[k].segment.a - expected.translation()).norm(), 0.0, 1e-12) << k;
+  }
+  EXPECT_EQ(run.remarks, "match: 1 no_match");
+}
+
+TEST(Pipeline, JournalHasARowForEveryWriteWithItsSlotFrameAndStage) {
+  Journal journal;
+  const auto plain = run_slots({{"extract", "test_line"}, {"merge", "test_merge"}}).result;
+  const auto run = run_slots({{"extract", "test_line"}, {"merge", "test_merge"}}, &journal);
+  const CsvTable rows(journal.csv(), "trace.csv", {"slot", "frame", "stage", "name", "values"});
+  ASSERT_EQ(rows.rows(), 7u);
+  EXPECT_EQ(rows.text(4, "slot") + "/" + rows.text(4, "stage") + "/" + rows.text(4, "name"), "extract/segment/line");
+  EXPECT_EQ(rows.integer(4, "frame"), 4);
+  EXPECT_EQ(rows.text(6, "slot"), "merge");
+  EXPECT_EQ(rows.integer(6, "frame"), -1);
+  EXPECT_EQ(rows.text(6, "values"), std::to_string(plain.map.lines[0].points));
+  EXPECT_EQ(run.result.map.lines[0].segment, plain.map.lines[0].segment);  // listening changes nothing
+}
+
+TEST(Pipeline, BeginsBehindExtractWhereLinesAreGiven) {
+  ScanSet lines;
+  lines.frames.resize(2);
+  lines.frames[0].lines = {{{0, 0}, {1, 0}}, {{0, 1}, {1, 1}}};
+  lines.frames[1].lines = {{{0, 0}, {1, 0}}};
+  lines.frames[1].odom_from_sensor = Pose2(5, 0, 0);
+  PipelineSpec pipeline{.name = "p", .slots = {{"merge", "test_merge", {}}}, .published = ""};
+  Journal journal;
+  const PipelineResult result = run_pipeline(pipeline, lines, &journal).result;
+  ASSERT_EQ(result.lines.size(), 2u);
+  EXPECT_EQ(result.lines[0].lines[1].segment, lines.frames[0].lines[1]);
+  EXPECT_EQ(result.lines[0].lines[1].line, (PolarLine{1.0, kPi / 2}));
+  ASSERT_EQ(result.map.lines.size(), 1u);
+  EXPECT_EQ(result.map.lines[0].segment, (Segment{{0, 0}, {6, 0}}));  // placed by the second frame's pose
+  EXPECT_EQ(result.map.lines[0].members, 3);
+  ASSERT_EQ(result.merge_labels.size(), 3u);
+  EXPECT_EQ(result.merge_labels[2].frame, 1);
+  EXPECT_THAT(journal.csv(), HasSubstr("merge,-1,cluster,points,0"));
+
+  pipeline.slots.insert(pipeline.slots.begin(), {"extract", "test_line", {}});
+  EXPECT_THROW(run_pipeline(pipeline, lines), ConfigError);
+}
+
+TEST(Pipeline, RefusesChainsThatMakeNoSense) {
+  EXPECT_THROW(run_slots({}), ConfigError);
+  EXPECT_THROW(run_slots({{"merge", "test_merge"}}), ConfigError);
+  EXPECT_THROW(run_slots({{"extract", "test_line"}, {"extract", "test_line"}}), ConfigError);
+  EXPECT_THROW(run_slots({{"extract", "test_line"}, {"align", "test_shift"}, {"match", "test_ahead"}}), ConfigError);
+  EXPECT_THROW(run_slots({{"extract", "test_line"}, {"merge", "test_merge"}, {"align", "test_shift"}}), ConfigError);
+  EXPECT_THROW(run_slots({{"extract", "no such module"}}), ConfigError);
+}
+
+TEST(Pipeline, CallsAResultThatBreaksTheContractInvalid) {
+  EXPECT_THROW(run_slots({{"extract", "test_wrong_labels"}}), InvalidResult);
+}
+
+}  // namespace
+}  // namespace scanbench::harness

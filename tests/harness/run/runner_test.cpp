@@ -1,0 +1,375 @@
+#include "harness/run/runner.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <functional>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/files/csv.hpp"
+#include "harness/files/hash.hpp"
+#include "harness/run/run_options.hpp"
+#include "harness/run/score.hpp"
+#include "harness/store/cell_status.hpp"
+#include "harness/store/manifest.hpp"
+#include "run_support.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::cell_of;
+using ::testing::ElementsAre;
+using testing::extract_with;
+using ::testing::HasSubstr;
+using testing::run_here;
+using testing::scenario_with;
+
+std::vector<Scenario> two_scenarios() {
+  PipelineSpec merge = extract_with("merge", "test_line", {{"skip", std::int64_t{1}}});
+  merge.slots.push_back({"merge", "test_merge", {}});
+  return {scenario_with("one", {extract_with("a", "test_line"), extract_with("b", "test_throw"), merge}, {3, 1}),
+          scenario_with("two", {extract_with("a", "test_line")}, {1, 2})};
+}
+
+TEST(Runner, LeavesTheSameBytesForAnyNumberOfJobs) {
+  const testing::TemporaryFolder folder;
+  const auto scenarios = two_scenarios();
+  const RunResult one = run_here(scenarios, {.out = folder.path() / "1", .jobs = 1});
+  EXPECT_EQ(one.exit_code(), 3);
+  EXPECT_EQ(one.cells.size(), 8u);
+  const auto expected = testing::artefacts(folder.path() / "1");
+  EXPECT_GT(expected.size(), 8u * 3u);
+  for (const int jobs : {2, 5}) {
+    const fs::path out = folder.path() / std::to_string(jobs);
+    run_here(scenarios, {.out = out, .jobs = jobs});
+    EXPECT_EQ(testing::artefacts(out), expected);
+  }
+}
+
+TEST(Runner, WritesSummaryRowsInTheOrderOfTheScenarioFiles) {
+  const testing::TemporaryFolder folder;
+  run_here(two_scenarios(), {.out = folder.path() / "r", .jobs = 2});
+  const CsvTable table(read_file(folder.path() / "r" / "summary.csv"), "summary.csv");
+  EXPECT_THAT(table.columns(),
+              ElementsAre("scenario", "pipeline", "seed", "metric", "subject", "value", "unit", "count"));
+  std::vector<std::string> order;
+  for (std::size_t r = 0; r < table.rows(); ++r) {
+    const std::string cell = table.text(r, "scenario") + table.text(r, "pipeline") + table.text(r, "seed");
+    if (order.empty() || order.back() != cell) order.push_back(cell);
+  }
+  EXPECT_THAT(order, ElementsAre("onea3", "onea1", "onemerge3", "onemerge1", "twoa1", "twoa2"));
+}
+
+TEST(Runner, ResumesAfterAnInterruptToTheSameBytes) {
+  const testing::TemporaryFolder folder;
+  const auto scenarios = two_scenarios();
+  run_here(scenarios, {.out = folder.path() / "whole"});
+  for (const std::size_t after : {0u, 1u, 4u}) {
+    const fs::path out = folder.path() / std::to_string(after);
+    RunOptions options{.out = out, .jobs = 2};
+    options.progress = [&](const RunProgress& p) {
+      if (p.done == after) ::raise(SIGINT);
+    };
+    const RunResult broken = run_here(scenarios, options);
+    EXPECT_EQ(broken.exit_code(), 130);
+    EXPECT_LT(broken.cells.size() ? std::ranges::count(broken.cells, true, &CellResult::done) : 0, 8);
+    for (const auto& name : testing::listing(out)) EXPECT_FALSE(is_temporary_name(fs::path(name).filename().string()));
+
+    const RunResult resumed = run_here(scenarios, {.out = out, .jobs = 1, .resume = true});
+    EXPECT_EQ(resumed.exit_code(), 3);
+    for (const auto& cell : broken.cells) {
+      const bool was_ok = cell.done && cell.record.outcome.status == CellStatus::ok;
+      const CellResult& again = cell_of(resumed, to_string(cell.key));
+      EXPECT_EQ(again.reused, was_ok) << to_string(cell.key);
+      if (was_ok) {
+        EXPECT_EQ(again.record.outcome.wall_seconds, cell.record.outcome.wall_seconds);
+      }
+    }
+    EXPECT_EQ(testing::artefacts(out), testing::artefacts(folder.path() / "whole"));
+  }
+}
+
+TEST(Runner, ResumeRunsAgainWhatHasChangedOrIsDamagedAndNothingElse) {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  std::vector<Scenario> scenarios{scenario_with("s", {extract_with("a", "test_line"), extract_with("b", "test_line")})};
+  run_here(scenarios, {.out = out});
+  scenarios[0].pipelines[1].slots[0].params["skip"] = std::int64_t{2};
+  RunResult result = run_here(scenarios, {.out = out, .resume = true});
+  EXPECT_TRUE(cell_of(result, "s/a/1").reused);
+  EXPECT_FALSE(cell_of(result, "s/b/1").reused);
+
+  fs::remove(out / "cells/s/a/1/metrics.csv");
+  result = run_here(scenarios, {.out = out, .resume = true});
+  EXPECT_FALSE(cell_of(result, "s/a/1").reused);
+  EXPECT_TRUE(cell_of(result, "s/b/1").reused);
+  EXPECT_TRUE(fs::exists(out / "cells/s/a/1/metrics.csv"));
+
+  fs::remove_all(out / "recordings");
+  result = run_here(scenarios, {.out = out, .resume = true});
+  EXPECT_TRUE(fs::exists(out / "recordings/s/1/scan.json"));
+  run_here(scenarios, {.out = folder.path() / "fresh"});
+  EXPECT_EQ(testing::artefacts(out), testing::artefacts(folder.path() / "fresh"));
+}
+
+/// A manifest as a run leaves it that is killed: without the list of files.
+void forget_artefacts(const fs::path& run) {
+  auto json = nlohmann::ordered_json::parse(read_file(run / "manifest.json"));
+  ASSERT_FALSE(json.at("artefacts").empty());
+  json["state"] = "running";
+  json["artefacts"] = nlohmann::ordered_json::array();
+  write_file_atomically(run / "manifest.json", json.dump());
+}
+
+TEST(Runner, ResumeRunsAgainACellWithADamagedFile) {
+  const testing::TemporaryFolder folder;
+  PipelineSpec merging = extract_with("merging", "test_line");
+  merging.slots.push_back({"merge", "test_merge", {}});
+  const std::vector<Scenario> scenarios{scenario_with("s", {merging, extract_with("other", "test_line")})};
+  const fs::path out = folder.path() / "r";
+  run_here(scenarios, {.out = out, .journal = true});
+  const auto whole = testing::artefacts(out);
+  const fs::path cell = out / "cells/s/merging/1";
+
+  const auto remove = [](const fs::path& file) { fs::remove(file); };
+  const auto cut = [](const fs::path& file) { fs::resize_file(file, fs::file_size(file) / 2); };
+  const auto change = [](const fs::path& file) {  // the last digit
+    std::string bytes = read_file(file);
+    const std::size_t at = bytes.find_last_of("0123456789");
+    bytes.at(at) = bytes[at] == '7' ? '8' : '7';
+    write_file_atomically(file, bytes);
+  };
+  using Damage = std::function<void(const fs::path&)>;
+  const std::vector<std::pair<std::string, std::vector<Damage>>> cases{
+      {"lines.csv", {remove, cut, change}}, {"labels.npy", {remove, cut}},
+      {"map.csv", {remove, cut, change}},   {"merge_labels.csv", {remove, cut, change}},
+      {"poses.csv", {remove, cut, change}}, {"timing.csv", {remove, cut, change}},
+      {"trace.csv", {remove, cut, change}}, {"metrics.csv", {remove, cut, change}}};
+  ASSERT_EQ(cases.size() + 1, testing::listing(cell).size());  // and status.json
+  for (const auto& [name, damages] : cases)
+    for (std::size_t i = 0; i < damages.size(); ++i)
+      for (const bool killed : {false, true}) {
+        if (killed && i > 0) continue;  // without hashes a file may be changed unnoticed, but none may be absent
+        SCOPED_TRACE(name + ", damage " + std::to_string(i) + (killed ? ", killed" : ""));
+        damages[i](cell / name);
+        if (killed) forget_artefacts(out);
+        const RunResult result = run_here(scenarios, {.out = out, .resume = true, .journal = true});
+        EXPECT_FALSE(cell_of(result, "s/merging/1").reused);
+        EXPECT_TRUE(cell_of(result, "s/other/1").reused);
+        EXPECT_EQ(testing::artefacts(out), whole);
+      }
+  forget_artefacts(out);
+  const RunResult result = run_here(scenarios, {.out = out, .resume = true, .journal = true});
+  EXPECT_TRUE(cell_of(result, "s/merging/1").reused);
+}
+
+TEST(Runner, TurnsEveryKindOfTroubleIntoARow) {
+  const testing::TemporaryFolder folder;
+  Scenario scenario =
+      scenario_with("s", {extract_with("ok", "test_line"), extract_with("failed", "test_throw"),
+                          extract_with("crashed", "test_crash"), extract_with("left", "test_leave"),
+                          extract_with("timeout", "test_hang"), extract_with("invalid", "test_wrong_labels"),
+                          extract_with("unknown", "no such module")});
+  scenario.limits = {.seconds = 3.0, .memory_bytes = 1e9};
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  scenario.pipelines.push_back(extract_with("out_of_memory", "test_eat"));
+#endif
+  const RunResult result = run_here({scenario}, {.out = folder.path() / "r", .jobs = 2});
+  EXPECT_EQ(result.exit_code(), 3);
+  for (const auto& cell : result.cells) {
+    const std::string expected = cell.key.pipeline == "left"      ? "crashed"
+                                 : cell.key.pipeline == "unknown" ? "failed"
+                                                                  : cell.key.pipeline;
+    EXPECT_TRUE(cell.done);
+    EXPECT_EQ(to_string(cell.record.outcome.status), expected) << cell.record.outcome.message;
+    const fs::path path = cell_path(folder.path() / "r", cell.key);
+    EXPECT_EQ(to_string(load_status(path).outcome.status), expected);
+    if (expected != "ok") {
+      EXPECT_THAT(testing::listing(path), ElementsAre("status.json"));
+    }
+  }
+  EXPECT_THAT(cell_of(result, "s/crashed/1").record.outcome.message, HasSubstr("a last word before the fall"));
+  EXPECT_THAT(cell_of(result, "s/failed/1").record.outcome.message, HasSubstr("cannot go on"));
+  EXPECT_THAT(cell_of(result, "s/invalid/1").record.outcome.message, HasSubstr("frame 2: 15 labels for 16 beams"));
+  EXPECT_THAT(read_file(folder.path() / "r" / "summary.csv"), HasSubstr("s,ok,1,"));
+}
+
+TEST(Runner, RefusesAFolderThatIsNotARunAndLeavesItAlone) {
+  const testing::TemporaryFolder folder;
+  write_file_atomically(folder.path() / "thesis.tex", "years of work");
+  for (const bool resume : {false, true})
+    EXPECT_THROW(run_here(two_scenarios(), {.out = folder.path(), .resume = resume}), ConfigError);
+  EXPECT_THROW(run_here(two_scenarios(), {.out = folder.path() / "thesis.tex"}), ConfigError);
+  write_file_atomically(folder.path() / "manifest.json", "{\"name\": \"a web page\"}");
+  EXPECT_THROW(run_here(two_scenarios(), {.out = folder.path()}), ConfigError);
+  EXPECT_THAT(testing::listing(folder.path()), ElementsAre("manifest.json", "thesis.tex"));
+}
+
+TEST(Runner, ReplacesAnOldRunOnlyWhenTheNewOneIsThere) {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  run_here({scenario_with("old", {extract_with("a", "test_line")})}, {.out = out});
+  make_folders(out / "figures");
+  write_file_atomically(out / "figures" / "environment.png", "of the old run");
+  write_file_atomically(out / "notes.txt", "mine");
+  const auto before = testing::listing(folder.path());
+  const std::vector<Scenario> scenarios{scenario_with("new", {extract_with("a", "test_line")}, {1, 2})};
+
+  RunOptions options{.out = out};
+  options.progress = [](const RunProgress& p) {
+    if (p.done == 1) ::raise(SIGINT);
+  };
+  EXPECT_EQ(run_here(scenarios, options).exit_code(), 130);
+  EXPECT_EQ(testing::listing(folder.path()), before);
+
+  EXPECT_EQ(run_here(scenarios, {.out = out}).exit_code(), 0);
+  EXPECT_EQ(read_file(out / "notes.txt"), "mine");
+  EXPECT_TRUE(fs::exists(out / "cells/new/a/2/status.json"));
+  for (const char* gone : {"cells/old", "recordings/old", "figures/environment.png"})
+    EXPECT_FALSE(fs::exists(out / gone));
+  std::size_t beside = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path())) beside += entry.exists();
+  EXPECT_EQ(beside, 1u);
+}
+
+TEST(Runner, BadInputLeavesNothingBehind) {
+  const testing::TemporaryFolder folder;
+  RunServices bad = testing::services();
+  bad.recording = [](const Scenario&, std::uint64_t, int) -> Recording {
+    throw ConfigError("the path crosses wall w3");
+  };
+  const fs::path out = folder.path() / "r";
+  try {
+    run_with(two_scenarios(), {.out = out}, bad);
+    FAIL();
+  } catch (const ConfigError& e) {
+    EXPECT_STREQ(e.what(), "the path crosses wall w3");
+  }
+  EXPECT_FALSE(fs::exists(out));
+
+  // One bad scenario among good ones costs its own cells only.
+  bad.recording = [](const Scenario& s, std::uint64_t seed, int) -> Recording {
+    if (s.name == "one") throw ConfigError("the path crosses wall w3");
+    return testing::random_recording(seed, 5, 16, true);
+  };
+  const RunResult result = run_with(two_scenarios(), {.out = out}, bad);
+  EXPECT_EQ(result.exit_code(), 3);
+  EXPECT_EQ(cell_of(result, "one/a/1").record.outcome.status, CellStatus::skipped);
+  EXPECT_THAT(cell_of(result, "one/a/1").record.outcome.message, HasSubstr("the path crosses wall w3"));
+  EXPECT_EQ(cell_of(result, "two/a/1").record.outcome.status, CellStatus::ok);
+}
+
+TEST(Runner, ARecordingThatCrashesOrHangsSkipsItsCells) {
+  const testing::TemporaryFolder folder;
+  RunServices broken = testing::services();
+  broken.recording = [](const Scenario& s, std::uint64_t seed, int) -> Recording {
+    if (s.name == "one") ::raise(SIGKILL);
+    return testing::random_recording(seed, 5, 16, true);
+  };
+  const RunResult result = run_with(two_scenarios(), {.out = folder.path() / "r", .jobs = 2}, broken);
+  EXPECT_EQ(result.exit_code(), 3);
+  EXPECT_EQ(cell_of(result, "one/merge/3").record.outcome.status, CellStatus::skipped);
+  EXPECT_EQ(cell_of(result, "two/a/2").record.outcome.status, CellStatus::ok);
+}
+
+TEST(Runner, SelectsByScenarioByPipelineAndByBoth) {
+  const testing::TemporaryFolder folder;
+  const auto selection = [&](std::vector<std::string> only) {
+    auto scenarios = two_scenarios();
+    for (auto& scenario : scenarios) scenario.seeds = {9};
+    std::string text;
+    for (const auto& cell : run_here(scenarios, {.out = folder.path() / "r", .only = only}).cells)
+      text += to_string(cell.key) + " ";
+    return text;
+  };
+  EXPECT_EQ(selection({"two"}), "two/a/9 ");
+  EXPECT_EQ(selection({"a"}), "one/a/9 two/a/9 ");
+  EXPECT_EQ(selection({"one/merge", "two/a"}), "one/merge/9 two/a/9 ");
+  EXPECT_THROW(selection({"three"}), ConfigError);
+}
+
+TEST(Runner, ManifestNamesEveryFileWithItsHash) {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  run_here(two_scenarios(), {.out = out, .argv = {"scanbench", "run"}});
+  const auto manifest = nlohmann::json::parse(read_file(out / "manifest.json"));
+  std::set<std::string> listed;
+  for (const auto& artefact : manifest["artefacts"]) {
+    EXPECT_EQ(artefact["sha256"], sha256_of_file(out / artefact["path"]));
+    listed.insert(artefact["path"]);
+  }
+  for (const auto& name : testing::listing(out))
+    if (fs::is_regular_file(out / name) && name != "manifest.json") {
+      EXPECT_TRUE(listed.contains(name)) << name;
+    }
+  for (const char* key : {"version", "git_commit", "compiler", "flags", "libraries", "cpu", "start", "end"})
+    EXPECT_TRUE(manifest.contains(key)) << key;
+  EXPECT_EQ(manifest["state"], "complete");
+  EXPECT_EQ(manifest["seeds"], nlohmann::json({1, 2, 3}));
+  EXPECT_EQ(manifest["argv"], nlohmann::json({"scanbench", "run"}));
+  EXPECT_EQ(read_file(out / "scenarios/one.yaml"), "about: one\n");
+  EXPECT_EQ(read_file(out / "effective/two.yaml"), "about: two\neffective: true\n");
+  EXPECT_EQ(load_manifest(out).cells.size(), 8u);
+}
+
+TEST(Runner, OfOneScenarioWritesItsFileAtTheTop) {
+  const testing::TemporaryFolder folder;
+  run_here({scenario_with("s", {extract_with("a", "test_line")})}, {.out = folder.path() / "r", .journal = true});
+  EXPECT_EQ(read_file(folder.path() / "r/scenario.yaml"), "about: s\n");
+  EXPECT_TRUE(fs::exists(folder.path() / "r/effective.yaml"));
+  EXPECT_THAT(read_file(folder.path() / "r/cells/s/a/1/trace.csv"), HasSubstr("extract,0,segment,line,"));
+}
+
+TEST(Runner, ACellThatCannotBeWrittenMakesTheRunIncomplete) {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  const std::vector<Scenario> scenarios{
+      scenario_with("s", {extract_with("a", "test_line"), extract_with("b", "test_line")})};
+  run_here(scenarios, {.out = out});
+  fs::remove_all(out / "cells/s/a");
+  write_file_atomically(out / "cells/s/a", "a file where a folder must be");
+  const RunResult result = run_here(scenarios, {.out = out, .resume = true});
+  EXPECT_EQ(result.exit_code(), 4);
+  EXPECT_FALSE(cell_of(result, "s/a/1").done);
+  EXPECT_TRUE(cell_of(result, "s/b/1").reused);
+}
+
+TEST(Runner, TwoRunsInOneFolderAtATimeAreRefused) {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  int refused = 0;
+  RunOptions options{.out = out};
+  options.progress = [&](const RunProgress&) {
+    try {
+      const RunTarget second(out, true);
+    } catch (const ConfigError& e) {
+      refused += std::string(e.what()).find("another run") != std::string::npos;
+    }
+  };
+  run_here(two_scenarios(), options);
+  EXPECT_GT(refused, 0);
+  EXPECT_NO_THROW(RunTarget(out, true));
+}
+
+TEST(Runner, RefusesNamesThatCannotBeFolders) {
+  const testing::TemporaryFolder folder;
+  for (const std::string name : {"", "..", "a/b", ".hidden"}) {
+    EXPECT_THROW(run_here({scenario_with(name, {extract_with("a", "test_line")})}, {.out = folder.path() / "r"}),
+                 ConfigError);
+    EXPECT_THROW(run_here({scenario_with("s", {extract_with(name, "test_line")})}, {.out = folder.path() / "r"}),
+                 ConfigError);
+  }
+  const Scenario s = scenario_with("s", {extract_with("a", "test_line")});
+  EXPECT_THROW(run_here({s, s}, {.out = folder.path() / "r"}), ConfigError);
+  EXPECT_THROW(run_here({s}, {.out = folder.path() / "r", .jobs = 0}), ConfigError);
+  EXPECT_TRUE(testing::listing(folder.path()).empty());
+}
+
+}  // namespace
+}  // namespace scanbench::harness

@@ -1,0 +1,119 @@
+#include "harness/run/score.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/run/pipeline.hpp"
+#include "harness/run/run_options.hpp"
+#include "harness/store/summary.hpp"
+#include "run_support.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::vector<ModuleChoice> kFamilies{{"metrics", "test_needs_map", {}}, {"metrics", "test_metrics", {}}};
+
+TEST(Score, LeavesOutFamiliesThatDoNotApply) {
+  const PipelineSpec extract = testing::extract_with("p", "test_line");
+  PipelineSpec merge = extract;
+  merge.slots.push_back({"merge", "test_merge", {}});
+  const Recording with_truth = testing::random_recording(1, 5, 16, true);
+  const Recording log = testing::random_recording(1, 5, 16, false);
+  const auto names = [](const std::vector<metrics::MetricRow>& rows) {
+    std::string text;
+    for (const auto& row : rows) text += row.metric + " ";
+    return text;
+  };
+  const auto score = [&](const PipelineSpec& pipeline, const Recording& recording) {
+    return names(evaluate_metrics(kFamilies, recording, run_pipeline(pipeline, recording.observed).result));
+  };
+  EXPECT_EQ(score(extract, with_truth), "test_unlabelled test_lines test_undefined ");
+  EXPECT_EQ(score(merge, with_truth), "test_map test_unlabelled test_lines test_undefined ");
+  EXPECT_EQ(score(merge, log), "test_map ");
+  EXPECT_EQ(score(extract, log), "");
+  EXPECT_THROW(evaluate_metrics({{"metrics", "no such family", {}}}, log, {}), ConfigError);
+}
+
+TEST(Score, OfARunReadsFilesOnlyAndMayBeRepeatedWithOtherMetrics) {
+  const testing::TemporaryFolder folder;
+  const fs::path run = folder.path() / "run";
+  Scenario scenario = testing::scenario_with(
+      "s", {testing::extract_with("good", "test_line"), testing::extract_with("bad", "test_throw")}, {1, 2});
+  testing::run_here({scenario}, {.out = run});
+  const auto before = testing::artefacts(run);
+  EXPECT_EQ(score_run(run, {scenario}), 2u);
+  EXPECT_EQ(testing::artefacts(run), before);
+
+  const auto stands = [&] {
+    const auto cells = testing::run_here({scenario}, {.out = run, .resume = true}).cells;
+    return std::ranges::count_if(cells, [](const CellResult& cell) { return cell.reused; });
+  };
+  EXPECT_EQ(stands(), 2);
+  const auto metrics = scenario.metrics;
+  scenario.metrics = {};
+  score_run(run, {scenario});
+  EXPECT_EQ(read_file(run / "summary.csv"), summary_header());
+  scenario.metrics = metrics;
+  EXPECT_EQ(stands(), 0);  // cells without metrics are not those of the scenario
+  scenario.metrics = {{"metrics", "test_metrics", {}}};
+  // The labels decide, not what the run once computed.
+  const fs::path cell = cell_path(run, {"s", "good", 1});
+  write_file_atomically(cell / "lines.csv", read_file(cell / "lines.csv") + "4,1,0,0,1,1,0,0,0,1,2,0\n");
+  score_run(run, {scenario});
+  EXPECT_THAT(read_file(run / "summary.csv"), HasSubstr("s,good,1,test_lines,all,6,,6\n"));
+  EXPECT_THAT(read_file(run / "summary.csv"), HasSubstr("s,good,2,test_lines,all,5,,5\n"));
+  EXPECT_THAT(read_file(run / "summary.csv"), Not(HasSubstr("bad")));
+  EXPECT_THROW(score_run(run, {}), ConfigError);
+}
+
+TEST(Score, RemovesTablesOfAnEarlierScoreAndNothingElse) {
+  const testing::TemporaryFolder folder;
+  const fs::path run = folder.path() / "run";
+  Scenario scenario = testing::scenario_with("s", {testing::extract_with("good", "test_line")});
+  scenario.metrics = {{"metrics", "test_metrics", {{"table", true}}}};
+  testing::run_here({scenario}, {.out = run});
+  const fs::path cell = cell_path(run, {"s", "good", 1});
+  const std::string table = read_file(cell / "test_table.csv");
+  EXPECT_EQ(table.substr(0, 6), "lines\n");
+  write_file_atomically(cell / "mine.csv", "of the user\n");
+
+  scenario.metrics = {{"metrics", "test_metrics", {}}};
+  score_run(run, {scenario});
+  EXPECT_FALSE(fs::exists(cell / "test_table.csv"));
+  EXPECT_TRUE(fs::exists(cell / "mine.csv"));
+
+  scenario.metrics = {{"metrics", "test_metrics", {{"table", true}}}};
+  score_run(run, {scenario});
+  EXPECT_EQ(read_file(cell / "test_table.csv"), table);
+  scenario.metrics = {};
+  score_run(run, {scenario});
+  EXPECT_FALSE(fs::exists(cell / "test_table.csv"));
+}
+
+TEST(Score, ThatIsStoppedLeavesTheRunAsItWas) {
+  const testing::TemporaryFolder folder;
+  const fs::path run = folder.path() / "run";
+  Scenario scenario = testing::scenario_with("s", {testing::extract_with("good", "test_line")}, {1, 2, 3});
+  testing::run_here({scenario}, {.out = run});
+  const auto before = testing::artefacts(run);
+  scenario.metrics = {};  // other rows than those that stand there
+  struct Stopped {};
+  std::vector<std::string> told;
+  const auto stop = [&](double share, const std::string& cell) {
+    EXPECT_DOUBLE_EQ(share, static_cast<double>(told.size()) / 3);
+    told.push_back(cell);
+    if (told.size() == 3) throw Stopped{};
+  };
+  EXPECT_THROW(score_run(run, {scenario}, stop), Stopped);
+  EXPECT_EQ(told, (std::vector<std::string>{"s/good/1", "s/good/2", "s/good/3"}));
+  EXPECT_EQ(testing::artefacts(run), before);
+}
+
+}  // namespace
+}  // namespace scanbench::harness
