@@ -3,12 +3,13 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench {
 namespace {
@@ -41,7 +42,7 @@ const ScanSet& scans(int sigma_cm) {
       Frame frame;
       for (int i = 0; i < 451; ++i) {
         const Vec2 u = pose.rotate(set.sensor.geometry.direction(i));
-        double r = std::numeric_limits<double>::infinity();
+        double r = kInf;
         for (const Segment& w : world) {
           const Vec2 d = w.b - w.a;
           const double det = cross(u, d);
@@ -130,7 +131,7 @@ void split(const Points& p, double threshold, std::vector<Line>& lines) {
 std::vector<Line> iepf(const Scan& scan) {
   Points points;
   for (int i = 0; i < scan.beams(); ++i) {
-    const double r = scan.ranges[static_cast<std::size_t>(i)];
+    const double r = scan.ranges[as_index(i)];
     const double phi = scan.sensor.geometry.angle(i);
     if (std::isfinite(r)) points.emplace_back(r * std::cos(phi), r * std::sin(phi));
   }

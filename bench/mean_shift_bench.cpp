@@ -13,12 +13,14 @@
 #include <vector>
 
 #include "algorithms/merge/mean_shift_modes.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
 
 namespace {
 
+using scanbench::as_index;
 using scanbench::CounterRng;
 using scanbench::RngStream;
 using scanbench::merge::find_modes;
@@ -39,7 +41,7 @@ std::vector<Vec3> hallway_points(int n) {
     centres.emplace_back(side * rng.uniform(), side * rng.uniform(), kPeriod * rng.uniform());
   std::vector<Vec3> points;
   for (int i = 0; i < n; ++i) {
-    Vec3 p = centres[static_cast<std::size_t>(i % clusters)] + 0.35 * Vec3(rng.normal(), rng.normal(), rng.normal());
+    Vec3 p = centres[as_index(i % clusters)] + 0.35 * Vec3(rng.normal(), rng.normal(), rng.normal());
     p.z() -= kPeriod * std::floor(p.z() / kPeriod);
     points.push_back(p);
   }

@@ -14,8 +14,10 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 #include "harness/csv.hpp"
 #include "harness/text_file.hpp"
 
@@ -61,7 +63,7 @@ std::vector<BenchScan> read_scans(const fs::path& file, bool real) {
     if (real) {
       const double largest = number(fields[6]);
       for (double& r : scan.ranges)
-        if (!(r < largest)) r = std::numeric_limits<double>::infinity();
+        if (!(r < largest)) r = kInf;
       scan.sensor = sensor_of(number(fields[8]), number(fields[9]), n);
     } else {
       scan.sensor = sensor_of(-kPi, kTwoPi / (n - 1), n);
@@ -85,12 +87,11 @@ Outcome outcome(const BenchScan& bench, const LineExtractor& extractor) {
   for (int i = 0; i < scan.beams(); ++i) {
     if (!scan.valid(i)) continue;
     ++returns;
-    const int k = found.labels[static_cast<std::size_t>(i)];
+    const int k = found.labels[as_index(i)];
     if (k < 0) continue;
     ++explained;
-    const PolarLine& line = found.lines[static_cast<std::size_t>(k)].line;
-    const double error =
-        scan.ranges[static_cast<std::size_t>(i)] - line.rho / line.normal().dot(scan.sensor.geometry.direction(i));
+    const PolarLine& line = found.lines[as_index(k)].line;
+    const double error = scan.ranges[as_index(i)] - line.rho / line.normal().dot(scan.sensor.geometry.direction(i));
     squares += error * error;
   }
   return {std::sqrt(squares / explained), static_cast<double>(explained) / returns};

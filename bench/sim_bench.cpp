@@ -8,6 +8,7 @@
 // items_per_second is beams per second of one core's time.
 #include <benchmark/benchmark.h>
 
+#include "core/index.hpp"
 #include "core/registry.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/ray_math.hpp"
@@ -61,7 +62,7 @@ template <class Cast>
 void run(benchmark::State& state, const ScanGeometry& beams, const Cast& cast) {
   std::vector<Pose2> poses;
   for (const TimedPose& pose : two_hundred_poses().poses) poses.push_back(pose.world_from_sensor);
-  const std::size_t count = poses.size() * static_cast<std::size_t>(beams.beams());
+  const std::size_t count = poses.size() * as_index(beams.beams());
   std::vector<double> ranges(count);
   std::vector<std::int32_t> wall_ids(count);
   for (auto _ : state) {

@@ -17,7 +17,6 @@
 
 #include <concepts>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -28,6 +27,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench {
 
@@ -38,8 +38,8 @@ using ParamSet = std::map<std::string, ParamValue, std::less<>>;
 
 /// Allowed numbers: of a scalar, or of every element of a list.
 struct Bounds {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
+  double min = -kInf;
+  double max = kInf;
   bool open_min = false;  ///< min itself is not allowed
 
   bool contains(double v) const { return (open_min ? v > min : v >= min) && v <= max; }
@@ -85,9 +85,6 @@ ParamValue checked(const ParamSpec& spec, const ParamValue& value);
 /// All parameters, defaults filled in. Throws ParamError for an unknown name, and names the known ones (and the
 /// nearest).
 ParamSet resolve(const std::vector<ParamSpec>& specs, const ParamSet& given);
-
-/// The known name nearest to a misspelt one; empty if none is near.
-std::string nearest_name(std::string_view name, const std::vector<std::string>& known);
 
 // ---- the fields() list
 // -------------------------------------------------------------------------------------------------

@@ -6,15 +6,13 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "core/angles.hpp"
+#include "core/index.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench::portable {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 // pi/2 and ln 2 as sums of parts with trailing zero bits, so that k * part is exact for the k in use (Cody & Waite).
 constexpr double kHalfPi1 = 0x1.921fb544p+0;
@@ -78,7 +76,7 @@ double atan_unit(double t) {
   p = p * z - 1.0 / 7.0;
   p = p * z + 1.0 / 5.0;
   p = p * z - 1.0 / 3.0;
-  return kAtanOfEighths[static_cast<std::size_t>(k)] + (u + u * (z * p));
+  return kAtanOfEighths[as_index(k)] + (u + u * (z * p));
 }
 
 }  // namespace

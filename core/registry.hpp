@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 
+#include "core/names.hpp"
 #include "core/params.hpp"
 
 namespace scanbench {
@@ -63,9 +64,8 @@ class Registry {
   static std::unique_ptr<Interface> make(std::string_view name, const ParamSet& params = {}) {
     const Entry* entry = find(name);
     if (entry == nullptr) {
-      std::string known;
-      for (const auto& n : names()) known += (known.empty() ? "" : ", ") + n;
-      throw ConfigError("unknown " + std::string(Interface::kKind) + " '" + std::string(name) + "'; known: " + known);
+      throw ConfigError("unknown " + std::string(Interface::kKind) + " '" + std::string(name) +
+                        "'; known: " + join(names()));
     }
     return entry->make(params);
   }

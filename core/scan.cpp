@@ -5,7 +5,7 @@ namespace scanbench {
 
 ScanPoints valid_points(const Scan& scan) {
   ScanPoints result;
-  const auto n = static_cast<std::size_t>(scan.beams());
+  const auto n = as_index(scan.beams());
   result.beams.resize(n);
   result.points.resize(n);
   // Written first and counted after: no branch per beam, no check for growth.

@@ -2,15 +2,16 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "core/index.hpp"
 #include "core/pose2.hpp"
 #include "core/sensor_model.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench {
 
@@ -24,11 +25,11 @@ struct Scan {
   int beams() const { return static_cast<int>(ranges.size()); }
   /// A return: finite and positive. Range limits were applied when the scan was made or read.
   bool valid(int beam) const {
-    const double r = ranges[static_cast<std::size_t>(beam)];
-    return r > 0 && r < std::numeric_limits<double>::infinity();
+    const double r = ranges[as_index(beam)];
+    return r > 0 && r < kInf;
   }
   /// Cartesian point of a valid beam, sensor frame.
-  Vec2 point(int beam) const { return ranges[static_cast<std::size_t>(beam)] * sensor.geometry.direction(beam); }
+  Vec2 point(int beam) const { return ranges[as_index(beam)] * sensor.geometry.direction(beam); }
 };
 
 /// The valid returns of a scan in beam order: points[k] came from beam beams[k]. A missing beam shows as a gap in

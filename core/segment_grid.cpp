@@ -2,12 +2,12 @@
 #include "core/segment_grid.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "core/special_values.hpp"
 
 namespace scanbench {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMostCellsPerSide = 512;
 
 bool finite(const Segment& s) {
@@ -17,7 +17,7 @@ bool finite(const Segment& s) {
 }  // namespace
 
 SegmentGrid::SegmentGrid(std::span<const Segment> segments) : segments_(segments.begin(), segments.end()) {
-  Vec2 low = Vec2::Constant(kInfinity);
+  Vec2 low = Vec2::Constant(kInf);
   Vec2 high = -low;
   for (const Segment& s : segments_) {
     if (!finite(s)) continue;
@@ -56,8 +56,8 @@ void SegmentGrid::nearest_in_cell(const Vec2& p, int c, int r, double& best) con
 }
 
 double SegmentGrid::distance(const Vec2& p) const {
-  if (!p.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-  double best = kInfinity;
+  if (!p.allFinite()) return kNaN;
+  double best = kInf;
   if (empty()) return best;
   const int c = column(p.x());
   const int r = row(p.y());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry.hpp"
+#include "core/index.hpp"
 
 namespace scanbench {
 
@@ -37,9 +38,7 @@ class SegmentGrid {
   int column(double x) const { return index((x - origin_.x()) / cell_m_, columns_); }
   int row(double y) const { return index((y - origin_.y()) / cell_m_, rows_); }
   static int index(double at, int count);
-  std::size_t cell(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
-  }
+  std::size_t cell(int column, int row) const { return as_index(row) * as_index(columns_) + as_index(column); }
   void nearest_in_cell(const Vec2& p, int column, int row, double& best) const;
 
   /// The cells that come within `margin` of the segment in both coordinates: row by row, its columns there.

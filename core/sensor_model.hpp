@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/geometry.hpp"
+#include "core/index.hpp"
 
 namespace scanbench {
 
@@ -20,7 +21,7 @@ class ScanGeometry {
   double angle_step() const { return angle_step_; }
   double angle(int beam) const { return angle_min_ + beam * angle_step_; }
   /// Unit vector of a beam, from a table made once.
-  const Vec2& direction(int beam) const { return directions_[static_cast<std::size_t>(beam)]; }
+  const Vec2& direction(int beam) const { return directions_[as_index(beam)]; }
 
  private:
   double angle_min_ = 0.0;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/modules.hpp"
+#include "core/names.hpp"
 #include "harness/table.hpp"
 #include "metrics/metric.hpp"
 #include "render/figure.hpp"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/names.hpp"
 #include "core/number_text.hpp"
 #include "harness/text_file.hpp"
 

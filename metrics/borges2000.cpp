@@ -9,7 +9,9 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::metrics {
@@ -92,7 +94,7 @@ class Borges2000 : public MetricFamily {
     add_metric("eps_rho", &WallTally::rho_error);
     add_metric("eps_alpha", &WallTally::alpha_error);
     add_metric("missed", &WallTally::missed);
-    rows.add("spurious", kAll, static_cast<double>(spurious), considered);
+    rows.add("spurious", kAll, number(spurious), considered);
     return rows.take();
   }
 
@@ -102,7 +104,7 @@ class Borges2000 : public MetricFamily {
     const Truth& truth = *input.truth;
     const ScanLines& found = input.result.lines[f];
     const Scan scan = input.observed.scan(f);
-    const auto beams = static_cast<std::size_t>(scan.beams());
+    const auto beams = as_index(scan.beams());
     SCANBENCH_ASSERT(found.labels.size() == beams);
 
     std::vector<ScanTally> scan_tally(truth.walls.size());
@@ -111,10 +113,10 @@ class Borges2000 : public MetricFamily {
     for (std::size_t i = 0; i < beams; ++i) {
       const int wall = truth.wall_ids[f * beams + i];
       const int line = found.labels[i];
-      if (wall >= 0 && scan.valid(static_cast<int>(i))) ++scan_tally[static_cast<std::size_t>(wall)].points;
+      if (wall >= 0 && scan.valid(static_cast<int>(i))) ++scan_tally[as_index(wall)].points;
       if (line < 0) continue;
-      ++support[static_cast<std::size_t>(line)];
-      if (wall >= 0) ++origins[static_cast<std::size_t>(line)][wall];
+      ++support[as_index(line)];
+      if (wall >= 0) ++origins[as_index(line)][wall];
     }
 
     for (std::size_t k = 0; k < found.lines.size(); ++k) {
@@ -154,10 +156,10 @@ class Borges2000 : public MetricFamily {
     const PolarLine seen = in_world ? transform(world_from_sensor, line) : line;
     std::size_t best_wall = 0;
     LineDifference best_error{};
-    double best = std::numeric_limits<double>::infinity();
+    double best = kInf;
     int best_points = 0;
     for (const auto& [wall, points] : origins) {
-      const Segment& s = truth.walls[static_cast<std::size_t>(wall)].segment;
+      const Segment& s = truth.walls[as_index(wall)].segment;
       const PolarLine in_world_frame = line_through(s.a, s.b);
       const LineDifference error =
           line_difference(seen, in_world ? in_world_frame : transform(world_from_sensor.inverse(), in_world_frame));
@@ -165,7 +167,7 @@ class Borges2000 : public MetricFamily {
       const double alpha = error.alpha / radians(params_.alpha_tolerance_deg);
       const double dissimilarity = rho * rho + alpha * alpha;
       if (best_points == 0 || dissimilarity < best || (dissimilarity == best && points > best_points)) {
-        best_wall = static_cast<std::size_t>(wall);
+        best_wall = as_index(wall);
         best_error = error;
         best = dissimilarity;
         best_points = points;

@@ -13,9 +13,11 @@
 #include <Eigen/LU>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/registry.hpp"
 #include "metrics/chi_square.hpp"
 #include "metrics/line_bound.hpp"
+#include "metrics/line_matching.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::metrics {
@@ -45,7 +47,7 @@ struct Ratio {
   double value() const { return squared_error.value() / bound.value(); }
   /// Half the width of the 95 % interval of the mean squared error, over the mean bound.
   double half_width() const {
-    const auto n = static_cast<double>(bound.count());
+    const double n = number(bound.count());
     const double mean = squared_error.value();
     const double variance = fourth_power.value() - mean * mean;
     return 1.96 * std::sqrt(std::max(variance, 0.0) / (n - 1)) / bound.value();
@@ -55,7 +57,7 @@ struct Ratio {
 constexpr const char* kMatches = "matches";  // matches.csv
 
 /// A found line that is true, with enough beams.
-struct Match {
+struct MatchedLine {
   std::size_t frame = 0;
   std::size_t line = 0;
   const LineFeature& found;
@@ -99,7 +101,7 @@ class Efficiency : public MetricFamily {
     SCANBENCH_ASSERT(applies(input));
     Ratio offset, angle;
     Mean nees;
-    for_each_match(input, [&](const Match& match) {
+    for_each_match(input, [&](const MatchedLine& match) {
       if (match.bound) {
         const Eigen::Vector2d e = match.error_at(match.truth.segment.midpoint());
         offset.add(e[0], (*match.bound)(0, 0));
@@ -123,7 +125,7 @@ class Efficiency : public MetricFamily {
     rows.add("bound_angle", kAll, degrees(angle.bound.root()), angle.bound.count());
     MetricRow& row = rows.add("nees", kAll, nees);
     if (row.count > 0) {
-      const auto n = static_cast<double>(row.count);
+      const double n = number(row.count);
       row.ci_low = chi_square_quantile(0.025, row.count) / n;
       row.ci_high = chi_square_quantile(0.975, row.count) / n;
     }
@@ -136,15 +138,13 @@ class Efficiency : public MetricFamily {
                       {"frame", "line", "first_beam", "last_beam", "beams", "range_m", "length_m", "offset_m",
                        "angle_rad", "bound_offset_m", "bound_angle_rad"},
                       {}};
-    for_each_match(input, [&](const Match& match) {
+    for_each_match(input, [&](const MatchedLine& match) {
       const TrueLine& t = match.truth;
       const Vec2 middle = t.segment.midpoint();
       const Eigen::Vector2d e = match.error_at(middle);
       const auto sigma = [&](int i) { return match.bound ? std::sqrt((*match.bound)(i, i)) : kUndefined; };
-      table.rows.push_back({static_cast<double>(match.frame), static_cast<double>(match.line),
-                            static_cast<double>(t.first_beam), static_cast<double>(t.last_beam),
-                            static_cast<double>(t.beams), middle.norm(), t.segment.length(), e[0], e[1], sigma(0),
-                            sigma(1)});
+      table.rows.push_back({number(match.frame), number(match.line), number(t.first_beam), number(t.last_beam),
+                            number(t.beams), middle.norm(), t.segment.length(), e[0], e[1], sigma(0), sigma(1)});
     });
     return {table};
   }
@@ -162,9 +162,9 @@ class Efficiency : public MetricFamily {
       const LineMatching matching = match_lines(found, truths, MatchRule{});
       for (std::size_t k = 0; k < found.size(); ++k) {
         if (matching.outcome[k] != Outcome::true_line) continue;
-        const TrueLine& t = truths[static_cast<std::size_t>(matching.truth[k])];
+        const TrueLine& t = truths[as_index(matching.truth[k])];
         if (t.beams < params_.min_beams) continue;
-        visit(Match{f, k, found[k], t, line_through(t.segment.a, t.segment.b), line_bound(scan, t)});
+        visit(MatchedLine{f, k, found[k], t, line_through(t.segment.a, t.segment.b), line_bound(scan, t)});
       }
     }
   }

@@ -3,7 +3,9 @@
 
 #include <optional>
 
-#include "metrics/line_matching.hpp"
+#include <Eigen/Core>
+
+#include "metrics/true_lines.hpp"
 
 namespace scanbench::metrics {
 

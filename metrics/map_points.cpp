@@ -80,7 +80,6 @@ class MapPoints : public MetricFamily {
       }
     }
 
-    const auto number = [](auto n) { return static_cast<double>(n); };
     const auto n_points = std::ssize(points);
     const double recorded = number(poses.size()) * (input.observed.sensor.geometry.beams() + 3.0) * kBytes;
     const double stored = 4.0 * number(map_lines.size()) * kBytes;
@@ -107,7 +106,7 @@ class MapPoints : public MetricFamily {
     std::set<int> labels;
     for (const MergeLabel& label : result.merge_labels) labels.insert(label.*cluster);
     labels.erase(-1);
-    return labels.empty() ? kUndefined : static_cast<double>(labels.size());
+    return labels.empty() ? kUndefined : number(labels.size());
   }
 
   Params params_;

@@ -10,10 +10,11 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
+#include "core/interval.hpp"
 #include "core/registry.hpp"
-#include "metrics/intervals.hpp"
-#include "metrics/line_matching.hpp"
 #include "metrics/rows.hpp"
+#include "metrics/surfaces.hpp"
 
 namespace scanbench::metrics {
 namespace {
@@ -39,11 +40,11 @@ std::vector<std::vector<Interval>> visible_parts(const MetricInput& input, const
         1, static_cast<std::size_t>(std::ceil(surfaces.segments[s].length() / kVisibilityBin - 1e-9))));
   for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
     const Scan scan = input.observed.scan(f);
-    const auto beams = static_cast<std::size_t>(scan.beams());
+    const auto beams = as_index(scan.beams());
     for (std::size_t i = 0; i < beams; ++i) {
       const std::int32_t wall = truth.wall_ids[f * beams + i];
       if (wall < 0 || !scan.valid(static_cast<int>(i))) continue;
-      const auto s = static_cast<std::size_t>(surfaces.of_wall[static_cast<std::size_t>(wall)]);
+      const std::size_t s = as_index(surfaces.of_wall[as_index(wall)]);
       const Segment& segment = surfaces.segments[s];
       const Vec2 p = truth.world_from_sensor[f] *
                      Vec2(truth.ranges[f * beams + i] * scan.sensor.geometry.direction(static_cast<int>(i)));
@@ -78,9 +79,7 @@ double line_distance(const Vec2& p, const Segment& s) {
 std::optional<Interval> represented_part(const Segment& surface, const Segment& line) {
   const auto near = part_near(surface, line, kFar);
   if (!near) return std::nullopt;
-  const Vec2 u = surface.direction();
-  const auto [low, high] = std::minmax({u.dot(line.a - surface.a), u.dot(line.b - surface.a)});
-  const Interval part{std::max(near->low, low), std::min(near->high, high)};
+  const Interval part = intersection(*near, projection(line, surface.a, surface.direction()));
   if (!(part.high > part.low)) return std::nullopt;
   return part;
 }
@@ -222,7 +221,7 @@ class MapTruth : public MetricFamily {
       std::vector<Interval> kept;
       std::int64_t originals = 0;
       for (const Assigned& a : assigned[s]) {
-        if (common_length({a.part}, unite(kept)) > 0.5 * a.part.length()) {
+        if (common_length({&a.part, 1}, unite(kept)) > 0.5 * a.part.length()) {
           ++duplicates;
           continue;
         }
@@ -234,7 +233,6 @@ class MapTruth : public MetricFamily {
       if (!visible[s].empty()) on_visible += std::ssize(assigned[s]);
     }
 
-    const auto number = [](std::int64_t n) { return static_cast<double>(n); };
     const std::int64_t n_assigned = offset.count();
     rows.add("lines_per_wall", kAll, ratio(number(on_visible), number(n_visible)), n_visible);
     rows.add("duplicates", kAll, number(duplicates), n_assigned);

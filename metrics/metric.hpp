@@ -42,6 +42,9 @@ struct MetricInput {
   const PipelineResult& result;
 };
 
+/// True if there is a truth for every beam of the observed scans and one entry of lines per frame.
+bool has_beam_truth(const MetricInput& input);
+
 /// Observations behind the rows, one a line, as a file of the cell: <name>.csv.
 struct MetricTable {
   std::string name;

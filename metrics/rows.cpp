@@ -32,12 +32,4 @@ std::vector<std::string> wall_subjects(std::span<const Wall> walls) {
   return subjects;
 }
 
-bool has_beam_truth(const MetricInput& input) {
-  if (input.truth == nullptr) return false;
-  const std::size_t frames = input.observed.frames.size();
-  const std::size_t beams = frames * static_cast<std::size_t>(input.observed.sensor.geometry.beams());
-  return input.truth->world_from_sensor.size() == frames && input.truth->wall_ids.size() == beams &&
-         input.truth->ranges.size() == beams && input.result.lines.size() == frames;
-}
-
 }  // namespace scanbench::metrics

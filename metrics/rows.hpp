@@ -2,20 +2,26 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/special_values.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::metrics {
 
-inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kUndefined = kNaN;
 inline constexpr std::string_view kAll = "all";
+
+/// A count as the value of a row.
+inline double number(std::integral auto count) {
+  return static_cast<double>(count);
+}
 
 /// numerator / denominator; NaN when the denominator is 0.
 inline double ratio(double numerator, double denominator) {
@@ -59,8 +65,5 @@ class Rows {
 
 /// One subject per wall: its label; walls without one or sharing one are told apart by their index ("door#7").
 std::vector<std::string> wall_subjects(std::span<const Wall> walls);
-
-/// True if there is a truth for every beam of the observed scans and one entry of lines per frame.
-bool has_beam_truth(const MetricInput& input);
 
 }  // namespace scanbench::metrics

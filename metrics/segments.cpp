@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/registry.hpp"
 #include "metrics/line_matching.hpp"
 #include "metrics/rows.hpp"
@@ -102,14 +103,13 @@ class Segments : public MetricFamily {
       for (std::size_t k = 0; k < found.size(); ++k) {
         if (matching.outcome[k] != Outcome::true_line) continue;
         ++n_true;
-        const Overlap o = overlap(found[k].segment, truths[static_cast<std::size_t>(matching.truth[k])].segment);
+        const Overlap o = overlap(found[k].segment, truths[as_index(matching.truth[k])].segment);
         offset2.add(o.offset_m * o.offset_m);
         angle2.add(degrees(o.angle_rad) * degrees(o.angle_rad));
         iou.add(o.length_m / o.union_m);
       }
     }
 
-    const auto number = [](std::int64_t n) { return static_cast<double>(n); };
     const std::int64_t n_found = n_true + n_false + n_split;
     const std::int64_t n_missed = n_truth - n_true;
     Rows rows(describe());

@@ -10,8 +10,10 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/polygon.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::metrics {
@@ -27,14 +29,14 @@ struct GroupResidual {
 };
 
 std::vector<GroupResidual> group_residuals(const Scan& scan, const ScanLines& found) {
-  SCANBENCH_ASSERT(found.labels.size() == static_cast<std::size_t>(scan.beams()));
+  SCANBENCH_ASSERT(found.labels.size() == as_index(scan.beams()));
   std::vector<Vec2> normals;
   for (const LineFeature& line : found.lines) normals.push_back(line.line.normal());
   std::vector<GroupResidual> groups(found.lines.size());
   for (int i = 0; i < scan.beams(); ++i) {
-    const int label = found.labels[static_cast<std::size_t>(i)];
+    const int label = found.labels[as_index(i)];
     if (label < 0 || !scan.valid(i)) continue;
-    const auto k = static_cast<std::size_t>(label);
+    const auto k = as_index(label);
     const double d = std::fabs(normals[k].dot(scan.point(i)) - found.lines[k].line.rho);
     ++groups[k].points;
     groups[k].sum += d;
@@ -93,10 +95,10 @@ class Siadat1997 : public MetricFamily {
   std::vector<MetricRow> evaluate(const MetricInput& input) const override {
     SCANBENCH_ASSERT(applies(input));
     Mean segments, d_mean, d_max, d_mean_pts, d_max_scan;
-    double fewest = std::numeric_limits<double>::infinity();
+    double fewest = kInf;
     double most = -fewest;
     for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
-      const auto count = static_cast<double>(input.result.lines[f].lines.size());
+      const double count = number(input.result.lines[f].lines.size());
       segments.add(count);
       fewest = std::min(fewest, count);
       most = std::max(most, count);

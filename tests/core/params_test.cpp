@@ -6,6 +6,7 @@
 
 #include "core/number_text.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench {
 namespace {
@@ -73,8 +74,7 @@ TEST(Params, AcceptAWholeNumberWhereANumberIsAskedFor) {
 
 TEST(Params, RefuseWithWhatWasFoundAndWhatIsAllowed) {
   EXPECT_EQ(message({{"threshold_m", -1.0}}), "threshold_m is -1; allowed: a number > 0 m");
-  EXPECT_EQ(message({{"threshold_m", std::numeric_limits<double>::quiet_NaN()}}),
-            "threshold_m is nan; allowed: a number > 0 m");
+  EXPECT_EQ(message({{"threshold_m", kNaN}}), "threshold_m is nan; allowed: a number > 0 m");
   EXPECT_EQ(message({{"count", std::int64_t{10}}}), "count is 10; allowed: a whole number 1 .. 9");
   EXPECT_THAT(message({{"count", 2.5}}), HasSubstr("allowed: a whole number"));
   EXPECT_EQ(message({{"fit", std::string("lsq")}}), "fit is 'lsq'; allowed: end_points, tls");

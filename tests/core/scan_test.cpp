@@ -4,14 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench {
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 TEST(ValidPoints, KeepTheBeamNumberOfEveryReturn) {
   SensorModel sensor;

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <vector>
 
 #include "core/angles.hpp"
+#include "core/index.hpp"
 #include "core/rng.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench {
 namespace {
@@ -51,7 +52,7 @@ TEST(SegmentGrid, LeavesOutNoneThatIsNearAWay) {
         };
         Segment way{place(), place()};
         if (k % 4 == 0) way.b = way.a;  // a pose
-        if (k % 4 == 1) way.a = segments[static_cast<std::size_t>(k) % segments.size()].a;
+        if (k % 4 == 1) way.a = segments[as_index(k) % segments.size()].a;
         if (k % 4 == 2) way.b = way.a + 0.01 * (way.b - way.a);
         std::set<std::size_t> visited;
         grid.for_each_near(way, [&](std::size_t i) { visited.insert(i); });
@@ -81,7 +82,7 @@ TEST(SegmentGrid, AgreesWithBruteForceInsideAndOutside) {
     const SegmentGrid grid(segments);
     for (int i = 0; i < 500; ++i) {
       const Vec2 p = i % 4 == 0 ? Vec2(uniform(-200, 200), uniform(-200, 200)) : Vec2(uniform(-25, 35), uniform(0, 20));
-      double expected = std::numeric_limits<double>::infinity();
+      double expected = kInf;
       for (const Segment& s : segments) expected = std::min(expected, distance(p, s));
       EXPECT_EQ(grid.distance(p), expected) << count << " segments, point " << p.transpose();
     }
@@ -107,9 +108,9 @@ TEST(SegmentGrid, FindsSegmentsThatCrossFromRowToRowWithinARoundingError) {
 TEST(SegmentGrid, HasAnswersForNothingAndForNonsense) {
   const SegmentGrid nothing(std::vector<Segment>{});
   EXPECT_TRUE(nothing.empty());
-  EXPECT_EQ(nothing.distance({0, 0}), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(nothing.distance({0, 0}), kInf);
   nothing.for_each_near({{-5, 3}, {1e4, 7}}, [](std::size_t) { ADD_FAILURE(); });
-  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double nan = kNaN;
   const SegmentGrid grid(std::vector<Segment>{{{0, 0}, {nan, 1}}, {{1, 0}, {1, 0}}});
   EXPECT_EQ(grid.distance({4, 4}), 5.0);
   EXPECT_TRUE(std::isnan(grid.distance({nan, 0})));

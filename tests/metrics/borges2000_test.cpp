@@ -1,5 +1,6 @@
 // borges2000 against sums written out by hand.
 #include "core/rng.hpp"
+#include "core/special_values.hpp"
 #include "made_up.hpp"
 
 namespace scanbench::test {
@@ -130,7 +131,7 @@ TEST(Borges2000, ErrorsAreThoseOfTheWorldFrameUnlessTheSensorsIsAskedFor) {
 
 TEST(Borges2000, LostReturnsDoNotMakeAWallMissed) {
   MadeUpRun run = six_beams(kTwoWalls, 1);
-  for (const std::size_t i : {0, 1, 2}) run.observed.frames[0].ranges[i] = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : {0, 1, 2}) run.observed.frames[0].ranges[i] = kInf;
   expect_undefined(evaluate("borges2000", run), "missed", "east");  // one return of four
 }
 

@@ -3,7 +3,9 @@
 
 #include <Eigen/LU>
 
+#include "core/index.hpp"
 #include "core/rng.hpp"
+#include "core/special_values.hpp"
 #include "made_up.hpp"
 #include "metrics/chi_square.hpp"
 #include "metrics/line_bound.hpp"
@@ -52,7 +54,7 @@ TEST(LineBound, IsTheInverseInformationFromNumericalDerivatives) {
   noise.quantum_m = 0.01;
   noise.bearing_sigma_rad = radians(0.1);
   MadeUpRun run = fan(noise);
-  run.observed.frames[0].ranges[7] = std::numeric_limits<double>::infinity();
+  run.observed.frames[0].ranges[7] = kInf;
   const auto truth = only_true_line(run);
 
   const double h = 1e-6;
@@ -114,7 +116,7 @@ PolarLine most_likely_line(const std::vector<double>& ranges) {
       const double delta = kFan.angle(i) - x[1];
       const Eigen::Vector2d g(1 / std::cos(delta), -x[0] * std::sin(delta) / std::pow(std::cos(delta), 2));
       a += g * g.transpose();
-      b += g * (ranges[static_cast<std::size_t>(i)] - x[0] / std::cos(delta));
+      b += g * (ranges[as_index(i)] - x[0] / std::cos(delta));
     }
     x += a.inverse() * b;
   }
@@ -266,7 +268,7 @@ TEST(Efficiency, WritesMatchesWhenAskedTo) {
   const auto value = [&](std::string_view column) {
     const auto found = std::ranges::find(tables[0].columns, column);
     EXPECT_NE(found, tables[0].columns.end()) << column;
-    return tables[0].rows[0][static_cast<std::size_t>(found - tables[0].columns.begin())];
+    return tables[0].rows[0][as_index(found - tables[0].columns.begin())];
   };
   EXPECT_EQ(value("frame"), 1);
   EXPECT_EQ(value("line"), 1);

@@ -1,4 +1,5 @@
 // map_points by hand.
+#include "core/special_values.hpp"
 #include "made_up.hpp"
 
 namespace scanbench::test {
@@ -43,7 +44,7 @@ TEST(MapPoints, PointsAndLinesArePlacedByTheEstimatedPoses) {
 
 TEST(MapPoints, CompressionCountsNumbersAndBytes) {
   MadeUpRun run = cross_run({});
-  run.observed.frames[0].ranges[3] = std::numeric_limits<double>::infinity();
+  run.observed.frames[0].ranges[3] = kInf;
   run.result.map.lines = {map_line({1, -1}, {1, 1}), map_line({0, 0}, {1, 0})};
   const auto rows = evaluate("map_points", run);
   expect_value(rows, "compression", "all", 3.0 * 2 / (2.0 * 4), 2);
@@ -74,7 +75,7 @@ TEST(MapPoints, ClustersAreCountedByTheirLinesAndDroppedLinesAreOfNone) {
 
 TEST(MapPoints, OfLinesWithoutScansThereIsNothingToCompress) {
   MadeUpRun run = cross_run({});
-  for (double& range : run.observed.frames[0].ranges) range = std::numeric_limits<double>::infinity();
+  for (double& range : run.observed.frames[0].ranges) range = kInf;
   run.result.map.lines = {map_line({1, -1}, {1, 1})};
   const auto rows = evaluate("map_points", run);
   for (const char* metric : {"compression", "compression_bytes"}) expect_undefined(rows, metric);

@@ -1,13 +1,9 @@
-// map_truth by hand, and its geometry against sampling.
-#include "core/rng.hpp"
+// map_truth by hand.
+#include "core/special_values.hpp"
 #include "made_up.hpp"
-#include "metrics/intervals.hpp"
 
 namespace scanbench::test {
 namespace {
-
-using metrics::Interval;
-using metrics::part_near;
 
 /// Walls without scans, all of them visible, and a map.
 MadeUpRun map_of(std::vector<Wall> walls, const std::vector<Segment>& lines) {
@@ -120,7 +116,7 @@ TEST(MapTruth, OnlyWhatWasSeenOftenEnoughCounts) {
 
 TEST(MapTruth, LostReturnsMakeNothingVisible) {
   MadeUpRun run = seen_from_above(0.1);
-  for (double& r : run.observed.frames[0].ranges) r = std::numeric_limits<double>::infinity();
+  for (double& r : run.observed.frames[0].ranges) r = kInf;
   expect_value(evaluate("map_truth", run), "visible_m", "all", 0.0, 0);
 }
 
@@ -154,44 +150,6 @@ TEST(MapTruth, NeedsTruthAndAMap) {
   EXPECT_TRUE(family("map_truth")->applies(no_slot_makes_one.input()));  // an empty map covers nothing: a zero
   no_slot_makes_one.result.has_map = false;
   EXPECT_FALSE(family("map_truth")->applies(no_slot_makes_one.input()));
-}
-
-TEST(PartNear, IsTheIntervalThatSamplingFinds) {
-  CounterRng rng(5, RngStream::resampling);
-  const auto point = [&] { return Vec2(3 * rng.uniform(), 3 * rng.uniform()); };
-  int found = 0;
-  for (int trial = 0; trial < 300; ++trial) {
-    const Segment probe{point(), point()};
-    const Segment target{point(), trial % 3 == 0 ? point() : Vec2(probe.b + 0.1 * point())};
-    const double d = 0.5 * rng.uniform();
-    constexpr int kSamples = 2000;
-    Interval sampled{1e9, -1e9};
-    for (int i = 0; i <= kSamples; ++i) {
-      const double t = probe.length() * i / kSamples;
-      if (distance(probe.a + t * probe.direction(), target) > d) continue;
-      sampled.low = std::min(sampled.low, t);
-      sampled.high = std::max(sampled.high, t);
-    }
-    const auto part = part_near(probe, target, d);
-    const double step = probe.length() / kSamples;
-    if (sampled.high < sampled.low) {
-      EXPECT_LE(part ? part->length() : 0.0, 1.001 * step);
-      continue;
-    }
-    ++found;
-    ASSERT_TRUE(part.has_value());
-    EXPECT_NEAR(part->low, sampled.low, 1.001 * step);
-    EXPECT_NEAR(part->high, sampled.high, 1.001 * step);
-  }
-  EXPECT_GT(found, 100);
-}
-
-TEST(Intervals, UniteAndIntersect) {
-  const auto united = metrics::unite({{3, 4}, {0, 1}, {0.5, 2}, {2, 2}, {4, 5}});
-  ASSERT_EQ(united.size(), 2u);
-  EXPECT_EQ(metrics::total_length(united), 2.0 + 2.0);
-  EXPECT_EQ(metrics::unite({{0, 1}, {1.2, 2}}, 0.3).size(), 1u);
-  EXPECT_DOUBLE_EQ(metrics::common_length(united, {{1.5, 3.5}, {4.5, 9}}), 0.5 + 0.5 + 0.5);
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // segments: perfect lines, and small errors whose price follows by arithmetic.
+#include "core/index.hpp"
+#include "core/special_values.hpp"
 #include "made_up.hpp"
 #include "metrics/line_matching.hpp"
 
@@ -29,7 +31,7 @@ std::vector<int> beams_of(const MadeUpRun& run, int wall) {
 }
 
 Vec2 true_point(const MadeUpRun& run, int beam) {
-  return run.truth.ranges[static_cast<std::size_t>(beam)] * run.observed.sensor.geometry.direction(beam);
+  return run.truth.ranges[as_index(beam)] * run.observed.sensor.geometry.direction(beam);
 }
 
 TEST(Segments, PerfectLinesScorePerfectly) {
@@ -151,7 +153,7 @@ TEST(Segments, WallsThatContinueEachOtherAreOneTrueLine) {
 TEST(Segments, LostReturnsDoNotCutATrueLineButABodyInFrontDoes) {
   MadeUpRun run = make_run(ScanGeometry(radians(45), radians(1), 91), {{"north", {{5, 2}, {-5, 2}}}});
   cast_frame(run, {});
-  for (std::size_t i = 0; i < 91; i += 4) run.observed.frames[0].ranges[i] = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 91; i += 4) run.observed.frames[0].ranges[i] = kInf;
   expect_value(evaluate("segments", run), "n_missed", "all", 1, 1);
   for (std::size_t i = 40; i < 50; ++i) run.truth.wall_ids[i] = -1;
   expect_value(evaluate("segments", run), "n_missed", "all", 2, 2);
@@ -167,7 +169,7 @@ TEST(Segments, TrueLinesHaveAtLeastNineReturnsAndHalfAMetre) {
     MadeUpRun run =
         make_run(ScanGeometry(radians(90 - 0.5 * (beams - 1)), radians(1), beams), {{"n", {{5, 4}, {-5, 4}}}});
     cast_frame(run, {});
-    for (int i = 0; i < lost; ++i) run.observed.frames[0].ranges[static_cast<std::size_t>(2 + i)] = 0.0;
+    for (int i = 0; i < lost; ++i) run.observed.frames[0].ranges[as_index(2 + i)] = 0.0;
     return row(evaluate("segments", run, params), "n_missed").value;
   };
   EXPECT_EQ(truths(9, {}), 1);

@@ -1,4 +1,5 @@
 // siadat1997 against sums written out by hand.
+#include "core/special_values.hpp"
 #include "made_up.hpp"
 
 namespace scanbench::test {
@@ -19,7 +20,7 @@ MadeUpRun points_near_x1(const std::vector<std::vector<double>>& residuals) {
 }
 
 TEST(Siadat1997, ResidualsAreAveragedOverSegmentsFirstAndScansThen) {
-  const double out = std::numeric_limits<double>::quiet_NaN();
+  const double out = kNaN;
   MadeUpRun run = points_near_x1({{0.03, -0.01, 0.02, 0.08, -0.04, 0.0, 0.0}, {0.06, 0.0, 0.0, out, 0.0, 0.0, 0.0}});
   // Scan 0: |0.03|, |0.01|, |0.02| -> mean 0.02, max 0.03; two points -> 0, 0; two free points.
   add_line(run, 0, polar_line(1, 0), {0, 1, 2});

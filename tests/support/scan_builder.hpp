@@ -2,18 +2,16 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/index.hpp"
 #include "core/rng.hpp"
 #include "core/scan.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench::testing {
-
-inline constexpr double kInf = std::numeric_limits<double>::infinity();
-inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A scan that owns its sensor and ranges. ids[i] is the wall that beam i hit, -1 none (empty where nobody cast).
 struct OwnedScan {
@@ -94,7 +92,7 @@ inline OwnedScan with_noise(OwnedScan scan, double sigma_m, std::uint64_t seed, 
 
 /// The same range for every beam.
 inline OwnedScan constant_scan(const SensorModel& sensor, double range) {
-  return {sensor, std::vector<double>(static_cast<std::size_t>(sensor.geometry.beams()), range), {}};
+  return {sensor, std::vector<double>(as_index(sensor.geometry.beams()), range), {}};
 }
 
 /// A random room: a box about the sensor with smaller boxes inside, none of which contains the sensor. The sensor

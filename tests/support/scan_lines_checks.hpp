@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/index.hpp"
 #include "core/modules.hpp"
 
 namespace scanbench::testing {
@@ -18,12 +19,12 @@ inline void expect_consistent(const Scan& scan, const ScanLines& result) {
   std::vector<int> first(result.lines.size(), -1);
   std::vector<int> last(result.lines.size(), -1);
   for (int beam = 0; beam < scan.beams(); ++beam) {
-    const int label = result.labels[static_cast<std::size_t>(beam)];
+    const int label = result.labels[as_index(beam)];
     ASSERT_GE(label, -1);
     ASSERT_LT(label, lines);
     if (label < 0) continue;
     ASSERT_TRUE(scan.valid(beam)) << "beam " << beam << " has no return but supports line " << label;
-    const auto k = static_cast<std::size_t>(label);
+    const auto k = as_index(label);
     if (count[k]++ == 0) first[k] = beam;
     last[k] = beam;
   }
