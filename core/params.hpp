@@ -96,21 +96,29 @@ struct Field {
   Bounds bounds;
   std::string_view unit;
   std::string_view doc;
-  std::vector<std::pair<std::int64_t, std::string_view>> choices;
+  std::vector<std::pair<std::int64_t, std::string_view>> choices{};
+  bool in_degrees = false;  ///< of files; the member is in radians
 };
 
 template <class P, class T>
 Field<P, T> field(std::string_view name, T P::*member, Bounds bounds, std::string_view unit, std::string_view doc) {
-  return {name, member, bounds, unit, doc, {}};
+  return {name, member, bounds, unit, doc};
 }
 template <class P, class T>
 Field<P, T> field(std::string_view name, T P::*member, std::string_view doc) {
-  return {name, member, {}, "", doc, {}};
+  return {name, member, {}, "", doc};
+}
+/// A member in radians that files give in degrees: `name` ends in _deg, and the bounds are in degrees. Values pass
+/// through degrees * pi / 180, so to_param_set() returns them up to rounding; keep what resolve() gave where the
+/// file's own number matters.
+template <class P>
+Field<P, double> degrees_field(std::string_view name, double P::*member, Bounds bounds, std::string_view doc) {
+  return {.name = name, .member = member, .bounds = bounds, .unit = "deg", .doc = doc, .in_degrees = true};
 }
 template <class P, class E>
 Field<P, E> choice(std::string_view name, E P::*member, std::initializer_list<std::pair<E, std::string_view>> names,
                    std::string_view doc) {
-  Field<P, E> f{name, member, {}, "", doc, {}};
+  Field<P, E> f{name, member, {}, "", doc};
   for (const auto& [value, text] : names) f.choices.emplace_back(static_cast<std::int64_t>(value), text);
   return f;
 }
@@ -161,6 +169,8 @@ ParamValue to_value(const Field<P, T>& f, const P& params) {
     throw InternalError("parameter " + std::string(f.name) + " has a value without a name");
   } else if constexpr (std::integral<T> && !std::same_as<T, bool>) {
     return static_cast<std::int64_t>(params.*f.member);
+  } else if constexpr (std::same_as<T, double>) {
+    return f.in_degrees ? degrees(params.*f.member) : params.*f.member;
   } else {
     return params.*f.member;
   }
@@ -173,6 +183,9 @@ void from_value(const Field<P, T>& f, const ParamValue& value, P& params) {
       if (text == std::get<std::string>(value)) params.*f.member = static_cast<T>(number);
   } else if constexpr (std::integral<T> && !std::same_as<T, bool>) {
     params.*f.member = static_cast<T>(std::get<std::int64_t>(value));
+  } else if constexpr (std::same_as<T, double>) {
+    const double number = std::get<double>(value);
+    params.*f.member = f.in_degrees ? radians(number) : number;
   } else {
     params.*f.member = std::get<T>(value);
   }

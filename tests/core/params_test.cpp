@@ -87,6 +87,20 @@ TEST(Params, NameTheNearestKnownNameForAMisspeltOne) {
   EXPECT_THAT(message({{"zzzzzzzz", 0.1}}), HasSubstr("known: threshold_m, count"));
 }
 
+struct Turn {
+  double angle_rad = radians(10.0);
+  static auto fields() { return std::tuple{degrees_field("angle_deg", &Turn::angle_rad, between(0, 30), "an angle")}; }
+};
+
+TEST(Params, InDegreesAreInRadiansInside) {
+  const std::vector<ParamSpec> specs = param_specs<Turn>();
+  EXPECT_EQ(specs[0].unit, "deg");
+  EXPECT_NEAR(std::get<double>(specs[0].default_value), 10.0, 1e-14);
+  EXPECT_NEAR(make_params<Turn>({{"angle_deg", 30.0}}).angle_rad, kPi / 6, 1e-16);
+  EXPECT_THROW(make_params<Turn>({{"angle_deg", 31.0}}), ParamError);
+  EXPECT_EQ(resolve(specs, {{"angle_deg", 0.2}}), (ParamSet{{"angle_deg", 0.2}}));  // as written
+}
+
 TEST(NumberText, ReadsBackToTheSameNumber) {
   for (const double v : {0.1, 1.0 / 3, 1e-300, 123456789.123, -0.0}) EXPECT_EQ(*parse_number(number_text(v)), v);
 }
