@@ -1,4 +1,4 @@
-// Gaussian mean shift of all points to their modes: the project's engine against the plain double loop and against a
+// Gaussian mean shift of all points to their modes: the project's engine compared with the plain double loop and with a
 // nanoflann k-d tree cut at four standard deviations (Lakaemper 2009, section III, brute force and k-d tree).
 //
 // Points as pieces of walls of a hallway seen in many scans: clusters of standard deviation 0.35 in every dimension,
@@ -146,8 +146,8 @@ void merge_module(benchmark::State& state) {
     const double direction = (rng.bits() % 2 == 0 ? 0.0 : 1.5707963267948966) + 0.02 * rng.normal();
     const double length = 1.0 + 3.0 * rng.uniform();
     for (int k = 0; k < 20; ++k) {
-      const double turned = direction + 0.01 * rng.normal();
-      const scanbench::Vec2 along(std::cos(turned), std::sin(turned));
+      const double angle = direction + 0.01 * rng.normal();
+      const scanbench::Vec2 along(std::cos(angle), std::sin(angle));
       const scanbench::Vec2 a(start.x() + 0.01 * rng.normal(), start.y() + 0.01 * rng.normal());
       lines.push_back(
           {.segment = {a + 0.3 * rng.uniform() * length * along, a + (0.7 + 0.3 * rng.uniform()) * length * along}});

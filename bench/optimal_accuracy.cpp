@@ -1,10 +1,10 @@
-// Accuracy of an extractor on simulated rooms beside an oracle that is told which beams see which wall: what remains
-// between them is the price of not knowing. Prints the table of docs/algorithms/optimal.md.
+// The accuracy of an extractor on simulated rooms and that of an oracle that knows which beams see which wall: the
+// difference is the cost of not knowing. Prints the table of docs/algorithms/optimal.md.
 //
 //   optimal_accuracy [--seeds FIRST COUNT] [--sigma CM] [--scene PART_OF_NAME] [--extractor NAME] [--why]
 //
-// Metrics `segments` and `efficiency` with their defaults: runs of beams on one wall count as true lines from 9 returns
-// and 0.5 m on. The second F1 ignores right lines on smaller pieces. --why says of all wrong lines what they are. Seeds
+// Uses the metrics `segments` and `efficiency` with their defaults: a run of beams on one wall is a true line from
+// 9 returns and 0.5 m. The second F1 ignores correct lines on smaller pieces. --why classifies all wrong lines. Seeds
 // below 100 are for development.
 #include <cmath>
 #include <cstdio>
@@ -53,7 +53,7 @@ ScanLines oracle_lines(const MetricInput& input, std::size_t frame, const metric
   return out;
 }
 
-// Wrong lines by what they are, and missed ones.
+// Counts false and missed lines by their cause.
 class Reasons {
  public:
   void add(const MetricInput& input, std::size_t f, const metrics::Surfaces& surfaces) {
@@ -124,8 +124,8 @@ class Reasons {
                                                                : "taken by a line of another wall") +
            size;
   }
-  // By how many nats the readings of a found line are likelier when those on the true line have a line of their own: a
-  // cut that gains less than the code of its place is not in the readings.
+  // The gain in log-likelihood (nats) if the readings on the true line get a line of their own: a cut that gains less
+  // than the code length of its place cannot be found in the readings.
   static double gain_of_a_cut(const Scan& scan, const ScanLines& found, int which, const metrics::TrueLine& t) {
     std::vector<extract::BeamReading> all, on, off;
     for (int i = 0; i < scan.beams(); ++i) {
@@ -147,7 +147,7 @@ class Reasons {
   std::map<std::string, int> count_;
 };
 
-// What the two metric families say of several recordings together.
+// Sums of two metric families over several recordings.
 class Score {
  public:
   void add(const MetricInput& input) {
@@ -235,7 +235,7 @@ int run(std::span<char*> args) {
       options.extractor = args[++i];
     } else {
       fmt::print(stderr,
-                 "{}: not understood; allowed: --seeds FIRST COUNT, --sigma CM, --scene PART_OF_NAME, "
+                 "{}: unknown argument; allowed: --seeds FIRST COUNT, --sigma CM, --scene PART_OF_NAME, "
                  "--extractor NAME, --why\n",
                  arg);
       return 2;

@@ -1,6 +1,6 @@
-// Polylines with given numbers of vertices on the scans of Schaefer, Buescher, Luft & Burgard, IROS 2018, beside the
-// results that their authors published: root mean square radius residual of the explained returns, mean over scans, and
-// the share of returns explained. Needs ${SCANBENCH_DATA}/ple-bench-a.
+// Fits polylines with given numbers of vertices to the scans of Schaefer, Buescher, Luft & Burgard, IROS 2018, and
+// prints the results beside those that the authors published: root mean square radius residual of the explained
+// returns, mean over scans, and the share of returns explained. Needs ${SCANBENCH_DATA}/ple-bench-a.
 //
 //   polyline_accuracy [sim|real] [SCANS]
 #include <cmath>
@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxBytes = 64 << 20;
-constexpr double kSigma = 0.03;  // theirs
+constexpr double kSigma = 0.03;  // of the authors
 constexpr int kBudgets[] = {10, 20, 30, 40, 50};
 
 struct BenchScan {
@@ -73,12 +73,12 @@ std::vector<BenchScan> read_scans(const fs::path& file, bool real) {
   return scans;
 }
 
-struct Outcome {
+struct Fit {
   double rmse_m = 0.0;
   double explained = 0.0;
 };
 
-Outcome outcome(const BenchScan& bench, const LineExtractor& extractor) {
+Fit fit_of(const BenchScan& bench, const LineExtractor& extractor) {
   const Scan scan{bench.sensor, bench.ranges};
   Trace silent;
   const ScanLines found = extractor.extract(scan, silent);
@@ -102,12 +102,12 @@ void print_row(const std::vector<BenchScan>& scans, double sigma_m, bool clutter
   for (const int v : kBudgets) {
     const auto extractor = Registry<LineExtractor>::make(
         "polyline", {{"vertices", std::int64_t{v}}, {"clutter", clutter}, {"min_points", std::int64_t{1}}});
-    Outcome mean;
+    Fit mean;
     for (BenchScan scan : scans) {
       scan.sensor.noise.sigma_m = sigma_m;
-      const Outcome o = outcome(scan, *extractor);
-      mean.rmse_m += o.rmse_m / static_cast<double>(scans.size());
-      mean.explained += o.explained / static_cast<double>(scans.size());
+      const Fit fit = fit_of(scan, *extractor);
+      mean.rmse_m += fit.rmse_m / static_cast<double>(scans.size());
+      mean.explained += fit.explained / static_cast<double>(scans.size());
     }
     fmt::print(" {:.4f} m, {:.1f} % |", mean.rmse_m, 100 * mean.explained);
     std::fflush(stdout);
@@ -123,7 +123,7 @@ void print_table(const fs::path& folder, const std::string& set, std::size_t mos
   for (const int v : kBudgets) fmt::print(" {} |", v);
   fmt::print("\n|---|---|---|---|---|---|\n");
   print_row(scans, kSigma, real);
-  // A sensor that is said to be worse leaves fewer returns to clutter: the same shares as the published methods'.
+  // With a larger stated sigma fewer returns count as clutter: the shares are then those of the published methods.
   if (real)
     for (const double sigma_m : {0.06, 0.1}) print_row(scans, sigma_m, true);
   const fs::path file = folder / "published_results.csv";

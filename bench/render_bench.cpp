@@ -1,4 +1,4 @@
-// Time of a figure, one thread. The first PNG of a process also pays for the OpenGL context.
+// The time of drawing a figure in one thread. The first PNG of a process includes the OpenGL context.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace scanbench::render {
 namespace {
 
-/// `panels` panels with 1654 segments each, about what 200 scans of 15 walls give.
+/// `panels` panels with 1654 segments each, about as many as in 200 scans of 15 walls.
 Scene segments_scene(std::int64_t panels) {
   Scene scene{.width_in = panels > 1 ? kDoubleColumnIn : kSingleColumnIn, .title = "segments", .share_axes = true};
   for (std::int64_t p = 0; p < panels; ++p) {

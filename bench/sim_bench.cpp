@@ -1,9 +1,10 @@
-// Beams per second of the simulator: fifteen walls, 200 scans of 451 beams, against a brute-force caster in double.
+// Beams per second of the simulator: fifteen walls, 200 scans of 451 beams, compared with a brute-force caster in
+// double.
 //
 //   simulate            whole recordings, gaussian noise of 5 cm included, one thread
 //   cast                the same beams through sim/ray_caster.hpp, no noise
-//   cast_brute_force    the same beams, every wall tried for every beam
-//   rooms/...           the two casters in an office of N walls
+//   cast_brute_force    the same beams, each intersected with every wall
+//   rooms/...           both casters in an office of N walls
 //
 // items_per_second is beams per second of one core's time.
 #include <benchmark/benchmark.h>
@@ -57,7 +58,7 @@ Trajectory two_hundred_poses() {
       ->generate(0.1);
 }
 
-// Scans cast as a batch; `Cast` writes ranges and wall ids of all of them.
+// Casts all scans as a batch; `cast` writes their ranges and wall ids.
 template <class Cast>
 void run(benchmark::State& state, const ScanGeometry& beams, const Cast& cast) {
   std::vector<Pose2> poses;

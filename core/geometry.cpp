@@ -1,4 +1,4 @@
-// Points, segments and lines: the few operations that are longer than a line.
+// Distances, canonical forms and differences of lines.
 #include "core/geometry.hpp"
 
 #include <algorithm>

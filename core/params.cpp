@@ -1,4 +1,4 @@
-// The checks between a value somebody wrote and a parameter somebody declared.
+// Checks of given values against declared parameters, and both as text for messages.
 #include "core/params.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace scanbench {
 namespace {
 
-// As people write a number: without an exponent from 0.0001 to below 1e15.
+// A number as people write it: without an exponent from 0.0001 to below 1e15.
 std::string plain_text(double value) {
   const double size = std::fabs(value);
   if (!(size >= 1e-4 && size < 1e15)) return number_text(value);

@@ -1,6 +1,6 @@
-// Parameters described once. A module has an aggregate `Params` with its defaults and one `fields()` list; from the
-// list come typed reading, bounds, unknown-key errors, the saved effective configuration, `scanbench describe` and the
-// docs table.
+// Parameters described once. A module has an aggregate `Params` with its defaults and one `fields()` list. The list
+// supplies typed reading, bounds, errors for unknown keys, the saved effective configuration, `scanbench describe` and
+// the tables of docs/modules.md.
 //
 //   struct Params {
 //     double threshold_m = 0.10;
@@ -12,7 +12,7 @@
 //     }
 //   };
 //
-// A member that fields() does not name does not compile (params_complete).
+// A struct with a member that fields() does not name does not compile (params_complete).
 #pragma once
 
 #include <concepts>
@@ -36,7 +36,7 @@ using NamedPoints = std::vector<std::pair<std::string, Vec2>>;  ///< in the orde
 using ParamValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, NumberRows, NamedPoints>;
 using ParamSet = std::map<std::string, ParamValue, std::less<>>;
 
-/// Allowed numbers: of a scalar, or of every element of a list.
+/// The allowed values of a number, or of every element of a list.
 struct Bounds {
   double min = -kInf;
   double max = kInf;
@@ -61,7 +61,7 @@ inline Bounds any_number() {
 enum class ParamType { boolean, integer, number, text, choice, number_list, number_rows, named_points };
 std::string_view to_string(ParamType type);
 
-/// A parameter as files, docs and errors see it.
+/// A parameter as files, documents and error messages show it.
 struct ParamSpec {
   std::string name;
   ParamType type = ParamType::number;
@@ -72,23 +72,21 @@ struct ParamSpec {
   std::vector<std::string> choices;
 };
 
-/// A value as it stands in documents: shortest form that reads back to the same number.
+/// A value as text. Numbers have the shortest form that reads back to the same number.
 std::string to_text(const ParamValue& value);
 
-/// What a parameter accepts, as errors and documents say it: "a number > 0 m", "end_points, tls", "text".
+/// What a parameter accepts, in the words of error messages and documents: "a number > 0 m", "end_points, tls", "text".
 std::string allowed_text(const ParamSpec& spec);
 
-/// The value in the spec's type (an integer is accepted where a number is asked for). Throws ParamError for a wrong
+/// The value in the spec's type (an integer is accepted for a number). Throws ParamError for a wrong
 /// type, a number out of bounds or not finite, an unknown choice.
 ParamValue checked(const ParamSpec& spec, const ParamValue& value);
 
-/// All parameters, defaults filled in. Throws ParamError for an unknown name, and names the known ones (and the
-/// nearest).
+/// The given parameters and the defaults of the others. Throws ParamError as checked() does, and for an unknown name;
+/// the message lists the known names.
 ParamSet resolve(const std::vector<ParamSpec>& specs, const ParamSet& given);
 
-// ---- the fields() list
-// -------------------------------------------------------------------------------------------------
-
+/// One entry of a fields() list: made by field(), degrees_field() or choice() below.
 template <class P, class T>
 struct Field {
   std::string_view name;
@@ -125,6 +123,7 @@ Field<P, E> choice(std::string_view name, E P::*member, std::initializer_list<st
 
 namespace detail {
 
+/// Converts to any type, to count the members of an aggregate.
 struct Anything {
   template <class T>
   operator T() const;
@@ -231,7 +230,7 @@ ParamSet to_param_set(const P& params) {
   return set;
 }
 
-/// Params of a module that has none.
+/// The Params of a module without parameters.
 struct NoParams {
   static auto fields() { return std::tuple<>{}; }
 };

@@ -1,4 +1,4 @@
-// Beam table and noise figures.
+// The table of beam directions and the standard deviations of readings.
 #include "core/sensor_model.hpp"
 
 #include <cmath>

@@ -1,14 +1,16 @@
-// efficiency: how near the lines come to the best that their beams allow, and whether an extractor knows how good it
-// is. Cramer-Rao bound of the range readings; normalised estimation error squared as in Bar-Shalom, Li & Kirubarajan,
-// "Estimation with Applications to Tracking and Navigation", 2001, section 5.4.
+// efficiency: compares the errors of lines with the smallest errors that their beams allow, and the covariances that an
+// extractor reports with its errors. Cramer-Rao bound of the range readings; normalised estimation error squared as in
+// Bar-Shalom, Li & Kirubarajan, "Estimation with Applications to Tracking and Navigation", 2001, section 5.4.
 //
-// Errors for the efficiency are taken at the midpoint of the true line, where the bound is; errors for nees at the
-// midpoint of the found line, where its covariance is. Matches are those of `segments` with its defaults. Lost returns
-// give no information; spurious ones are counted as if they were good, so their harm is part of the ratio. A ratio
-// below 1 beyond its interval means that an extractor saw the truth or used the beams of two runs of a wall for one
-// line.
+// Errors for the efficiency are taken at the midpoint of the true line, because the bound holds there; errors for nees
+// at the midpoint of the found line, because its covariance holds there. Matches are those of `segments` with its
+// defaults. Lost returns give no information. Spurious returns count as if they were good, so their harm is part of the
+// ratio. If a ratio and its whole interval are below 1, the extractor saw the truth or used the beams of two runs of a
+// wall for one line.
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -23,12 +25,11 @@
 namespace scanbench::metrics {
 namespace {
 
-/// (offset along the normal of `found`, angle) of `found` against the true line, where the offset is that at `point`,
-/// which must lie near both.
+/// The error of `found` as (offset along its normal at `point`, angle). `point` must be near both lines.
 Eigen::Vector2d line_error(const PolarLine& found, const PolarLine& truth, const Vec2& point) {
   const Vec2 n = found.normal();
   const Vec2 m = truth.normal();
-  const double side = n.dot(m) < 0 ? -1.0 : 1.0;  // near rho = 0 the two normals may point to opposite sides
+  const double side = n.dot(m) < 0 ? -1.0 : 1.0;  // near rho = 0 the normals can have opposite directions
   return {found.signed_distance(point) - side * truth.signed_distance(point),
           std::atan2(side * cross(m, n), side * m.dot(n))};
 }
@@ -56,7 +57,7 @@ struct Ratio {
 
 constexpr const char* kMatches = "matches";  // matches.csv
 
-/// A found line that is true, with enough beams.
+/// A found line that matches a true line with enough beams.
 struct MatchedLine {
   std::size_t frame = 0;
   std::size_t line = 0;
@@ -92,7 +93,7 @@ class Efficiency : public MetricFamily {
         {"bound_angle", "deg", neither, 0.0, "root of the mean bound of the angle"},
         {"nees", "", neither, 0.1,
          "mean of e' C^-1 e over lines with a covariance C; honest covariances give 2, overconfident ones more; "
-         "ci: the band in which it lies with probability 95 % if they are honest"}};
+         "ci: the band that contains it with probability 95 % if they are honest"}};
   }
 
   bool applies(const MetricInput& input) const override { return has_beam_truth(input); }
@@ -174,7 +175,7 @@ class Efficiency : public MetricFamily {
 
 const bool registered = Registry<MetricFamily>::add<Efficiency>(
     {.name = "efficiency",
-     .summary = "errors of lines against the Cramer-Rao bound of their beams, and honesty of their covariances",
+     .summary = "errors of lines against the Cramer-Rao bound of their beams, and whether their covariances are honest",
      .reference = "Cramer-Rao inequality; Bar-Shalom et al. 2001, section 5.4"});
 
 }  // namespace

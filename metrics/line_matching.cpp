@@ -1,4 +1,4 @@
-// Greedy one-to-one matching by overlap.
+// Greedy matching by overlap.
 #include "metrics/line_matching.hpp"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ LineMatching match_lines(std::span<const LineFeature> found, std::span<const Tru
     for (std::size_t t = 0; t < truth.size(); ++t) {
       const Overlap o = overlap(segment, truth[t].segment);
       const double length = truth[t].segment.length();
-      // A line at an angle is shorter in projection: that is the extent that the overlap is a share of.
+      // The overlap is compared with the projection of the found line, which is shorter than the line itself.
       const double projected = segment.length() * std::cos(o.angle_rad);
       const bool matches = std::fabs(o.angle_rad) <= rule.max_angle_rad && std::fabs(o.offset_m) <= rule.max_offset_m &&
                            o.length_m > rule.min_overlap * std::min(length, projected);

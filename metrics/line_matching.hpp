@@ -12,8 +12,8 @@ namespace scanbench::metrics {
 struct MatchRule {
   double max_angle_rad = radians(10.0);
   double max_offset_m = 0.15;  ///< of the found line's midpoint from the true line
-  double min_overlap = 0.5;    ///< share of the shorter of the two, exceeded by the overlap of the projections
-  double min_length_m = 0.5;   ///< a shorter line that matches nothing is passed over
+  double min_overlap = 0.5;    ///< the overlap of the projections must exceed this share of the shorter one
+  double min_length_m = 0.5;   ///< a shorter line that matches nothing is ignored
 };
 
 /// How a found line compares with a true line, along the true line's direction.
@@ -27,15 +27,16 @@ Overlap overlap(const Segment& found, const Segment& truth);
 
 enum class Outcome { true_line, split, false_line, ignored };
 
-/// Per found line its outcome and, for true ones, the index of its true line (else -1).
+/// Per found line its outcome and, for a true_line, the index of its true line (else -1).
 struct LineMatching {
   std::vector<Outcome> outcome;
   std::vector<int> truth;
-  std::vector<bool> merged;  ///< matches true lines of two surfaces, each over more than half of their length
+  std::vector<bool> merged;  ///< covers more than half of the length of true lines of two surfaces
 };
 
-/// Pairs that satisfy the rule are taken by decreasing overlap while both are free (ties: lower indices first). A line
-/// left over is split if it satisfies the rule with some true line, else false.
+/// Takes the pairs that satisfy the rule by decreasing overlap, each line at most once (ties: lower indices first). A
+/// found line that remains is `split` if it satisfies the rule with some true line; else it is `false_line`, or
+/// `ignored` if it is short.
 LineMatching match_lines(std::span<const LineFeature> found, std::span<const TrueLine> truth, const MatchRule& rule);
 
 }  // namespace scanbench::metrics

@@ -1,11 +1,11 @@
-// map_truth: a merged map against the true walls: what of them it covers, what it adds, how often it repeats, breaks or
-// fuses them, and how exact its lines are.
+// map_truth: a merged map against the true walls: how much of them it covers, what it adds, how often it repeats,
+// breaks or fuses them, and how exact its lines are.
 //
-// What counts is the visible part of a wall: where at least 3 returns per 10 cm came from over the whole run. Walls
-// that lie on one line and touch are one surface throughout: a map is right to join them, and no scan shows the seam.
-// Collinear walls with a gap between them (a corridor with doors) stay separate for lines_per_wall and fragments, and
-// one line over both of them is no over-merging, which asks for walls on different lines; the gap that it wrongly fills
-// lowers true_share. The map is compared where it stands: its frame is that of the truth.
+// Only the visible part of a wall counts: where at least 3 returns per 10 cm came from over the whole run. Walls that
+// are on one line and touch are one surface throughout: a map is right to join them, because no scan shows the seam.
+// Collinear walls with a gap between them (a corridor with doors) are separate for lines_per_wall and fragments. One
+// line over both of them is not over-merged, because that needs walls on different lines; it lowers true_share by the
+// gap that it fills. The map is compared without an alignment: its frame is that of the truth.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ namespace {
 constexpr double kNear = 0.05;
 constexpr double kFar = 0.10;
 constexpr double kVisibilityBin = 0.10;
-constexpr double kOneView = 0.30;  // visible parts with a smaller gap between them ask for one line, not two
+constexpr double kOneView = 0.30;  // visible parts with a smaller gap between them need one line, not two
 
 /// Visible parts of every surface, in metres from its first end.
 std::vector<std::vector<Interval>> visible_parts(const MetricInput& input, const Surfaces& surfaces,
@@ -30,7 +30,7 @@ std::vector<std::vector<Interval>> visible_parts(const MetricInput& input, const
   const Truth& truth = *input.truth;
   const std::size_t count = surfaces.segments.size();
   std::vector<std::vector<Interval>> visible(count);
-  if (truth.wall_ids.empty()) {  // lines without scans: nothing says that a part was not seen
+  if (truth.wall_ids.empty()) {  // lines without scans: every part counts as seen
     for (std::size_t s = 0; s < count; ++s) visible[s] = {{0.0, surfaces.segments[s].length()}};
     return visible;
   }
@@ -75,7 +75,8 @@ double line_distance(const Vec2& p, const Segment& s) {
   return std::fabs(cross(s.direction(), p - s.a));
 }
 
-/// The part of a surface that a map line represents: near it, and between the line's ends in projection. Empty: absent.
+/// The part of a surface that a map line represents: near the line and between the projections of its ends. Absent if
+/// it is empty.
 std::optional<Interval> represented_part(const Segment& surface, const Segment& line) {
   const auto near = part_near(surface, line, kFar);
   if (!near) return std::nullopt;
@@ -98,11 +99,11 @@ class MapTruth : public MetricFamily {
     double over_merge_m = 0.15;
     static auto fields() {
       return std::tuple{field("max_angle_deg", &Params::max_angle_deg, between(0, 90), "deg",
-                              "largest angle between a map line and the wall that it stands for"),
+                              "largest angle between a map line and the wall that it represents"),
                         field("min_hits_per_m", &Params::min_hits_per_m, at_least(0), "1/m",
                               "returns over the run that make a part of a wall visible"),
                         field("over_merge_m", &Params::over_merge_m, at_least(0), "m",
-                              "walls further apart than this must not share a map line")};
+                              "walls farther apart than this must not share a map line")};
     }
   };
 
@@ -111,17 +112,17 @@ class MapTruth : public MetricFamily {
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
     return {{"covered_5cm", "", higher_is_better, 0.005,
-             "share of the visible wall length within 5 cm of a map line like it"},
+             "share of the visible wall length within 5 cm of a map line of its direction"},
             {"covered_10cm", "", higher_is_better, 0.005, "the same within 10 cm"},
             {"true_share_5cm", "", higher_is_better, 0.005, "share of the map's length within 5 cm of a wall"},
             {"true_share_10cm", "", higher_is_better, 0.005, "the same within 10 cm"},
-            {"lines_per_wall", "", lower_is_better, 0.02, "map lines that stand for a visible wall, per visible wall"},
+            {"lines_per_wall", "", lower_is_better, 0.02, "map lines that represent a visible wall, per visible wall"},
             {"duplicates", "", lower_is_better, 0.0,
-             "map lines of which more than half repeats longer lines of the same wall"},
+             "map lines that repeat longer lines of the same wall over more than half of their length"},
             {"fragments", "", lower_is_better, 0.0, "further lines of a wall beyond one for each visible part of it"},
             {"over_merged", "", lower_is_better, 0.0,
              "map lines over more than half of each of two walls on different lines"},
-            {"unassigned", "", lower_is_better, 0.0, "map lines that stand for no wall"},
+            {"unassigned", "", lower_is_better, 0.0, "map lines that represent no wall"},
             {"map_offset", "m", lower_is_better, 0.001,
              "distance of map lines' midpoints from their wall's line, mean weighted by the lines' lengths"},
             {"map_angle", "deg", lower_is_better, 0.05,
@@ -154,7 +155,7 @@ class MapTruth : public MetricFamily {
   }
 
  private:
-  /// Truth about walls, and about beams unless the run has lines only.
+  /// True if the truth has walls and, unless the run has lines only, knows the wall of each beam.
   static bool consistent(const MetricInput& input) {
     if (input.truth == nullptr || input.truth->walls.empty()) return false;
     return input.truth->wall_ids.empty() || has_beam_truth(input);
@@ -243,7 +244,7 @@ class MapTruth : public MetricFamily {
     rows.add("map_angle", kAll, angle);
   }
 
-  /// True if two of the surfaces lie on lines too far apart for one map line.
+  /// True if two of the surfaces are on lines too far apart for one map line.
   bool fuses(const std::vector<std::size_t>& covered, const Surfaces& surfaces) const {
     for (std::size_t i = 0; i < covered.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {

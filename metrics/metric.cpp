@@ -1,4 +1,4 @@
-// What the metric families ask of their input.
+// Checks of a metric's input.
 #include "metrics/metric.hpp"
 
 #include "core/index.hpp"

@@ -1,4 +1,4 @@
-// Rows of a metric family.
+// Fills the rows of a metric family and names its subjects.
 #include "metrics/rows.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ MetricRow& Rows::add(std::string_view metric, std::string_view subject, double v
 }
 
 std::vector<std::string> wall_subjects(std::span<const Wall> walls) {
-  std::map<std::string_view, int> uses{{"", 2}, {"mean", 2}, {kAll, 2}};  // names that rows use for something else
+  std::map<std::string_view, int> uses{{"", 2}, {"mean", 2}, {kAll, 2}};  // subjects with another meaning
   for (const Wall& wall : walls) ++uses[wall.label];
   std::vector<std::string> subjects;
   for (std::size_t i = 0; i < walls.size(); ++i)

@@ -1,4 +1,4 @@
-// Angles, segments and lines: identities on the circle and at the degenerate places.
+// Angles, segments and lines: identities on the circle and in degenerate cases.
 #include "core/geometry.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(Canonical, HasNonNegativeRhoAndOneFormThroughTheOrigin) {
   EXPECT_NEAR(canonical(0.0, -0.25).alpha, kPi - 0.25, 1e-15);
 }
 
-TEST(LineThrough, ContainsBothPointsAndLiesOnTheOriginsFarSide) {
+TEST(LineThrough, ContainsBothPointsAndHasTheOriginOnItsPositiveSide) {
   CounterRng rng(2, RngStream::pose);
   for (int i = 0; i < 1000; ++i) {
     const Vec2 a(rng.normal(), rng.normal());

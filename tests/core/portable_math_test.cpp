@@ -1,4 +1,4 @@
-// The portable functions against long double, and their special values.
+// The portable functions compared with long double, and their special values.
 #include "core/portable_math.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Scans as views: beam angles, valid returns, data-sheet noise.
+// Valid returns of a scan, its geometry, and the noise of a data sheet.
 #include "core/scan.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// efficiency: the bound against numerical derivatives and a Monte-Carlo maximum-likelihood estimate, errors by hand.
+// efficiency: the bound compared with numerical derivatives and with a Monte-Carlo maximum-likelihood estimate; errors
+// computed by hand.
 #include <algorithm>
 
 #include <Eigen/LU>
@@ -18,8 +19,8 @@ using metrics::chi_square_quantile;
 using metrics::join_walls;
 using metrics::line_bound;
 
-/// 41 beams over 40 deg on the wall (2 m, 30 deg), off its foot, so that offset and angle are correlated everywhere
-/// else but in the middle.
+/// 41 beams over 40 deg on the wall (2 m, 30 deg), beside its foot, so that offset and angle are correlated everywhere
+/// except in the middle.
 const PolarLine kWall{2.0, radians(30)};
 const ScanGeometry kFan(radians(40), radians(1), 41);
 
@@ -87,7 +88,7 @@ TEST(LineBound, IsTheInverseInformationFromNumericalDerivatives) {
 }
 
 TEST(LineBound, OfAWallStraightAheadIsThatOfTheMeanOfItsReadings) {
-  // For beams close to the normal the offset is the mean of n readings: sigma^2 / n.
+  // For beams close to the normal the offset is the mean of n readings, so its variance is sigma^2 / n.
   SensorNoise noise;
   noise.sigma_m = 0.01;
   MadeUpRun run = make_run(ScanGeometry(radians(-1), radians(0.1), 21), {{"w", {{30, -9}, {30, 9}}}});
@@ -193,8 +194,8 @@ TEST(Efficiency, LinesOfTooFewBeamsDoNotCount) {
 }
 
 TEST(Nees, TakesTheErrorAtTheFoundLinesMidpointWithTheSignsOfItsNormal) {
-  // Wall x = 2. The found line is turned counter-clockwise by atan(0.01) about (2, 0): at its midpoint, y = 1, it
-  // stands at x = 2 - 0.01, which is 0.01 cos(angle) nearer along its normal.
+  // The wall is x = 2. The found line is rotated counter-clockwise by atan(0.01) about (2, 0): at its midpoint, y = 1,
+  // it is at x = 2 - 0.01, which is 0.01 cos(angle) nearer along its normal.
   SensorNoise noise;
   noise.sigma_m = 0.02;
   MadeUpRun run = make_run(ScanGeometry(radians(-45), radians(1), 91), {{"wall", {{2, -5}, {2, 5}}}});
@@ -226,7 +227,7 @@ TEST(Nees, IsFiniteAndRightWhenTheLinePassesTheSensorOnTheOtherSide) {
   EXPECT_NEAR(row(evaluate("efficiency", run), "nees").value, 0.02 * 0.02 / 1e-4, 1e-9);
 }
 
-TEST(ChiSquare, QuantilesAreThoseOfTheTables) {
+TEST(ChiSquare, QuantilesAreThoseOfPublishedTables) {
   EXPECT_NEAR(chi_square_quantile(0.975, 1), -2 * std::log(0.025), 1e-12);
   EXPECT_NEAR(chi_square_quantile(0.025, 1), -2 * std::log(0.975), 1e-13);
   EXPECT_NEAR(chi_square_quantile(0.025, 10), 9.59078, 1e-5);
@@ -248,7 +249,7 @@ TEST(Efficiency, NeedsTruthAndGivesAllRowsForAnEmptyRun) {
   for (const auto& r : rows) expect_undefined(rows, r.metric);
 }
 
-TEST(Efficiency, WritesMatchesWhenAskedTo) {
+TEST(Efficiency, WritesMatchesOnRequest) {
   SensorNoise noise;
   noise.sigma_m = 0.02;
   MadeUpRun run = fan(noise, 2);

@@ -1,4 +1,4 @@
-// Small worlds for the tests of metrics: scans by brute force, lines written by hand or taken from the truth.
+// Small worlds for the tests of metrics: scans cast by brute force, lines by hand or from the truth.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// map_points by hand.
+// map_points compared with values computed by hand.
 #include "core/special_values.hpp"
 #include "made_up.hpp"
 
@@ -64,7 +64,7 @@ TEST(MapPoints, WithoutAMapOrLinesTheDistancesAreUndefined) {
   expect_undefined(rows, "D_M");
 }
 
-TEST(MapPoints, ClustersAreCountedByTheirLinesAndDroppedLinesAreOfNone) {
+TEST(MapPoints, CountsClustersByTheirLinesAndIgnoresDroppedLines) {
   MadeUpRun run = cross_run({});
   for (const char* metric : {"clusters1", "clusters2"}) expect_undefined(evaluate("map_points", run), metric);
   run.result.merge_labels = {{0, 0, 4, 7, 0}, {0, 1, 4, 8, 0}, {0, 2, 6, 9, 1}, {0, 3, -1, -1, -1}};
@@ -73,7 +73,7 @@ TEST(MapPoints, ClustersAreCountedByTheirLinesAndDroppedLinesAreOfNone) {
   expect_value(rows, "clusters2", "all", 3, 0);
 }
 
-TEST(MapPoints, OfLinesWithoutScansThereIsNothingToCompress) {
+TEST(MapPoints, CompressionOfLinesWithoutScansIsUndefined) {
   MadeUpRun run = cross_run({});
   for (double& range : run.observed.frames[0].ranges) range = kInf;
   run.result.map.lines = {map_line({1, -1}, {1, 1})};

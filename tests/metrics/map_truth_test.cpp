@@ -1,4 +1,4 @@
-// map_truth by hand.
+// map_truth compared with values computed by hand.
 #include "core/special_values.hpp"
 #include "made_up.hpp"
 
@@ -27,8 +27,8 @@ TEST(MapTruth, APerfectMapIsPerfect) {
   expect_value(rows, "visible_m", "all", 7.0, 2);
 }
 
-TEST(MapTruth, CoverageReachesPastTheEndsByWhatTheDistanceLeaves) {
-  // A line 3 cm beside a, from x = 1 to 3: within 5 cm of it lies the wall from 1 - 0.04 to 3 + 0.04.
+TEST(MapTruth, CoverageExtendsPastTheEndsOfALine) {
+  // A line 3 cm beside a, from x = 1 to 3: the wall from 1 - 0.04 to 3 + 0.04 is within 5 cm of it.
   const auto rows = evaluate("map_truth", map_of(kCorner, {{{1, 0.03}, {3, 0.03}}}));
   expect_value(rows, "covered_5cm", "all", 2.08 / 7, 2);
   expect_value(rows, "covered_10cm", "all", (2 + 2 * std::sqrt(0.01 - 0.0009)) / 7, 2);
@@ -46,7 +46,7 @@ TEST(MapTruth, ALineAcrossAWallCoversNothingAndIsTrueOnlyWhereTheyCross) {
   expect_undefined(rows, "map_offset");
 }
 
-TEST(MapTruth, TellsDuplicatesFromFragments) {
+TEST(MapTruth, DistinguishesDuplicatesFromFragments) {
   // Wall a as [0, 2.5] and [2.5, 4], and once more [0.5, 1.5]; b as a whole.
   const auto rows = evaluate(
       "map_truth",
@@ -80,7 +80,7 @@ TEST(MapTruth, OverMergingIsOneLineForTwoWallsOnDifferentLines) {
   };
   EXPECT_EQ(over_merged(0.18), 1);
   EXPECT_EQ(over_merged(0.14), 0);
-  // Collinear with a gap: no over-merging, but 1 m of the map is false where a door stands.
+  // Collinear with a gap: no over-merging, but the part of the map across the door is false.
   const std::vector<Wall> corridor{{"left", {{0, 0}, {2, 0}}}, {"right", {{3, 0}, {5, 0}}}};
   const auto rows = evaluate("map_truth", map_of(corridor, {{{0, 0}, {5, 0}}}));
   expect_value(rows, "over_merged", "all", 0.0, 1);

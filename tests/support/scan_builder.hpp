@@ -1,4 +1,4 @@
-// Scans for tests: sensors without noise models, walls cast by brute force, noise with its own seed.
+// Scans for tests: sensors without a noise model, walls cast by brute force, and noise with its own seed.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,8 @@
 
 namespace scanbench::testing {
 
-/// A scan that owns its sensor and ranges. ids[i] is the wall that beam i hit, -1 none (empty where nobody cast).
+/// A scan that owns its sensor and ranges. ids[i] is the wall that beam i hit, -1 for none; empty unless cast() made
+/// the scan.
 struct OwnedScan {
   SensorModel sensor;
   std::vector<double> ranges;
@@ -77,8 +78,8 @@ inline OwnedScan cast(const SensorModel& sensor, const std::vector<Segment>& wal
   return scan;
 }
 
-/// Gaussian noise along the beam, drawn per (seed, frame, beam), and the sensor told of it. Beams without a return
-/// stay so; a range that would become negative is a fault (NaN).
+/// Adds Gaussian noise along the beam, drawn per (seed, frame, beam), and states it in the sensor's model. Beams
+/// without a return stay without one; a range that would become negative is a fault (NaN).
 inline OwnedScan with_noise(OwnedScan scan, double sigma_m, std::uint64_t seed, std::uint32_t frame = 0) {
   scan.sensor.noise.sigma_m = sigma_m;
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
@@ -96,7 +97,7 @@ inline OwnedScan constant_scan(const SensorModel& sensor, double range) {
 }
 
 /// A random room: a box about the sensor with smaller boxes inside, none of which contains the sensor. The sensor
-/// stands at the origin.
+/// is at the origin.
 inline std::vector<Segment> random_room(std::uint64_t seed) {
   CounterRng rng(seed, RngStream::pose);
   const auto between = [&](double low, double high) { return low + (high - low) * rng.uniform(); };
@@ -114,7 +115,7 @@ inline std::vector<Segment> random_room(std::uint64_t seed) {
   return walls;
 }
 
-/// The same scene turned about the sensor by `angle`: the sensor's start angle moves, the ranges stay.
+/// The same scene rotated about the sensor by `angle`: only the sensor's start angle changes.
 inline OwnedScan turned(const OwnedScan& scan, double angle) {
   OwnedScan result = scan;
   const ScanGeometry& g = scan.sensor.geometry;
