@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/yaml/reader.hpp"

@@ -1,14 +1,16 @@
 // Line extraction: microseconds per 451-beam scan, every registered extractor, 200 poses in a 15-wall world, noise of 1
-// and 5 cm. The textbook IEPF (recursion, copies, polar distance with trigonometry) runs beside them as the yardstick.
+// and 5 cm. For comparison the textbook IEPF runs on the same scans (recursion, copies, polar distances with
+// trigonometry).
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench {
 namespace {
@@ -23,7 +25,7 @@ std::vector<Segment> walls() {
   };
   chain({{0, 0}, {12, 0}, {12, 5}, {8, 5}, {8, 9}, {0, 9}}, true);  // an L-shaped room
   chain({{3, 2}, {4, 2}, {4, 3}, {3, 3}}, true);                    // a box
-  chain({{2, 6}, {3.2, 6.4}, {2.8, 7.4}, {1.6, 7}}, true);          // a turned one
+  chain({{2, 6}, {3.2, 6.4}, {2.8, 7.4}, {1.6, 7}}, true);          // a rotated one
   result.push_back({{9, 2}, {10.5, 2.6}});                          // a panel
   return result;
 }
@@ -41,7 +43,7 @@ const ScanSet& scans(int sigma_cm) {
       Frame frame;
       for (int i = 0; i < 451; ++i) {
         const Vec2 u = pose.rotate(set.sensor.geometry.direction(i));
-        double r = std::numeric_limits<double>::infinity();
+        double r = kInf;
         for (const Segment& w : world) {
           const Vec2 d = w.b - w.a;
           const double det = cross(u, d);
@@ -77,7 +79,7 @@ void run_module(benchmark::State& state, const std::string& name) {
   state.counters["lines"] = static_cast<double>(lines) / kPoses;
 }
 
-// What a first reading of the paper gives: a copy per recursion, the polar form of the chord for every test, a total
+// A direct implementation of the paper: a copy per recursion, the polar form of the chord for every test, a total
 // least-squares fit with its angle for every group.
 namespace textbook {
 
@@ -130,7 +132,7 @@ void split(const Points& p, double threshold, std::vector<Line>& lines) {
 std::vector<Line> iepf(const Scan& scan) {
   Points points;
   for (int i = 0; i < scan.beams(); ++i) {
-    const double r = scan.ranges[static_cast<std::size_t>(i)];
+    const double r = scan.ranges[as_index(i)];
     const double phi = scan.sensor.geometry.angle(i);
     if (std::isfinite(r)) points.emplace_back(r * std::cos(phi), r * std::sin(phi));
   }
@@ -155,7 +157,7 @@ void run_textbook(benchmark::State& state) {
   state.counters["lines"] = static_cast<double>(lines) / kPoses;
 }
 
-// From main(), because static initialisers of this file may run before those that fill the registry.
+// Called from main(), because static initialisers of this file can run before those that fill the registry.
 void register_all() {
   for (const int sigma_cm : {1, 5}) {
     benchmark::RegisterBenchmark("textbook_iepf", run_textbook)->ArgName("sigma_cm")->Arg(sigma_cm);

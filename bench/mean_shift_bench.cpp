@@ -1,4 +1,4 @@
-// Gaussian mean shift of all points to their modes: the project's engine against the plain double loop and against a
+// Gaussian mean shift of all points to their modes: the project's engine compared with the plain double loop and with a
 // nanoflann k-d tree cut at four standard deviations (Lakaemper 2009, section III, brute force and k-d tree).
 //
 // Points as pieces of walls of a hallway seen in many scans: clusters of standard deviation 0.35 in every dimension,
@@ -13,12 +13,14 @@
 #include <vector>
 
 #include "algorithms/merge/mean_shift_modes.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
 
 namespace {
 
+using scanbench::as_index;
 using scanbench::CounterRng;
 using scanbench::RngStream;
 using scanbench::merge::find_modes;
@@ -39,7 +41,7 @@ std::vector<Vec3> hallway_points(int n) {
     centres.emplace_back(side * rng.uniform(), side * rng.uniform(), kPeriod * rng.uniform());
   std::vector<Vec3> points;
   for (int i = 0; i < n; ++i) {
-    Vec3 p = centres[static_cast<std::size_t>(i % clusters)] + 0.35 * Vec3(rng.normal(), rng.normal(), rng.normal());
+    Vec3 p = centres[as_index(i % clusters)] + 0.35 * Vec3(rng.normal(), rng.normal(), rng.normal());
     p.z() -= kPeriod * std::floor(p.z() / kPeriod);
     points.push_back(p);
   }
@@ -144,8 +146,8 @@ void merge_module(benchmark::State& state) {
     const double direction = (rng.bits() % 2 == 0 ? 0.0 : 1.5707963267948966) + 0.02 * rng.normal();
     const double length = 1.0 + 3.0 * rng.uniform();
     for (int k = 0; k < 20; ++k) {
-      const double turned = direction + 0.01 * rng.normal();
-      const scanbench::Vec2 along(std::cos(turned), std::sin(turned));
+      const double angle = direction + 0.01 * rng.normal();
+      const scanbench::Vec2 along(std::cos(angle), std::sin(angle));
       const scanbench::Vec2 a(start.x() + 0.01 * rng.normal(), start.y() + 0.01 * rng.normal());
       lines.push_back(
           {.segment = {a + 0.3 * rng.uniform() * length * along, a + (0.7 + 0.3 * rng.uniform()) * length * along}});

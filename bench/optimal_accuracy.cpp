@@ -1,10 +1,10 @@
-// Accuracy of an extractor on simulated rooms beside an oracle that is told which beams see which wall: what remains
-// between them is the price of not knowing. Prints the table of docs/algorithms/optimal.md.
+// The accuracy of an extractor on simulated rooms and that of an oracle that knows which beams see which wall: the
+// difference is the cost of not knowing. Prints the table of docs/algorithms/optimal.md.
 //
 //   optimal_accuracy [--seeds FIRST COUNT] [--sigma CM] [--scene PART_OF_NAME] [--extractor NAME] [--why]
 //
-// Metrics `segments` and `efficiency` with their defaults: runs of beams on one wall count as true lines from 9 returns
-// and 0.5 m on. The second F1 ignores right lines on smaller pieces. --why says of all wrong lines what they are. Seeds
+// Uses the metrics `segments` and `efficiency` with their defaults: a run of beams on one wall is a true line from
+// 9 returns and 0.5 m. The second F1 ignores correct lines on smaller pieces. --why classifies all wrong lines. Seeds
 // below 100 are for development.
 #include <cmath>
 #include <cstdio>
@@ -18,6 +18,7 @@
 
 #include "algorithms/extract/optimal_line.hpp"
 #include "bench/accuracy/scenes.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "metrics/line_matching.hpp"
@@ -32,12 +33,11 @@ using metrics::Outcome;
 ScanLines oracle_lines(const MetricInput& input, std::size_t frame, const metrics::Surfaces& surfaces) {
   const Scan scan = input.observed.scan(frame);
   ScanLines out;
-  out.labels.assign(static_cast<std::size_t>(scan.beams()), -1);
+  out.labels.assign(as_index(scan.beams()), -1);
   for (const metrics::TrueLine& t : metrics::true_lines(input, frame, surfaces, {})) {
     std::vector<extract::BeamReading> readings;
     for (int i = t.first_beam; i <= t.last_beam; ++i)
-      if (scan.valid(i))
-        readings.push_back({scan.sensor.geometry.direction(i), scan.ranges[static_cast<std::size_t>(i)]});
+      if (scan.valid(i)) readings.push_back({scan.sensor.geometry.direction(i), scan.ranges[as_index(i)]});
     const auto fit = extract::fit_beam_line(readings, scan.sensor.noise);
     if (!fit) continue;
     LineFeature line;
@@ -53,7 +53,7 @@ ScanLines oracle_lines(const MetricInput& input, std::size_t frame, const metric
   return out;
 }
 
-// Wrong lines by what they are, and missed ones.
+// Counts false and missed lines by their cause.
 class Reasons {
  public:
   void add(const MetricInput& input, std::size_t f, const metrics::Surfaces& surfaces) {
@@ -63,7 +63,7 @@ class Reasons {
     const auto matching = metrics::match_lines(found.lines, truths, {});
     std::vector<bool> taken(truths.size(), false);
     for (std::size_t k = 0; k < found.lines.size(); ++k) {
-      if (matching.outcome[k] == Outcome::true_line) taken[static_cast<std::size_t>(matching.truth[k])] = true;
+      if (matching.outcome[k] == Outcome::true_line) taken[as_index(matching.truth[k])] = true;
       if (matching.outcome[k] != Outcome::false_line) continue;
       ++count_["false: " + of_false(found, static_cast<int>(k), pieces, surfaces)];
     }
@@ -77,21 +77,21 @@ class Reasons {
  private:
   static std::string of_false(const ScanLines& found, int k, const std::vector<metrics::TrueLine>& pieces,
                               const metrics::Surfaces& surfaces) {
-    const LineFeature& line = found.lines[static_cast<std::size_t>(k)];
+    const LineFeature& line = found.lines[as_index(k)];
     // Returns of the line on each piece.
     int most = 0, coplanar = 0;
     const metrics::TrueLine* main = nullptr;
     const auto support = [&](const metrics::TrueLine& p) {
       int n = 0;
-      for (int i = p.first_beam; i <= p.last_beam; ++i) n += found.labels[static_cast<std::size_t>(i)] == k;
+      for (int i = p.first_beam; i <= p.last_beam; ++i) n += found.labels[as_index(i)] == k;
       return n;
     };
     for (const auto& p : pieces)
       if (support(p) > most) most = support(p), main = &p;
     if (!main) return "on runs of one or two returns";
-    const Segment& wall = surfaces.segments[static_cast<std::size_t>(main->surface)];
+    const Segment& wall = surfaces.segments[as_index(main->surface)];
     for (const auto& p : pieces) {
-      const Segment& other = surfaces.segments[static_cast<std::size_t>(p.surface)];
+      const Segment& other = surfaces.segments[as_index(p.surface)];
       if (std::fabs(cross(wall.direction(), other.a - wall.a)) < 1e-3 &&
           std::fabs(cross(wall.direction(), other.b - wall.a)) < 1e-3)
         coplanar += support(p);
@@ -109,7 +109,7 @@ class Reasons {
     std::map<int, int> by_line;
     int on_lines = 0;
     for (int i = t.first_beam; i <= t.last_beam; ++i) {
-      const int k = found.labels[static_cast<std::size_t>(i)];
+      const int k = found.labels[as_index(i)];
       if (k >= 0) ++by_line[k], ++on_lines;
     }
     int most = 0, which = -1;
@@ -117,20 +117,20 @@ class Reasons {
       if (n > most) most = n, which = k;
     const std::string size = t.beams < 14 ? " (9 to 13 returns)" : "";
     if (2 * on_lines < t.beams) return "not on any line" + size;
-    const int other = found.lines[static_cast<std::size_t>(which)].points - most;
+    const int other = found.lines[as_index(which)].points - most;
     if (other <= most) return "its line does not match" + size;
     const double gain = gain_of_a_cut(scan, found, which, t);
     return (gain < std::log(static_cast<double>(scan.beams())) ? "one line fits it and its neighbour as well as two"
                                                                : "taken by a line of another wall") +
            size;
   }
-  // By how many nats the readings of a found line are likelier when those on the true line have a line of their own: a
-  // cut that gains less than the code of its place is not in the readings.
+  // The gain in log-likelihood (nats) if the readings on the true line get a line of their own: a cut that gains less
+  // than the code length of its place cannot be found in the readings.
   static double gain_of_a_cut(const Scan& scan, const ScanLines& found, int which, const metrics::TrueLine& t) {
     std::vector<extract::BeamReading> all, on, off;
     for (int i = 0; i < scan.beams(); ++i) {
-      if (found.labels[static_cast<std::size_t>(i)] != which) continue;
-      all.push_back({scan.sensor.geometry.direction(i), scan.ranges[static_cast<std::size_t>(i)]});
+      if (found.labels[as_index(i)] != which) continue;
+      all.push_back({scan.sensor.geometry.direction(i), scan.ranges[as_index(i)]});
       (t.first_beam <= i && i <= t.last_beam ? on : off).push_back(all.back());
     }
     return half_squares(all, scan) - half_squares(on, scan) - half_squares(off, scan);
@@ -147,7 +147,7 @@ class Reasons {
   std::map<std::string, int> count_;
 };
 
-// What the two metric families say of several recordings together.
+// Sums of two metric families over several recordings.
 class Score {
  public:
   void add(const MetricInput& input) {
@@ -235,7 +235,7 @@ int run(std::span<char*> args) {
       options.extractor = args[++i];
     } else {
       fmt::print(stderr,
-                 "{}: not understood; allowed: --seeds FIRST COUNT, --sigma CM, --scene PART_OF_NAME, "
+                 "{}: unknown argument; allowed: --seeds FIRST COUNT, --sigma CM, --scene PART_OF_NAME, "
                  "--extractor NAME, --why\n",
                  arg);
       return 2;
@@ -256,5 +256,5 @@ int run(std::span<char*> args) {
 }  // namespace scanbench::accuracy
 
 int main(int argc, char** argv) {
-  return scanbench::accuracy::run({argv, static_cast<std::size_t>(argc)});
+  return scanbench::accuracy::run({argv, scanbench::as_index(argc)});
 }

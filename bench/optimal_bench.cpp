@@ -1,4 +1,4 @@
-// Time of the optimal extractor on one scan of 451 and of 10 000 beams, 1 and 5 cm noise.
+// The time of the optimal extractor on one scan of 451 and of 10 000 beams, 1 and 5 cm noise.
 #include <benchmark/benchmark.h>
 
 #include "bench/room.hpp"

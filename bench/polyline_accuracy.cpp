@@ -1,6 +1,6 @@
-// Polylines with given numbers of vertices on the scans of Schaefer, Buescher, Luft & Burgard, IROS 2018, beside the
-// results that their authors published: root mean square radius residual of the explained returns, mean over scans, and
-// the share of returns explained. Needs ${SCANBENCH_DATA}/ple-bench-a.
+// Fits polylines with given numbers of vertices to the scans of Schaefer, Buescher, Luft & Burgard, IROS 2018, and
+// prints the results beside those that the authors published: root mean square radius residual of the explained
+// returns, mean over scans, and the share of returns explained. Needs ${SCANBENCH_DATA}/ple-bench-a.
 //
 //   polyline_accuracy [sim|real] [SCANS]
 #include <cmath>
@@ -14,8 +14,10 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/files/text_file.hpp"
 
@@ -25,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxBytes = 64 << 20;
-constexpr double kSigma = 0.03;  // theirs
+constexpr double kSigma = 0.03;  // of the authors
 constexpr int kBudgets[] = {10, 20, 30, 40, 50};
 
 struct BenchScan {
@@ -61,7 +63,7 @@ std::vector<BenchScan> read_scans(const fs::path& file, bool real) {
     if (real) {
       const double largest = number(fields[6]);
       for (double& r : scan.ranges)
-        if (!(r < largest)) r = std::numeric_limits<double>::infinity();
+        if (!(r < largest)) r = kInf;
       scan.sensor = sensor_of(number(fields[8]), number(fields[9]), n);
     } else {
       scan.sensor = sensor_of(-kPi, kTwoPi / (n - 1), n);
@@ -71,12 +73,12 @@ std::vector<BenchScan> read_scans(const fs::path& file, bool real) {
   return scans;
 }
 
-struct Outcome {
+struct Fit {
   double rmse_m = 0.0;
   double explained = 0.0;
 };
 
-Outcome outcome(const BenchScan& bench, const LineExtractor& extractor) {
+Fit fit_of(const BenchScan& bench, const LineExtractor& extractor) {
   const Scan scan{bench.sensor, bench.ranges};
   Trace silent;
   const ScanLines found = extractor.extract(scan, silent);
@@ -85,12 +87,11 @@ Outcome outcome(const BenchScan& bench, const LineExtractor& extractor) {
   for (int i = 0; i < scan.beams(); ++i) {
     if (!scan.valid(i)) continue;
     ++returns;
-    const int k = found.labels[static_cast<std::size_t>(i)];
+    const int k = found.labels[as_index(i)];
     if (k < 0) continue;
     ++explained;
-    const PolarLine& line = found.lines[static_cast<std::size_t>(k)].line;
-    const double error =
-        scan.ranges[static_cast<std::size_t>(i)] - line.rho / line.normal().dot(scan.sensor.geometry.direction(i));
+    const PolarLine& line = found.lines[as_index(k)].line;
+    const double error = scan.ranges[as_index(i)] - line.rho / line.normal().dot(scan.sensor.geometry.direction(i));
     squares += error * error;
   }
   return {std::sqrt(squares / explained), static_cast<double>(explained) / returns};
@@ -101,12 +102,12 @@ void print_row(const std::vector<BenchScan>& scans, double sigma_m, bool clutter
   for (const int v : kBudgets) {
     const auto extractor = Registry<LineExtractor>::make(
         "polyline", {{"vertices", std::int64_t{v}}, {"clutter", clutter}, {"min_points", std::int64_t{1}}});
-    Outcome mean;
+    Fit mean;
     for (BenchScan scan : scans) {
       scan.sensor.noise.sigma_m = sigma_m;
-      const Outcome o = outcome(scan, *extractor);
-      mean.rmse_m += o.rmse_m / static_cast<double>(scans.size());
-      mean.explained += o.explained / static_cast<double>(scans.size());
+      const Fit fit = fit_of(scan, *extractor);
+      mean.rmse_m += fit.rmse_m / static_cast<double>(scans.size());
+      mean.explained += fit.explained / static_cast<double>(scans.size());
     }
     fmt::print(" {:.4f} m, {:.1f} % |", mean.rmse_m, 100 * mean.explained);
     std::fflush(stdout);
@@ -122,7 +123,7 @@ void print_table(const fs::path& folder, const std::string& set, std::size_t mos
   for (const int v : kBudgets) fmt::print(" {} |", v);
   fmt::print("\n|---|---|---|---|---|---|\n");
   print_row(scans, kSigma, real);
-  // A sensor that is said to be worse leaves fewer returns to clutter: the same shares as the published methods'.
+  // With a larger stated sigma fewer returns count as clutter: the shares are then those of the published methods.
   if (real)
     for (const double sigma_m : {0.06, 0.1}) print_row(scans, sigma_m, true);
   const fs::path file = folder / "published_results.csv";

@@ -1,8 +1,9 @@
-// Time of a figure, one thread. The first PNG of a process also pays for the OpenGL context.
+// The time of drawing a figure in one thread. The first PNG of a process includes the OpenGL context.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 
+#include "core/index.hpp"
 #include "core/rng.hpp"
 #include "render/layout.hpp"
 #include "render/palette.hpp"
@@ -11,12 +12,12 @@
 namespace scanbench::render {
 namespace {
 
-/// `panels` panels with 1654 segments each, about what 200 scans of 15 walls give.
+/// `panels` panels with 1654 segments each, about as many as in 200 scans of 15 walls.
 Scene segments_scene(std::int64_t panels) {
   Scene scene{.width_in = panels > 1 ? kDoubleColumnIn : kSingleColumnIn, .title = "segments", .share_axes = true};
   for (std::int64_t p = 0; p < panels; ++p) {
     CounterRng rng(1, RngStream::pose, static_cast<std::uint32_t>(p));
-    Lines lines{.stroke = {method_style(static_cast<std::size_t>(p)).color, 0.5, Dash::solid}};
+    Lines lines{.stroke = {method_style(as_index(p)).color, 0.5, Dash::solid}};
     for (int i = 0; i < 1654; ++i) {
       const Vec2 a(14 * rng.uniform(), 14 * rng.uniform());
       const double angle = kTwoPi * rng.uniform();

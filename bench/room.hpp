@@ -1,20 +1,20 @@
 // The room that the benchmarks of single extractors scan: 12 m x 9 m with two boxes, seen over 270 degrees from 0.5 m
-// to 2.5 m of its left wall, turned at random, with Gaussian noise along the beam.
+// to 2.5 m of its left wall, rotated at random, with Gaussian noise along the beam.
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "core/rng.hpp"
 #include "core/scan.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench::bench {
 
-/// Range to the nearest wall along d.
+/// Range from `origin` to the nearest wall along d.
 inline double range_in_room(const Vec2& origin, const Vec2& d) {
   static constexpr double kBoxes[][4] = {{0, 0, 12, 9}, {3, 2, 4, 3.5}, {8, 5, 10, 6}};
-  double best = std::numeric_limits<double>::infinity();
+  double best = kInf;
   for (const auto& b : kBoxes)
     for (int axis = 0; axis < 2; ++axis)
       for (int side = 0; side < 2; ++side) {

@@ -1,13 +1,15 @@
-// Beams per second of the simulator: fifteen walls, 200 scans of 451 beams, against a brute-force caster in double.
+// Beams per second of the simulator: fifteen walls, 200 scans of 451 beams, compared with a brute-force caster in
+// double.
 //
 //   simulate            whole recordings, gaussian noise of 5 cm included, one thread
 //   cast                the same beams through sim/ray_caster.hpp, no noise
-//   cast_brute_force    the same beams, every wall tried for every beam
-//   rooms/...           the two casters in an office of N walls
+//   cast_brute_force    the same beams, each intersected with every wall
+//   rooms/...           both casters in an office of N walls
 //
 // items_per_second is beams per second of one core's time.
 #include <benchmark/benchmark.h>
 
+#include "core/index.hpp"
 #include "core/registry.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/ray_math.hpp"
@@ -56,12 +58,12 @@ Trajectory two_hundred_poses() {
       ->generate(0.1);
 }
 
-// Scans cast as a batch; `Cast` writes ranges and wall ids of all of them.
+// Casts all scans as a batch; `cast` writes their ranges and wall ids.
 template <class Cast>
 void run(benchmark::State& state, const ScanGeometry& beams, const Cast& cast) {
   std::vector<Pose2> poses;
   for (const TimedPose& pose : two_hundred_poses().poses) poses.push_back(pose.world_from_sensor);
-  const std::size_t count = poses.size() * static_cast<std::size_t>(beams.beams());
+  const std::size_t count = poses.size() * as_index(beams.beams());
   std::vector<double> ranges(count);
   std::vector<std::int32_t> wall_ids(count);
   for (auto _ : state) {

@@ -1,4 +1,4 @@
-// Time of SMF on one 451-beam scan, 1 and 5 cm noise.
+// The time of SMF on one 451-beam scan, 1 and 5 cm noise.
 #include <benchmark/benchmark.h>
 
 #include "bench/room.hpp"

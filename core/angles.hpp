@@ -1,4 +1,4 @@
-// Angles: radians inside, counter-clockwise positive; degrees only where a name says so.
+// Angles in radians, counter-clockwise positive; names of values in degrees end in _deg or say degrees.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr double degrees(double radians) {
   return radians * (180.0 / kPi);
 }
 
-/// Wraps to (-pi, pi]. Exact for inputs already inside; NaN and infinities give NaN.
+/// Wraps to (-pi, pi]. Exact for inputs already in this range; NaN and infinities give NaN.
 inline double wrap_angle(double a) {
   const double r = std::remainder(a, kTwoPi);  // [-pi, pi], and exact by IEEE 754
   return r <= -kPi ? r + kTwoPi : r;

@@ -1,4 +1,4 @@
-// The one place where a broken assertion becomes an exception.
+// Turns a failed assertion into an exception.
 #include "core/error.hpp"
 
 namespace scanbench {

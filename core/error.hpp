@@ -1,4 +1,4 @@
-// Errors: what a user can mend (ConfigError) and what only we can (InternalError).
+// Exceptions: ConfigError for what a user can correct, InternalError for a bug of this program.
 #pragma once
 
 #include <stdexcept>
@@ -13,8 +13,8 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A value that a parameter does not accept. Thrown where values meet bounds, which knows no file; the reader of the
-/// file turns it into a ConfigError with the place in front.
+/// A value that a parameter does not accept. The check of the bounds throws it without knowing any file; the reader of
+/// the file adds the place in front.
 class ParamError : public ConfigError {
  public:
   ParamError(std::string param, const std::string& message) : ConfigError(message), param_(std::move(param)) {}
@@ -24,7 +24,7 @@ class ParamError : public ConfigError {
   std::string param_;
 };
 
-/// A broken promise of our own code. Exits with 70.
+/// A bug of this program. Caught in app/, which exits with 70.
 class InternalError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -40,6 +40,6 @@ class InvalidResult : public std::runtime_error {
 
 }  // namespace scanbench
 
-/// Checks a condition that only a bug of ours can break. Stays on in every build: none of them stands in an inner loop.
+/// Checks a condition that only a bug of this program can break. Active in every build: none is in an inner loop.
 #define SCANBENCH_ASSERT(condition) \
   (static_cast<bool>(condition) ? void(0) : ::scanbench::fail_assertion(#condition, __FILE__, __LINE__))

@@ -1,4 +1,4 @@
-// Points, segments and lines: the few operations that are longer than a line.
+// Distances, canonical forms and differences of lines.
 #include "core/geometry.hpp"
 
 #include <algorithm>
@@ -10,6 +10,12 @@ namespace scanbench {
 
 double Segment::direction_angle() const {
   return direction_mod_pi(portable::atan2(b.y() - a.y(), b.x() - a.x()));
+}
+
+double angle_between(const Segment& a, const Segment& b) {
+  const Vec2 u = a.direction();
+  const Vec2 v = b.direction();
+  return std::atan2(std::fabs(cross(u, v)), std::fabs(u.dot(v)));
 }
 
 double distance(const Vec2& p, const Segment& s) {

@@ -9,18 +9,18 @@ namespace scanbench {
 
 using Vec2 = Eigen::Vector2d;
 
-/// z component of the cross product: positive when b lies to the left of a.
+/// z component of the cross product: positive when b points to the left of a.
 inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// a turned by +90 degrees.
+/// a rotated by +90 degrees.
 inline Vec2 perpendicular(const Vec2& a) {
   return {-a.y(), a.x()};
 }
 
-/// A segment a -> b. Free space, the sensor in it, lies on its left: that is what counter-clockwise beams give when a
-/// is the end seen first.
+/// A segment a -> b with the free space, and the sensor, on its left. Counter-clockwise beams give this order when a is
+/// the end seen first.
 struct Segment {
   Vec2 a = Vec2::Zero();
   Vec2 b = Vec2::Zero();
@@ -38,11 +38,15 @@ struct Segment {
   bool operator==(const Segment&) const = default;
 };
 
+/// Angle between the undirected directions of two segments, in [0, pi/2].
+double angle_between(const Segment& a, const Segment& b);
+
 /// Distance from p to the nearest point of s (of the segment, not of its line). A segment without length is its point.
 double distance(const Vec2& p, const Segment& s);
 
 /// The infinite line x cos(alpha) + y sin(alpha) = rho, rho >= 0, alpha in (-pi, pi]. Never subtract the fields of two
-/// lines: near rho = 0, (rho, alpha) and (-rho, alpha + pi) are one line. Use line_difference().
+/// lines: (rho, alpha) and (-rho, alpha + pi) are the same line, so near rho = 0 equal lines can have very different
+/// fields. Use line_difference().
 struct PolarLine {
   double rho = 0.0;
   double alpha = 0.0;

@@ -1,4 +1,4 @@
-// Total least squares from central moments.
+// Central moments of points and the line that they determine.
 #include "core/least_squares.hpp"
 
 #include <cmath>
@@ -13,7 +13,7 @@ PointMoments PointMoments::of(std::span<const Vec2> points) {
   const std::size_t n = points.size();
   const std::size_t paired = n - n % 2;
   const Vec2& origin = points.front();  // so that equal points have moments of exactly zero
-  // Two sums each, of the even and of the odd points: an addition need not wait for the one before it.
+  // Even and odd points have a sum each, so that an addition does not wait for the previous one.
   Vec2 even = Vec2::Zero(), odd = Vec2::Zero();
   for (std::size_t i = 0; i < paired; i += 2) {
     even += points[i] - origin;
@@ -78,8 +78,8 @@ LineFit fit_line(const PointMoments& m) {
   const double difference = m.sxx() - m.syy();
   const double root = std::sqrt(difference * difference + 4.0 * m.sxy() * m.sxy());
   if (root > 0) {
-    // Direction of the line: the eigenvector of the larger eigenvalue (sum + root)/2; of its two forms the one that
-    // does not cancel.
+    // The line's direction is the eigenvector of the larger eigenvalue, (sxx + syy + root) / 2. It has two forms; this
+    // is the one without cancellation.
     const Vec2 along =
         difference >= 0 ? Vec2(difference + root, 2.0 * m.sxy()) : Vec2(2.0 * m.sxy(), root - difference);
     fit.normal = perpendicular(along / std::sqrt(along.squaredNorm()));

@@ -1,4 +1,4 @@
-// Orthogonal (total) least squares of a line: the fit that everything uses unless its paper says otherwise.
+// Orthogonal (total) least squares of a line: the fit of every module whose paper does not prescribe another.
 #pragma once
 
 #include <span>
@@ -7,11 +7,11 @@
 
 namespace scanbench {
 
-/// Count, mean and central second moments of points, by Welford's update: no difference of large sums. Metres.
+/// Count, mean and central second moments of points, by Welford's update, which subtracts no large sums. Metres.
 class PointMoments {
  public:
   PointMoments() = default;
-  /// Of points of equal weight, by two passes: as accurate as the update, without its division per point.
+  /// The moments of points of weight 1, in two passes: as accurate as the update, without a division per point.
   static PointMoments of(std::span<const Vec2> points);
   void add(const Vec2& p, double weight = 1.0);
   void add(const PointMoments& other);
@@ -37,8 +37,8 @@ struct LineFit {
   Vec2 centroid = Vec2::Zero();
   double weight = 0.0;
   double residual_sum = 0.0;
-  bool degenerate =
-      true;  ///< direction undefined: fewer than two different points, or an isotropic cloud; normal is (1, 0)
+  /// The direction is undefined: fewer than two different points, or an isotropic cloud. The normal is then (1, 0).
+  bool degenerate = true;
 
   double distance(const Vec2& p) const { return std::abs(normal.dot(p) - offset); }
   Vec2 project(const Vec2& p) const { return p - (normal.dot(p) - offset) * normal; }

@@ -9,13 +9,13 @@
 
 namespace scanbench {
 
-/// A line of a map, or a scan's line placed in the world on its way into one.
+/// A line of a map, or a scan's line in the world frame, as input to a merger.
 struct MapLine {
   Segment segment;
-  Eigen::Matrix2d covariance =
-      Eigen::Matrix2d::Zero();  ///< of (lateral offset [m], angle [rad]) at the midpoint; zero: unknown
-  int members = 1;              ///< scan lines merged into it
-  int points = 0;               ///< scan points behind it
+  /// Of (lateral offset [m], angle [rad]) at the midpoint; zero: unknown.
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  int members = 1;  ///< scan lines merged into it
+  int points = 0;   ///< scan points that support those
 };
 
 struct LineMap {

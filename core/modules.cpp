@@ -1,4 +1,4 @@
-// Names of the outcomes, as they stand in files.
+// The names of the outcomes in files.
 #include "core/modules.hpp"
 
 namespace scanbench {

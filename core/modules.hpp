@@ -1,5 +1,5 @@
-// The interfaces of the pluggable algorithms. One virtual call per scan or map, results with a status, no state but
-// Mapper's.
+// The interfaces of the pluggable algorithms. One virtual call per scan or map; results have a status; only a Mapper
+// has state.
 #pragma once
 
 #include <span>
@@ -16,7 +16,8 @@ namespace scanbench {
 enum class Status { converged, max_iterations, degenerate, no_match };
 std::string_view to_string(Status status);
 
-/// Lines of one scan, in the sensor frame. Any scan has an answer: no valid beam gives no line and labels of -1.
+/// Finds the lines of one scan, in the sensor frame. Accepts any scan: without a valid beam there are no lines and all
+/// labels are -1.
 class LineExtractor {
  public:
   static constexpr std::string_view kKind = "extract";
@@ -24,7 +25,7 @@ class LineExtractor {
   virtual ScanLines extract(const Scan& scan, Trace& trace) const = 0;
 };
 
-/// Lines of many aligned scans, and the scan points behind them (may be empty), world frame.
+/// Lines of many aligned scans and the scan points that support them (may be empty), world frame.
 struct MergeInput {
   std::span<const MapLine> lines;
   std::span<const Vec2> points;
@@ -33,11 +34,12 @@ struct MergeInput {
 struct MergeResult {
   Status status = Status::converged;
   LineMap map;
-  std::vector<int> labels;    ///< per input line the index of its map line, -1: dropped
-  std::vector<int> cluster1;  ///< per input line, of the first phase where there is one, else empty
-  std::vector<int> cluster2;  ///< per input line, of the second phase where there is one, else empty
+  std::vector<int> labels;    ///< per input line the index of its map line; -1: dropped
+  std::vector<int> cluster1;  ///< per input line its cluster of the first phase; empty if there is no such phase
+  std::vector<int> cluster2;  ///< per input line its cluster of the second phase; empty if there is no such phase
 };
 
+/// Merges the lines of many scans into a map.
 class SegmentMerger {
  public:
   static constexpr std::string_view kKind = "merge";
@@ -51,12 +53,14 @@ struct Observation {
   const ScanLines& lines;
 };
 
+/// The pose of the current scan relative to the reference.
 struct Match {
   Status status = Status::converged;
   Pose2 reference_from_current;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw); zero: not estimated
 };
 
+/// Finds the motion between two scans, starting from a guess.
 class ScanMatcher {
  public:
   static constexpr std::string_view kKind = "match";
@@ -65,12 +69,13 @@ class ScanMatcher {
                       Trace& trace) const = 0;
 };
 
+/// Poses of all scans, as many as were given.
 struct Alignment {
   Status status = Status::converged;
   std::vector<Pose2> world_from_sensor;
 };
 
-/// All scans at once.
+/// Aligns all scans at once, starting from initial poses.
 class Aligner {
  public:
   static constexpr std::string_view kKind = "align";
@@ -78,7 +83,7 @@ class Aligner {
   virtual Alignment align(std::span<const Observation> scans, std::span<const Pose2> initial, Trace& trace) const = 0;
 };
 
-/// Incremental: the only kind with state.
+/// Builds a map scan by scan: the only kind with state.
 class Mapper {
  public:
   static constexpr std::string_view kKind = "map";

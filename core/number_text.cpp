@@ -1,4 +1,4 @@
-// to_chars and from_chars with our rules around them.
+// std::to_chars and std::from_chars, with stricter rules for reading.
 #include "core/number_text.hpp"
 
 #include <array>

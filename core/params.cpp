@@ -1,4 +1,4 @@
-// The checks between a value somebody wrote and a parameter somebody declared.
+// Checks of given values against declared parameters, and both as text for messages.
 #include "core/params.hpp"
 
 #include <algorithm>
@@ -6,18 +6,13 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/names.hpp"
 #include "core/number_text.hpp"
 
 namespace scanbench {
 namespace {
 
-std::string join(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-// As people write a number: without an exponent from 0.0001 to below 1e15.
+// A number as people write it: without an exponent from 0.0001 to below 1e15.
 std::string plain_text(double value) {
   const double size = std::fabs(value);
   if (!(size >= 1e-4 && size < 1e15)) return number_text(value);
@@ -45,22 +40,6 @@ std::string kind_of(const ParamValue& value) {
   static constexpr std::string_view kNames[] = {"a boolean", "a whole number", "a number",    "text",
                                                 "a list",    "a list of rows", "named points"};
   return std::string(kNames[value.index()]) + " (" + to_text(value) + ")";
-}
-
-// Levenshtein distance, for "did you mean".
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
@@ -184,19 +163,6 @@ ParamValue checked(const ParamSpec& spec, const ParamValue& value) {
   throw InternalError("a parameter type without a check");
 }
 
-std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
-  std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
-  for (const auto& candidate : known) {
-    const std::size_t d = edit_distance(name, candidate);
-    if (d < best_distance) {
-      best_distance = d;
-      best = candidate;
-    }
-  }
-  return best;
-}
-
 ParamSet resolve(const std::vector<ParamSpec>& specs, const ParamSet& given) {
   ParamSet all;
   for (const auto& spec : specs) {
@@ -208,9 +174,8 @@ ParamSet resolve(const std::vector<ParamSpec>& specs, const ParamSet& given) {
     std::vector<std::string> known;
     known.reserve(specs.size());
     for (const auto& spec : specs) known.push_back(spec.name);
-    const std::string near = nearest_name(name, known);
-    throw ParamError(name, "unknown parameter '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                               (known.empty() ? " there are no parameters here" : " known: " + join(known)));
+    throw ParamError(name, "unknown parameter '" + name + "'" +
+                               (known.empty() ? "; there are no parameters here" : known_names(name, known)));
   }
   return all;
 }

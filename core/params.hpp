@@ -1,6 +1,6 @@
-// Parameters described once. A module has an aggregate `Params` with its defaults and one `fields()` list; from the
-// list come typed reading, bounds, unknown-key errors, the saved effective configuration, `scanbench describe` and the
-// docs table.
+// Parameters described once. A module has an aggregate `Params` with its defaults and one `fields()` list. The list
+// supplies typed reading, bounds, errors for unknown keys, the saved effective configuration, `scanbench describe` and
+// the tables of docs/modules.md.
 //
 //   struct Params {
 //     double threshold_m = 0.10;
@@ -12,12 +12,11 @@
 //     }
 //   };
 //
-// A member that fields() does not name does not compile (params_complete).
+// A struct with a member that fields() does not name does not compile (params_complete).
 #pragma once
 
 #include <concepts>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -28,6 +27,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench {
 
@@ -36,10 +36,10 @@ using NamedPoints = std::vector<std::pair<std::string, Vec2>>;  ///< in the orde
 using ParamValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, NumberRows, NamedPoints>;
 using ParamSet = std::map<std::string, ParamValue, std::less<>>;
 
-/// Allowed numbers: of a scalar, or of every element of a list.
+/// The allowed values of a number, or of every element of a list.
 struct Bounds {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
+  double min = -kInf;
+  double max = kInf;
   bool open_min = false;  ///< min itself is not allowed
 
   bool contains(double v) const { return (open_min ? v > min : v >= min) && v <= max; }
@@ -61,7 +61,7 @@ inline Bounds any_number() {
 enum class ParamType { boolean, integer, number, text, choice, number_list, number_rows, named_points };
 std::string_view to_string(ParamType type);
 
-/// A parameter as files, docs and errors see it.
+/// A parameter as files, documents and error messages show it.
 struct ParamSpec {
   std::string name;
   ParamType type = ParamType::number;
@@ -72,26 +72,21 @@ struct ParamSpec {
   std::vector<std::string> choices;
 };
 
-/// A value as it stands in documents: shortest form that reads back to the same number.
+/// A value as text. Numbers have the shortest form that reads back to the same number.
 std::string to_text(const ParamValue& value);
 
-/// What a parameter accepts, as errors and documents say it: "a number > 0 m", "end_points, tls", "text".
+/// What a parameter accepts, in the words of error messages and documents: "a number > 0 m", "end_points, tls", "text".
 std::string allowed_text(const ParamSpec& spec);
 
-/// The value in the spec's type (an integer is accepted where a number is asked for). Throws ParamError for a wrong
+/// The value in the spec's type (an integer is accepted for a number). Throws ParamError for a wrong
 /// type, a number out of bounds or not finite, an unknown choice.
 ParamValue checked(const ParamSpec& spec, const ParamValue& value);
 
-/// All parameters, defaults filled in. Throws ParamError for an unknown name, and names the known ones (and the
-/// nearest).
+/// The given parameters and the defaults of the others. Throws ParamError as checked() does, and for an unknown name;
+/// the message lists the known names.
 ParamSet resolve(const std::vector<ParamSpec>& specs, const ParamSet& given);
 
-/// The known name nearest to a misspelt one; empty if none is near.
-std::string nearest_name(std::string_view name, const std::vector<std::string>& known);
-
-// ---- the fields() list
-// -------------------------------------------------------------------------------------------------
-
+/// One entry of a fields() list: made by field(), degrees_field() or choice() below.
 template <class P, class T>
 struct Field {
   std::string_view name;
@@ -99,27 +94,36 @@ struct Field {
   Bounds bounds;
   std::string_view unit;
   std::string_view doc;
-  std::vector<std::pair<std::int64_t, std::string_view>> choices;
+  std::vector<std::pair<std::int64_t, std::string_view>> choices{};
+  bool in_degrees = false;  ///< of files; the member is in radians
 };
 
 template <class P, class T>
 Field<P, T> field(std::string_view name, T P::*member, Bounds bounds, std::string_view unit, std::string_view doc) {
-  return {name, member, bounds, unit, doc, {}};
+  return {name, member, bounds, unit, doc};
 }
 template <class P, class T>
 Field<P, T> field(std::string_view name, T P::*member, std::string_view doc) {
-  return {name, member, {}, "", doc, {}};
+  return {name, member, {}, "", doc};
+}
+/// A member in radians that files give in degrees: `name` ends in _deg, and the bounds are in degrees. Values pass
+/// through degrees * pi / 180, so to_param_set() returns them up to rounding; keep what resolve() gave where the
+/// file's own number matters.
+template <class P>
+Field<P, double> degrees_field(std::string_view name, double P::*member, Bounds bounds, std::string_view doc) {
+  return {.name = name, .member = member, .bounds = bounds, .unit = "deg", .doc = doc, .in_degrees = true};
 }
 template <class P, class E>
 Field<P, E> choice(std::string_view name, E P::*member, std::initializer_list<std::pair<E, std::string_view>> names,
                    std::string_view doc) {
-  Field<P, E> f{name, member, {}, "", doc, {}};
+  Field<P, E> f{name, member, {}, "", doc};
   for (const auto& [value, text] : names) f.choices.emplace_back(static_cast<std::int64_t>(value), text);
   return f;
 }
 
 namespace detail {
 
+/// Converts to any type, to count the members of an aggregate.
 struct Anything {
   template <class T>
   operator T() const;
@@ -164,6 +168,8 @@ ParamValue to_value(const Field<P, T>& f, const P& params) {
     throw InternalError("parameter " + std::string(f.name) + " has a value without a name");
   } else if constexpr (std::integral<T> && !std::same_as<T, bool>) {
     return static_cast<std::int64_t>(params.*f.member);
+  } else if constexpr (std::same_as<T, double>) {
+    return f.in_degrees ? degrees(params.*f.member) : params.*f.member;
   } else {
     return params.*f.member;
   }
@@ -176,6 +182,9 @@ void from_value(const Field<P, T>& f, const ParamValue& value, P& params) {
       if (text == std::get<std::string>(value)) params.*f.member = static_cast<T>(number);
   } else if constexpr (std::integral<T> && !std::same_as<T, bool>) {
     params.*f.member = static_cast<T>(std::get<std::int64_t>(value));
+  } else if constexpr (std::same_as<T, double>) {
+    const double number = std::get<double>(value);
+    params.*f.member = f.in_degrees ? radians(number) : number;
   } else {
     params.*f.member = std::get<T>(value);
   }
@@ -221,7 +230,7 @@ ParamSet to_param_set(const P& params) {
   return set;
 }
 
-/// Params of a module that has none.
+/// The Params of a module without parameters.
 struct NoParams {
   static auto fields() { return std::tuple<>{}; }
 };

@@ -1,4 +1,4 @@
-// Records from lines, corners from neighbours. Siadat et al. 1997, section 6.
+// Makes polygon records from lines and joins neighbours in corners. Siadat et al. 1997, section 6.
 #include "core/polygon.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@ Vec2 exact(const std::array<float, 2>& v) {
   return {double{v[0]}, double{v[1]}};
 }
 
-// `normal` is taken where the vertices give no direction.
+// `normal` is used if the vertices coincide, which leaves the direction undefined.
 PolygonSegment record(const Segment& s, Vec2 normal, int count) {
   PolygonSegment r;
   const double length = s.length();
@@ -46,7 +46,7 @@ std::optional<Vec2> intersection(const PolarLine& a, const PolarLine& b) {
   return Vec2((a.rho * m.y() - b.rho * n.y()) / det, (n.x() * b.rho - m.x() * a.rho) / det);
 }
 
-// The common vertex of two neighbours, if they are near enough.
+// The common vertex of two neighbours; empty if they are too far apart.
 std::optional<Vec2> vertex(const LineFeature& before, const LineFeature& after, const JoinRules& rules) {
   const Vec2& end = before.segment.b;
   const Vec2& start = after.segment.a;

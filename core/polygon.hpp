@@ -11,10 +11,10 @@
 
 namespace scanbench {
 
-/// A segment V1 -> V2 with what position correction asks for again and again, 32 bits a field, sensor frame, metres.
+/// A segment V1 -> V2 with everything that position correction needs repeatedly, 32 bits a field, sensor frame, metres.
 /// Its normalised implicit line is a x + b y + c = 0 with (a, b) = normal and c = -distance (eq. 8). The normal points
-/// away from the origin, so that the origin's side is negative; a line through the origin has no such side, and either
-/// normal. A record without a direction (one point) has length 0 and a normal along its ray, and is not `valid`.
+/// away from the origin, so that the origin's side is negative; for a line through the origin either normal is
+/// possible. A record without a direction (one point) has length 0 and a normal along its ray, and is not `valid`.
 struct PolygonSegment {
   enum Flag : std::uint32_t {
     valid = 1,   ///< has a direction
@@ -41,18 +41,19 @@ struct PolygonSegment {
 static_assert(sizeof(PolygonSegment) == 48, "the paper's size");
 static_assert(std::is_trivially_copyable_v<PolygonSegment> && std::is_standard_layout_v<PolygonSegment>);
 
-/// When two neighbours share a vertex.
+/// The conditions for two neighbours to share a vertex.
 struct JoinRules {
   double gap_m = 0.2;                 ///< largest distance of the facing ends, and of either from the corner
-  double corner_rad = radians(10.0);  ///< from this angle between the lines on they meet in their intersection
+  double corner_rad = radians(10.0);  ///< lines at a larger angle than this meet in their intersection
 };
 
 /// The record of one line, computed in double and rounded once.
 PolygonSegment polygon_segment(const LineFeature& line);
 
-/// The records of a scan's lines in their order. The facing ends of neighbours that lie within rules.gap_m become one
-/// vertex: the intersection of the two lines where they make a corner that is not farther away, else the midpoint of
-/// the ends. Direction, normal, length and distance are those of the moved vertices. No lines: no records.
+/// The records of a scan's lines in their order. The facing ends of neighbours become one vertex if they are within
+/// rules.gap_m of each other: the intersection of the two lines if they make a corner and the intersection is within
+/// rules.gap_m of both ends, else the midpoint of the ends. Direction, normal, length and distance are those of the
+/// moved vertices. Without lines there are no records.
 std::vector<PolygonSegment> polygon_of(const ScanLines& scan, const JoinRules& rules = {});
 
 }  // namespace scanbench

@@ -1,22 +1,19 @@
-// Argument reduction to a short interval, then the Taylor series, long enough that its remainder is below a tenth of an
-// ulp.
+// Argument reduction to a short interval, followed by a Taylor series whose remainder is below a tenth of an ulp.
 #include "core/portable_math.hpp"
 
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "core/angles.hpp"
+#include "core/index.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench::portable {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-
-// pi/2 and ln 2 as sums of parts with trailing zero bits, so that k * part is exact for the k in use (Cody & Waite).
+// pi/2 and ln 2 as sums of parts with trailing zero bits, so that k * part is exact for all k in use (Cody & Waite).
 constexpr double kHalfPi1 = 0x1.921fb544p+0;
 constexpr double kHalfPi2 = 0x1.0b4611a6p-34;
 constexpr double kHalfPi3 = 0x1.3198a2e037073p-69;
@@ -66,7 +63,7 @@ constexpr std::array<double, 9> kAtanOfEighths = {0.0,
                                                   0.71882999962162450542,
                                                   0.78539816339744830962};
 
-// atan t for t in [0, 1]: the nearest eighth, then the series of the remainder, |u| <= 1/16.
+// atan t for t in [0, 1]: the value at the nearest eighth plus the series of the remainder, |u| <= 1/16.
 double atan_unit(double t) {
   const int k = static_cast<int>(t * 8.0 + 0.5);  // NOLINT(bugprone-incorrect-roundings): any near eighth will do
   const double c = k / 8.0;
@@ -78,7 +75,7 @@ double atan_unit(double t) {
   p = p * z - 1.0 / 7.0;
   p = p * z + 1.0 / 5.0;
   p = p * z - 1.0 / 3.0;
-  return kAtanOfEighths[static_cast<std::size_t>(k)] + (u + u * (z * p));
+  return kAtanOfEighths[as_index(k)] + (u + u * (z * p));
 }
 
 }  // namespace
@@ -128,7 +125,7 @@ double log(double x) {
     m *= 2.0;
     e -= 1;
   }
-  // log m = 2 atanh s = f - s (f - ...) with f = m - 1: written so that the large part, f, stays exact.
+  // log m = 2 atanh s = f - s (f - ...) with f = m - 1. In this form the large part, f, is exact.
   const double f = m - 1.0;
   const double s = f / (2.0 + f);
   const double z = s * s;

@@ -1,9 +1,10 @@
 // Elementary functions whose results do not depend on the machine.
 //
 // glibc chooses FMA variants of sin, cos, log and exp at run time, and they differ from the plain ones in the last bit.
-// All that a recording is made of goes through the functions below: they use only + - * / and sqrt, which IEEE 754
-// fixes, so the same seed gives the same bytes with gcc or clang, debug or release (the build never contracts a*b+c).
-// Errors stay under 2 ulp over the stated ranges (tests/core/portable_math_test.cpp holds them against long double).
+// Everything in a recording is computed with the functions below: they use only + - * / and sqrt, which IEEE 754
+// defines to the last bit, so the same seed gives the same bytes with gcc or clang, debug or release (the build never
+// contracts a*b+c). Errors stay under 2 ulp over the stated ranges (tests/core/portable_math_test.cpp compares them
+// with long double).
 #pragma once
 
 namespace scanbench::portable {
@@ -13,7 +14,7 @@ struct SinCos {
   double cos;
 };
 
-/// |x| <= 1e5; beyond it, and for NaN and infinities, both are NaN: no angle of ours is that large.
+/// |x| <= 1e5; for larger values, NaN and infinities both are NaN: no angle in this program is that large.
 SinCos sincos(double x);
 
 /// Angle of (x, y) in (-pi, pi]; atan2(0, 0) = 0; NaN if either is NaN. The sign of a zero is ignored.

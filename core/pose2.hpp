@@ -11,9 +11,9 @@ class Pose2 {
   Pose2() = default;
   Pose2(const Vec2& translation, double yaw_rad);
   Pose2(double x_m, double y_m, double yaw_rad) : Pose2(Vec2(x_m, y_m), yaw_rad) {}
-  /// With the heading along `direction`, which must not be zero: exact, without an angle in between.
+  /// The pose with its heading along `direction`, which must not be zero. Exact: no angle is computed.
   static Pose2 facing(const Vec2& translation, const Vec2& direction);
-  /// With (cos, sin) of the heading as they are: for reading back what cos() and sin() gave, bit for bit.
+  /// The pose whose (cos, sin) are `rotation` to the last bit: for reading back what cos() and sin() returned.
   static Pose2 from_unit(const Vec2& translation, const Vec2& rotation);
 
   const Vec2& translation() const { return translation_; }

@@ -1,4 +1,4 @@
-// Registries of named things. A file that defines a module registers it with one line:
+// Registries of named modules. A file that defines a module registers it with one line:
 //
 //   const bool registered = Registry<LineExtractor>::add<Iepf>({.name = "iepf", .summary = "...", .reference = "..."});
 //
@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 
+#include "core/names.hpp"
 #include "core/params.hpp"
 
 namespace scanbench {
@@ -29,7 +30,8 @@ class Registry {
     std::function<std::unique_ptr<Interface>(const ParamSet&)> make;
   };
 
-  /// Returns true, so that a file can register while it initialises a constant. A name taken twice is an InternalError.
+  /// Returns true, so that a file can register its module by initialising a constant. Throws InternalError for a name
+  /// that is already registered.
   template <class Impl>
   static bool add(ModuleInfo info) {
     using Params = typename Impl::Params;
@@ -44,7 +46,7 @@ class Registry {
     return true;
   }
 
-  /// By name, in alphabetical order: independent of the order of linking.
+  /// All entries by name, in alphabetical order, independent of the order of linking.
   static const std::map<std::string, Entry, std::less<>>& all() { return entries(); }
 
   static std::vector<std::string> names() {
@@ -53,7 +55,7 @@ class Registry {
     return result;
   }
 
-  /// The entry, or nullptr.
+  /// The entry; nullptr for an unknown name.
   static const Entry* find(std::string_view name) {
     const auto it = entries().find(name);
     return it == entries().end() ? nullptr : &it->second;
@@ -63,9 +65,8 @@ class Registry {
   static std::unique_ptr<Interface> make(std::string_view name, const ParamSet& params = {}) {
     const Entry* entry = find(name);
     if (entry == nullptr) {
-      std::string known;
-      for (const auto& n : names()) known += (known.empty() ? "" : ", ") + n;
-      throw ConfigError("unknown " + std::string(Interface::kKind) + " '" + std::string(name) + "'; known: " + known);
+      throw ConfigError("unknown " + std::string(Interface::kKind) + " '" + std::string(name) +
+                        "'; known: " + join(names()));
     }
     return entry->make(params);
   }

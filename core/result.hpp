@@ -1,4 +1,4 @@
-// What a pipeline leaves behind for one recording: read by metrics and figures.
+// The results of one pipeline on one recording, as metrics and figures read them.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace scanbench {
 
-/// Which line of which frame went into which cluster and map line (-1: none).
+/// The clusters and the map line that a line of a frame was merged into (-1: none).
 struct MergeLabel {
   int frame = -1;
   int line = -1;
@@ -27,8 +27,8 @@ struct StageTime {
 
 struct PipelineResult {
   std::vector<ScanLines> lines;          ///< per frame, sensor frame
-  std::vector<Pose2> world_from_sensor;  ///< per frame, as estimated; empty if no slot estimates or uses poses
-  bool has_map = false;                  ///< a slot makes a map, which may come out empty
+  std::vector<Pose2> world_from_sensor;  ///< estimated, per frame; empty if no slot estimates or uses poses
+  bool has_map = false;                  ///< a slot makes a map, which may be empty
   LineMap map;                           ///< empty if no slot makes one
   std::vector<MergeLabel> merge_labels;
   std::vector<StageTime> times;

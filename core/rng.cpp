@@ -6,6 +6,7 @@
 #include <Random123/philox.h>
 
 #include "core/angles.hpp"
+#include "core/index.hpp"
 #include "core/portable_math.hpp"
 
 namespace scanbench {
@@ -25,7 +26,7 @@ void CounterRng::refill() {
 
 std::uint32_t CounterRng::bits() {
   if (used_ == 4) refill();
-  return block_[static_cast<std::size_t>(used_++)];
+  return block_[as_index(used_++)];
 }
 
 double CounterRng::uniform() {

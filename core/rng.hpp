@@ -1,8 +1,8 @@
 // Counter-based random numbers: Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011).
 //
-// A draw depends only on (seed, stream, frame, beam) and on how many draws of the same address came before it: the same
-// bytes for any number of threads and any order of work. No algorithm's name ever enters an address, so all algorithms
-// of a comparison see the same noise.
+// A draw depends only on its address (seed, stream, frame, beam) and on the number of earlier draws from that address,
+// so the bytes do not depend on the number of threads or the order of work. The name of an algorithm is never part of
+// an address, so all algorithms of a comparison see the same noise.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace scanbench {
 
-/// What a draw is for. The numbers stand in recordings' bytes: never change or reuse one.
+/// The purpose of a draw. The numbers determine the bytes of recordings: never change or reuse one.
 enum class RngStream : std::uint32_t {
   range = 1,
   bearing = 2,

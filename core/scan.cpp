@@ -1,14 +1,14 @@
-// Polar to Cartesian, once per scan.
+// Converts the valid returns of a scan from polar to Cartesian coordinates.
 #include "core/scan.hpp"
 
 namespace scanbench {
 
 ScanPoints valid_points(const Scan& scan) {
   ScanPoints result;
-  const auto n = static_cast<std::size_t>(scan.beams());
+  const auto n = as_index(scan.beams());
   result.beams.resize(n);
   result.points.resize(n);
-  // Written first and counted after: no branch per beam, no check for growth.
+  // Every beam is written and only valid ones are counted: there is no branch per beam and no check for growth.
   std::size_t count = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const int beam = static_cast<int>(i);

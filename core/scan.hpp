@@ -1,20 +1,21 @@
-// Scans and the lines found in them: all that a line extractor sees and says.
+// Scans and the lines found in them: input and output of a line extractor.
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "core/index.hpp"
 #include "core/pose2.hpp"
 #include "core/sensor_model.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench {
 
-/// One scan, as a view: the sensor's data sheet and one range in metres per beam. REP-117: +inf nothing in range, -inf
+/// A view of one scan: the sensor's data sheet and one range in metres per beam. REP-117: +inf nothing in range, -inf
 /// too close, NaN faulty.
 struct Scan {
   const SensorModel& sensor;
@@ -22,13 +23,13 @@ struct Scan {
   double stamp_s = 0.0;
 
   int beams() const { return static_cast<int>(ranges.size()); }
-  /// A return: finite and positive. Range limits were applied when the scan was made or read.
+  /// True for a return: a range that is finite and positive. Range limits were applied when the scan was made or read.
   bool valid(int beam) const {
-    const double r = ranges[static_cast<std::size_t>(beam)];
-    return r > 0 && r < std::numeric_limits<double>::infinity();
+    const double r = ranges[as_index(beam)];
+    return r > 0 && r < kInf;
   }
   /// Cartesian point of a valid beam, sensor frame.
-  Vec2 point(int beam) const { return ranges[static_cast<std::size_t>(beam)] * sensor.geometry.direction(beam); }
+  Vec2 point(int beam) const { return ranges[as_index(beam)] * sensor.geometry.direction(beam); }
 };
 
 /// The valid returns of a scan in beam order: points[k] came from beam beams[k]. A missing beam shows as a gap in
@@ -44,10 +45,10 @@ ScanPoints valid_points(const Scan& scan);
 struct LineFeature {
   Segment segment;  ///< end points: projections of the first and last support point on the line
   PolarLine line;
-  std::optional<Eigen::Matrix2d>
-      covariance;  ///< of (offset of the line at the segment's midpoint [m], angle [rad]); absent: not estimated
+  /// Of (offset of the line at the segment's midpoint [m], angle [rad]); absent: not estimated.
+  std::optional<Eigen::Matrix2d> covariance;
   int first_beam = -1;
-  int last_beam = -1;  ///< inclusive; supports need not be contiguous: labels tell
+  int last_beam = -1;  ///< inclusive; labels say which beams in between belong to the line
   int points = 0;      ///< support points
   double rms_m = 0.0;  ///< root mean square orthogonal residual of the support
 };
@@ -63,16 +64,16 @@ struct Frame {
   double stamp_s = 0.0;
   std::vector<double> ranges;
   Pose2 odom_from_sensor;
-  std::vector<Segment> lines{};  ///< given in place of ranges, sensor frame: a set of lines instead of scans
+  std::vector<Segment> lines{};  ///< given instead of ranges, sensor frame
 };
 
-/// All that an algorithm may see of a recording.
+/// Everything that an algorithm may see of a recording.
 struct ScanSet {
   SensorModel sensor;
   std::vector<Frame> frames;
 
   Scan scan(std::size_t frame) const { return {sensor, frames[frame].ranges, frames[frame].stamp_s}; }
-  /// Lines stand in place of ranges: there is nothing to extract.
+  /// True if the frames have lines instead of ranges: there is nothing to extract.
   bool has_given_lines() const {
     return std::ranges::any_of(frames, [](const Frame& frame) { return !frame.lines.empty(); });
   }

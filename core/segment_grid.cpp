@@ -1,13 +1,14 @@
-// About four cells a segment: most cells then hold none or a few. The nearest segment by rings of cells around a point.
+// Builds the grid with about four cells per segment, so that most cells hold few segments or none, and searches the
+// nearest segment in rings of cells around a point.
 #include "core/segment_grid.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "core/special_values.hpp"
 
 namespace scanbench {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMostCellsPerSide = 512;
 
 bool finite(const Segment& s) {
@@ -17,7 +18,7 @@ bool finite(const Segment& s) {
 }  // namespace
 
 SegmentGrid::SegmentGrid(std::span<const Segment> segments) : segments_(segments.begin(), segments.end()) {
-  Vec2 low = Vec2::Constant(kInfinity);
+  Vec2 low = Vec2::Constant(kInf);
   Vec2 high = -low;
   for (const Segment& s : segments_) {
     if (!finite(s)) continue;
@@ -32,7 +33,7 @@ SegmentGrid::SegmentGrid(std::span<const Segment> segments) : segments_(segments
     columns_ = 1 + static_cast<int>(size.x() / cell_m_);
     rows_ = 1 + static_cast<int>(size.y() / cell_m_);
   }
-  // First how many segments each cell has, then which: no vector per cell.
+  // The first pass counts the segments of each cell, the second one lists them: there is no vector per cell.
   const auto for_each_cell_of = [&](const Segment& s, auto&& visit) {
     if (finite(s)) for_each_cell(s, kMarginM, visit);
   };
@@ -56,13 +57,13 @@ void SegmentGrid::nearest_in_cell(const Vec2& p, int c, int r, double& best) con
 }
 
 double SegmentGrid::distance(const Vec2& p) const {
-  if (!p.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-  double best = kInfinity;
+  if (!p.allFinite()) return kNaN;
+  double best = kInf;
   if (empty()) return best;
   const int c = column(p.x());
   const int r = row(p.y());
-  // For a point outside the grid, whatever lies k cells away from its nearest cell is at least hypot(outside, k cells)
-  // away, because the grid is convex. An allowance of a thousandth of a cell covers rounding at cell borders.
+  // For a point outside the grid, everything k cells away from its nearest cell is at least hypot(outside, k cells)
+  // away, because the grid is convex. A tolerance of a thousandth of a cell covers rounding at cell borders.
   const Vec2 corner = origin_ + cell_m_ * Vec2(columns_, rows_);
   const double outside = (p - p.cwiseMax(origin_).cwiseMin(corner)).norm();
   const int rings = std::max({c, columns_ - 1 - c, r, rows_ - 1 - r});

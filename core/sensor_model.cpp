@@ -1,4 +1,4 @@
-// Beam table and noise figures.
+// The table of beam directions and the standard deviations of readings.
 #include "core/sensor_model.hpp"
 
 #include <cmath>
@@ -13,7 +13,7 @@ ScanGeometry::ScanGeometry(double angle_min_rad, double angle_step_rad, int beam
   if (beams < 0) throw ParamError("beams", "beams is " + std::to_string(beams) + "; it must not be negative");
   if (!std::isfinite(angle_min_rad) || !std::isfinite(angle_step_rad))
     throw ParamError("angle_min", "beam angles must be finite");
-  directions_.reserve(static_cast<std::size_t>(beams));
+  directions_.reserve(as_index(beams));
   for (int i = 0; i < beams; ++i) {
     const auto [s, c] = portable::sincos(angle(i));
     directions_.emplace_back(c, s);

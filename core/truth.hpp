@@ -1,4 +1,5 @@
-// The truth behind a simulated recording. No file of algorithms/ may include this header: tests/architecture holds it.
+// The truth behind a simulated recording. No file of algorithms/ may include this header; tests/architecture checks
+// that.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,8 @@ struct Wall {
 struct Truth {
   std::vector<Wall> walls;
   std::vector<Pose2> world_from_sensor;  ///< per frame, when its first beam fires
-  std::vector<double> ranges;  ///< frames x beams, row-major: noise-free; +inf where the world returns nothing
-  std::vector<std::int32_t>
-      wall_ids;  ///< frames x beams: index into walls; -1: nothing, a round distractor or a moving body
+  std::vector<double> ranges;            ///< frames x beams, row-major, noise-free; +inf: the beam hits nothing
+  std::vector<std::int32_t> wall_ids;    ///< frames x beams, index into walls; -1: no wall (nothing, a circle, a body)
 };
 
 }  // namespace scanbench

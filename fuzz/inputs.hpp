@@ -1,4 +1,4 @@
-// What the fuzzers and the test of their corpus run on one input: everything that a user's file goes through.
+// Runs one input through every reader of users' files, for the fuzzers and the test of their corpus.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace scanbench::fuzz {
 
-/// Runs `work`; a refusal of the input is a good answer, anything else that is thrown is not.
+/// Runs `work` and accepts a ConfigError, which refuses the input; any other exception is a fault.
 template <class Work>
 void allow_refusal(Work&& work) {
   try {
@@ -26,8 +26,8 @@ void allow_refusal(Work&& work) {
   }
 }
 
-/// The bytes as a scenario, as a world of either format and as a suite. A scenario that loads must have an effective
-/// form that loads to the same.
+/// Reads the bytes as a scenario, as a world of either format and as a suite. The effective form of a scenario that
+/// loads must load too and give the same effective form.
 inline void run_yaml(std::string_view bytes) {
   allow_refusal([&] { harness::parse_world(bytes, "fuzz.yaml"); });
   allow_refusal([&] { harness::parse_vector_map(bytes, "fuzz.txt"); });
@@ -39,7 +39,7 @@ inline void run_yaml(std::string_view bytes) {
   if (again != effective) throw InternalError("the effective scenario is not stable");
 }
 
-/// The first byte chooses format and options, the rest is the log. What is read must export and read back.
+/// Reads a log after a first byte that selects format and options. What is read must be exported and read back.
 inline void run_log(std::string_view bytes) {
   if (bytes.empty()) return;
   using Text = std::string;
@@ -63,7 +63,7 @@ inline void run_log(std::string_view bytes) {
     const Recording back = harness::parse_log(text, "fuzz.log", target, harness::import_params(recording, target),
                                               recording.observed.sensor);
     if (back.observed.frames.size() != recording.observed.frames.size())
-      throw InternalError("frames were lost on the way");
+      throw InternalError("frames were lost in export and import");
   }
 }
 

@@ -1,15 +1,17 @@
-// borges2000: how often each wall is broken up and how well its lines fit it (Borges & Aldon, "A split-and-merge
+// borges2000: into how many lines each wall is broken and how well these fit it (Borges & Aldon, "A split-and-merge
 // segmentation algorithm for line extraction in 2-D range images", ICPR 2000, section 4).
 //
-// Where the paper is silent: lines are compared in the world frame (its tables cannot be had otherwise), the difference
-// of two lines is taken on the circle and across rho = 0, N and eta are averaged over the scans in which the wall has a
-// line (the tables contain N = 1.00), and the errors are pooled over the valid lines (line 3 of LT allows nothing
-// else).
-#include <cmath>
+// The paper leaves four things open. Lines are compared in the world frame, because its tables cannot be reproduced
+// otherwise. The difference of two lines is taken on the circle and across rho = 0. N and eta are averaged over the
+// scans in which the wall has a line: the tables contain N = 1.00. The errors are pooled over the valid lines: line 3
+// of LT in the tables is possible in no other way.
+#include <algorithm>
 #include <map>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::metrics {
@@ -17,13 +19,13 @@ namespace {
 
 enum class ComparisonFrame { world, sensor };
 
-/// What the scans say about one wall.
+/// The averages of one wall over the scans.
 struct WallTally {
-  Mean lines;        ///< N_l over the scans where it is at least 1
+  Mean lines;        ///< N_l over the scans in which it is at least 1
   Mean validity;     ///< eta_l over the same scans
   Mean rho_error;    ///< over valid lines
   Mean alpha_error;  ///< over valid lines
-  Mean missed;       ///< over the scans that see the wall: 1 if it has no line there
+  Mean missed;       ///< over the scans that see the wall: 1 if it has no line in the scan
 };
 
 /// N_l and M_l of one scan.
@@ -44,7 +46,7 @@ class Borges2000 : public MetricFamily {
       return std::tuple{
           choice("frame", &Params::frame, {{ComparisonFrame::world, "world"}, {ComparisonFrame::sensor, "sensor"}},
                  "frame in which (rho, alpha) of lines and walls are compared"),
-          field("min_points", &Params::min_points, at_least(1), "", "support points below which a line is passed over"),
+          field("min_points", &Params::min_points, at_least(1), "", "lines with fewer support points are ignored"),
           field("rho_tolerance_m", &Params::rho_tolerance_m, above(0), "m", "largest error in rho of a valid line"),
           field("alpha_tolerance_deg", &Params::alpha_tolerance_deg, between(0.001, 90), "deg",
                 "largest error in alpha of a valid line")};
@@ -55,15 +57,16 @@ class Borges2000 : public MetricFamily {
 
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
-    return {{"n_lines", "", lower_is_better, 0.05,
-             "lines that a wall is broken into, mean over the scans where it has one; subject: the wall, or mean over "
-             "walls"},
-            {"eta", "", higher_is_better, 0.02, "share of valid lines among a wall's lines, mean over the same scans"},
-            {"eps_rho", "m", lower_is_better, 0.005, "mean absolute error in rho of a wall's valid lines"},
-            {"eps_alpha", "deg", lower_is_better, 0.2, "mean absolute error in alpha of a wall's valid lines"},
-            {"missed", "", lower_is_better, 0.02,
-             "share of the scans with enough points on a wall in which it has no line"},
-            {"spurious", "", lower_is_better, 0.0, "lines none of whose support points comes from a wall"}};
+    return {
+        {"n_lines", "", lower_is_better, 0.05,
+         "lines that a wall is broken into, mean over the scans in which it has one; subject: the wall, or mean over "
+         "walls"},
+        {"eta", "", higher_is_better, 0.02, "share of valid lines among a wall's lines, mean over the same scans"},
+        {"eps_rho", "m", lower_is_better, 0.005, "mean absolute error in rho of a wall's valid lines"},
+        {"eps_alpha", "deg", lower_is_better, 0.2, "mean absolute error in alpha of a wall's valid lines"},
+        {"missed", "", lower_is_better, 0.02,
+         "share of the scans with enough points on a wall in which it has no line"},
+        {"spurious", "", lower_is_better, 0.0, "lines without a support point on a wall"}};
   }
 
   bool applies(const MetricInput& input) const override { return has_beam_truth(input); }
@@ -92,7 +95,7 @@ class Borges2000 : public MetricFamily {
     add_metric("eps_rho", &WallTally::rho_error);
     add_metric("eps_alpha", &WallTally::alpha_error);
     add_metric("missed", &WallTally::missed);
-    rows.add("spurious", kAll, static_cast<double>(spurious), considered);
+    rows.add("spurious", kAll, number(spurious), considered);
     return rows.take();
   }
 
@@ -102,7 +105,7 @@ class Borges2000 : public MetricFamily {
     const Truth& truth = *input.truth;
     const ScanLines& found = input.result.lines[f];
     const Scan scan = input.observed.scan(f);
-    const auto beams = static_cast<std::size_t>(scan.beams());
+    const auto beams = as_index(scan.beams());
     SCANBENCH_ASSERT(found.labels.size() == beams);
 
     std::vector<ScanTally> scan_tally(truth.walls.size());
@@ -111,14 +114,15 @@ class Borges2000 : public MetricFamily {
     for (std::size_t i = 0; i < beams; ++i) {
       const int wall = truth.wall_ids[f * beams + i];
       const int line = found.labels[i];
-      if (wall >= 0 && scan.valid(static_cast<int>(i))) ++scan_tally[static_cast<std::size_t>(wall)].points;
+      if (wall >= 0 && scan.valid(static_cast<int>(i))) ++scan_tally[as_index(wall)].points;
       if (line < 0) continue;
-      ++support[static_cast<std::size_t>(line)];
-      if (wall >= 0) ++origins[static_cast<std::size_t>(line)][wall];
+      ++support[as_index(line)];
+      if (wall >= 0) ++origins[as_index(line)][wall];
     }
 
     for (std::size_t k = 0; k < found.lines.size(); ++k) {
-      // Extractors that give a break point to both of its lines label it once: their own count is the larger one.
+      // An extractor that gives a break point to both of its lines can label it only once; its own count is then
+      // larger.
       if (std::max(support[k], found.lines[k].points) < params_.min_points) continue;
       ++considered;
       if (origins[k].empty()) {
@@ -145,8 +149,8 @@ class Borges2000 : public MetricFamily {
     }
   }
 
-  /// The wall that the line belongs to, of those its points come from: nearest in (rho, alpha), each scaled by its
-  /// tolerance; of equals the one with more points, then the lower index.
+  /// The wall that the line belongs to, chosen from the walls of its support points: the nearest one in (rho, alpha),
+  /// each scaled by its tolerance. Ties go to the wall with more points, then to the lower index.
   std::pair<std::size_t, LineDifference> most_similar_wall(const Truth& truth, std::size_t f, const PolarLine& line,
                                                            const std::map<int, int>& origins) const {
     const Pose2& world_from_sensor = truth.world_from_sensor[f];
@@ -154,10 +158,10 @@ class Borges2000 : public MetricFamily {
     const PolarLine seen = in_world ? transform(world_from_sensor, line) : line;
     std::size_t best_wall = 0;
     LineDifference best_error{};
-    double best = std::numeric_limits<double>::infinity();
+    double best = kInf;
     int best_points = 0;
     for (const auto& [wall, points] : origins) {
-      const Segment& s = truth.walls[static_cast<std::size_t>(wall)].segment;
+      const Segment& s = truth.walls[as_index(wall)].segment;
       const PolarLine in_world_frame = line_through(s.a, s.b);
       const LineDifference error =
           line_difference(seen, in_world ? in_world_frame : transform(world_from_sensor.inverse(), in_world_frame));
@@ -165,7 +169,7 @@ class Borges2000 : public MetricFamily {
       const double alpha = error.alpha / radians(params_.alpha_tolerance_deg);
       const double dissimilarity = rho * rho + alpha * alpha;
       if (best_points == 0 || dissimilarity < best || (dissimilarity == best && points > best_points)) {
-        best_wall = static_cast<std::size_t>(wall);
+        best_wall = as_index(wall);
         best_error = error;
         best = dissimilarity;
         best_points = points;
@@ -179,7 +183,7 @@ class Borges2000 : public MetricFamily {
 
 const bool registered = Registry<MetricFamily>::add<Borges2000>(
     {.name = "borges2000",
-     .summary = "per wall: lines it is broken into, share of valid ones, errors in rho and alpha",
+     .summary = "per wall: lines that it is broken into, share of valid lines, errors in rho and alpha",
      .reference = "Borges & Aldon 2000, section 4"});
 
 }  // namespace

@@ -5,8 +5,7 @@
 
 namespace scanbench::metrics {
 
-/// x such that a sum of squares of 2 * pairs standard normals stays below it with probability p; pairs >= 1,
-/// 0 < p < 1, relative error below 1e-9.
+/// x such that a sum of squares of 2 * pairs standard normals is below it with probability p; pairs >= 1, 0 < p < 1.
 double chi_square_quantile(double p, std::int64_t pairs);
 
 }  // namespace scanbench::metrics

@@ -1,32 +1,35 @@
-// efficiency: how near the lines come to the best that their beams allow, and whether an extractor knows how good it
-// is. Cramer-Rao bound of the range readings; normalised estimation error squared as in Bar-Shalom, Li & Kirubarajan,
-// "Estimation with Applications to Tracking and Navigation", 2001, section 5.4.
+// efficiency: compares the errors of lines with the smallest errors that their beams allow, and the covariances that an
+// extractor reports with its errors. Cramer-Rao bound of the range readings; normalised estimation error squared as in
+// Bar-Shalom, Li & Kirubarajan, "Estimation with Applications to Tracking and Navigation", 2001, section 5.4.
 //
-// Errors for the efficiency are taken at the midpoint of the true line, where the bound is; errors for nees at the
-// midpoint of the found line, where its covariance is. Matches are those of `segments` with its defaults. Lost returns
-// give no information; spurious ones are counted as if they were good, so their harm is part of the ratio. A ratio
-// below 1 beyond its interval means that an extractor saw the truth or used the beams of two runs of a wall for one
-// line.
+// Errors for the efficiency are taken at the midpoint of the true line, because the bound holds there; errors for nees
+// at the midpoint of the found line, because its covariance holds there. Matches are those of `segments` with its
+// defaults. Lost returns give no information. Spurious returns count as if they were good, so their harm is part of the
+// ratio. If a ratio and its whole interval are below 1, the extractor saw the truth or used the beams of two runs of a
+// wall for one line.
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <Eigen/LU>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/registry.hpp"
 #include "metrics/chi_square.hpp"
 #include "metrics/line_bound.hpp"
+#include "metrics/line_matching.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::metrics {
 namespace {
 
-/// (offset along the normal of `found`, angle) of `found` against the true line, where the offset is that at `point`,
-/// which must lie near both.
+/// The error of `found` as (offset along its normal at `point`, angle). `point` must be near both lines.
 Eigen::Vector2d line_error(const PolarLine& found, const PolarLine& truth, const Vec2& point) {
   const Vec2 n = found.normal();
   const Vec2 m = truth.normal();
-  const double side = n.dot(m) < 0 ? -1.0 : 1.0;  // near rho = 0 the two normals may point to opposite sides
+  const double side = n.dot(m) < 0 ? -1.0 : 1.0;  // near rho = 0 the normals can have opposite directions
   return {found.signed_distance(point) - side * truth.signed_distance(point),
           std::atan2(side * cross(m, n), side * m.dot(n))};
 }
@@ -45,7 +48,7 @@ struct Ratio {
   double value() const { return squared_error.value() / bound.value(); }
   /// Half the width of the 95 % interval of the mean squared error, over the mean bound.
   double half_width() const {
-    const auto n = static_cast<double>(bound.count());
+    const double n = number(bound.count());
     const double mean = squared_error.value();
     const double variance = fourth_power.value() - mean * mean;
     return 1.96 * std::sqrt(std::max(variance, 0.0) / (n - 1)) / bound.value();
@@ -54,8 +57,8 @@ struct Ratio {
 
 constexpr const char* kMatches = "matches";  // matches.csv
 
-/// A found line that is true, with enough beams.
-struct Match {
+/// A found line that matches a true line with enough beams.
+struct MatchedLine {
   std::size_t frame = 0;
   std::size_t line = 0;
   const LineFeature& found;
@@ -90,7 +93,7 @@ class Efficiency : public MetricFamily {
         {"bound_angle", "deg", neither, 0.0, "root of the mean bound of the angle"},
         {"nees", "", neither, 0.1,
          "mean of e' C^-1 e over lines with a covariance C; honest covariances give 2, overconfident ones more; "
-         "ci: the band in which it lies with probability 95 % if they are honest"}};
+         "ci: the band that contains it with probability 95 % if they are honest"}};
   }
 
   bool applies(const MetricInput& input) const override { return has_beam_truth(input); }
@@ -99,7 +102,7 @@ class Efficiency : public MetricFamily {
     SCANBENCH_ASSERT(applies(input));
     Ratio offset, angle;
     Mean nees;
-    for_each_match(input, [&](const Match& match) {
+    for_each_match(input, [&](const MatchedLine& match) {
       if (match.bound) {
         const Eigen::Vector2d e = match.error_at(match.truth.segment.midpoint());
         offset.add(e[0], (*match.bound)(0, 0));
@@ -123,7 +126,7 @@ class Efficiency : public MetricFamily {
     rows.add("bound_angle", kAll, degrees(angle.bound.root()), angle.bound.count());
     MetricRow& row = rows.add("nees", kAll, nees);
     if (row.count > 0) {
-      const auto n = static_cast<double>(row.count);
+      const double n = number(row.count);
       row.ci_low = chi_square_quantile(0.025, row.count) / n;
       row.ci_high = chi_square_quantile(0.975, row.count) / n;
     }
@@ -136,15 +139,13 @@ class Efficiency : public MetricFamily {
                       {"frame", "line", "first_beam", "last_beam", "beams", "range_m", "length_m", "offset_m",
                        "angle_rad", "bound_offset_m", "bound_angle_rad"},
                       {}};
-    for_each_match(input, [&](const Match& match) {
+    for_each_match(input, [&](const MatchedLine& match) {
       const TrueLine& t = match.truth;
       const Vec2 middle = t.segment.midpoint();
       const Eigen::Vector2d e = match.error_at(middle);
       const auto sigma = [&](int i) { return match.bound ? std::sqrt((*match.bound)(i, i)) : kUndefined; };
-      table.rows.push_back({static_cast<double>(match.frame), static_cast<double>(match.line),
-                            static_cast<double>(t.first_beam), static_cast<double>(t.last_beam),
-                            static_cast<double>(t.beams), middle.norm(), t.segment.length(), e[0], e[1], sigma(0),
-                            sigma(1)});
+      table.rows.push_back({number(match.frame), number(match.line), number(t.first_beam), number(t.last_beam),
+                            number(t.beams), middle.norm(), t.segment.length(), e[0], e[1], sigma(0), sigma(1)});
     });
     return {table};
   }
@@ -162,9 +163,9 @@ class Efficiency : public MetricFamily {
       const LineMatching matching = match_lines(found, truths, MatchRule{});
       for (std::size_t k = 0; k < found.size(); ++k) {
         if (matching.outcome[k] != Outcome::true_line) continue;
-        const TrueLine& t = truths[static_cast<std::size_t>(matching.truth[k])];
+        const TrueLine& t = truths[as_index(matching.truth[k])];
         if (t.beams < params_.min_beams) continue;
-        visit(Match{f, k, found[k], t, line_through(t.segment.a, t.segment.b), line_bound(scan, t)});
+        visit(MatchedLine{f, k, found[k], t, line_through(t.segment.a, t.segment.b), line_bound(scan, t)});
       }
     }
   }
@@ -174,7 +175,7 @@ class Efficiency : public MetricFamily {
 
 const bool registered = Registry<MetricFamily>::add<Efficiency>(
     {.name = "efficiency",
-     .summary = "errors of lines against the Cramer-Rao bound of their beams, and honesty of their covariances",
+     .summary = "errors of lines against the Cramer-Rao bound of their beams, and whether their covariances are honest",
      .reference = "Cramer-Rao inequality; Bar-Shalom et al. 2001, section 5.4"});
 
 }  // namespace

@@ -3,14 +3,16 @@
 
 #include <optional>
 
-#include "metrics/line_matching.hpp"
+#include <Eigen/Core>
+
+#include "metrics/true_lines.hpp"
 
 namespace scanbench::metrics {
 
-/// Smallest covariance that an unbiased estimate of (offset of the line at the midpoint of truth.segment [m], angle
-/// [rad]) can have, from the returns between the line's first and last beam. The offset counts along the line's
-/// canonical normal, the angle counter-clockwise, as in LineFeature::covariance. Absent where the bound does not exist:
-/// a sensor without noise, or beams that do not determine the line.
+/// The smallest covariance of any unbiased estimate of (offset of the line at the midpoint of truth.segment [m], angle
+/// [rad]) from the returns between the line's first and last beam. The offset is along the line's canonical normal, the
+/// angle counter-clockwise, as in LineFeature::covariance. Absent if there is no bound: the sensor has no noise, or the
+/// beams do not determine the line.
 std::optional<Eigen::Matrix2d> line_bound(const Scan& scan, const TrueLine& truth);
 
 }  // namespace scanbench::metrics

@@ -1,46 +1,19 @@
-// True lines of a scan and their one-to-one matching with the lines found in it: what `segments` and `efficiency`
-// count.
+// One-to-one matching of the lines found in a scan with its true lines: what `segments` and `efficiency` count.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "metrics/metric.hpp"
+#include "core/scan.hpp"
+#include "metrics/true_lines.hpp"
 
 namespace scanbench::metrics {
-
-/// Walls that lie on one line and touch or overlap are one surface: no sensor can tell where one ends. Collinear walls
-/// with a gap between them stay two.
-struct Surfaces {
-  std::vector<Segment> segments;  ///< hull of its walls, in the order of their first walls
-  std::vector<int> of_wall;       ///< per wall the index of its surface
-};
-Surfaces join_walls(std::span<const Wall> walls);
-
-/// What of a wall a scan shows in one piece, sensor frame.
-struct TrueLine {
-  Segment segment;  ///< from the exact point of the first beam to that of the last
-  int surface = -1;
-  int first_beam = -1;
-  int last_beam = -1;  ///< inclusive; beams between them without a return were lost, not blocked
-  int beams = 0;       ///< with a return
-};
-
-struct TrueLineRule {
-  int min_beams = 9;          ///< returns
-  double min_length_m = 0.5;  ///< between the outer ones
-};
-
-/// Maximal runs of beams of one frame that end on one surface, in beam order. A lost return does not end a run, another
-/// surface or a body in front of the wall does. The input must satisfy has_beam_truth().
-std::vector<TrueLine> true_lines(const MetricInput& input, std::size_t frame, const Surfaces& surfaces,
-                                 const TrueLineRule& rule);
 
 struct MatchRule {
   double max_angle_rad = radians(10.0);
   double max_offset_m = 0.15;  ///< of the found line's midpoint from the true line
-  double min_overlap = 0.5;    ///< share of the shorter of the two, exceeded by the overlap of the projections
-  double min_length_m = 0.5;   ///< a shorter line that matches nothing is passed over
+  double min_overlap = 0.5;    ///< the overlap of the projections must exceed this share of the shorter one
+  double min_length_m = 0.5;   ///< a shorter line that matches nothing is ignored
 };
 
 /// How a found line compares with a true line, along the true line's direction.
@@ -52,17 +25,18 @@ struct Overlap {
 };
 Overlap overlap(const Segment& found, const Segment& truth);
 
-enum class Outcome { true_line, split, false_line, passed_over };
+enum class Outcome { true_line, split, false_line, ignored };
 
-/// Per found line its outcome and, for true ones, the index of its true line (else -1).
+/// Per found line its outcome and, for a true_line, the index of its true line (else -1).
 struct LineMatching {
   std::vector<Outcome> outcome;
   std::vector<int> truth;
-  std::vector<bool> merged;  ///< matches true lines of two surfaces, each over more than half of their length
+  std::vector<bool> merged;  ///< covers more than half of the length of true lines of two surfaces
 };
 
-/// Pairs that satisfy the rule are taken by decreasing overlap while both are free (ties: lower indices first). A line
-/// left over is split if it satisfies the rule with some true line, else false.
+/// Takes the pairs that satisfy the rule by decreasing overlap, each line at most once (ties: lower indices first). A
+/// found line that remains is `split` if it satisfies the rule with some true line; else it is `false_line`, or
+/// `ignored` if it is short.
 LineMatching match_lines(std::span<const LineFeature> found, std::span<const TrueLine> truth, const MatchRule& rule);
 
 }  // namespace scanbench::metrics

@@ -1,5 +1,5 @@
-// map_points: how far the scan points lie from the scans' own lines and from the merged map, and how much smaller the
-// map is (Lakaemper, "Simultaneous multi-line-segment merging for robot mapping using mean shift clustering", IROS
+// map_points: the distances of the scan points from the scans' own lines and from the merged map, and how much smaller
+// the map is (Lakaemper, "Simultaneous multi-line-segment merging for robot mapping using mean shift clustering", IROS
 // 2009, section V.A). Needs no truth.
 //
 // D_S and D_M are means over the same points: those within mean + 2 standard deviations of the distance to the scans'
@@ -15,7 +15,7 @@
 namespace scanbench::metrics {
 namespace {
 
-constexpr double kBytes = 8.0;  // ranges, poses and end points are all stored as 64-bit numbers
+constexpr double kBytes = 8.0;  // of a number: ranges, poses and end points have 64 bits each
 
 class MapPoints : public MetricFamily {
  public:
@@ -23,7 +23,7 @@ class MapPoints : public MetricFamily {
     double inlier_sigmas = 2.0;
     static auto fields() {
       return std::tuple{field("inlier_sigmas", &Params::inlier_sigmas, above(0), "",
-                              "points further than mean + this many standard deviations are left out")};
+                              "points farther away than the mean plus this many standard deviations are excluded")};
     }
   };
 
@@ -33,15 +33,15 @@ class MapPoints : public MetricFamily {
     using enum Direction;
     return {{"D_S", "m", neither, 0.0005, "mean distance of inlying scan points to the nearest line of any scan"},
             {"D_M", "m", lower_is_better, 0.0005, "mean distance of the same points to the nearest line of the map"},
-            {"inliers", "", neither, 0.005, "share of the scan points that D_S and D_M average over"},
+            {"inliers", "", neither, 0.005, "share of the scan points in the means D_S and D_M"},
             {"compression", "", higher_is_better, 0.5,
              "numbers in the scan points (2 each) per number in the map (4 a line)"},
             {"compression_bytes", "", higher_is_better, 0.5,
              "bytes of the ranges and poses as recorded per byte of the map's end points"},
             {"scan_points", "", neither, 0.0, "valid scan points"},
             {"scan_lines", "", neither, 0.0, "lines of all scans"},
-            {"clusters1", "", neither, 0.0, "clusters of the first phase that hold the largest part of some line"},
-            {"clusters2", "", neither, 0.0, "clusters of the second phase that hold the largest part of some line"},
+            {"clusters1", "", neither, 0.0, "clusters of the first phase that contain the largest part of some line"},
+            {"clusters2", "", neither, 0.0, "clusters of the second phase that contain the largest part of some line"},
             {"map_lines", "", lower_is_better, 0.5, "lines of the map"}};
   }
 
@@ -80,7 +80,6 @@ class MapPoints : public MetricFamily {
       }
     }
 
-    const auto number = [](auto n) { return static_cast<double>(n); };
     const auto n_points = std::ssize(points);
     const double recorded = number(poses.size()) * (input.observed.sensor.geometry.beams() + 3.0) * kBytes;
     const double stored = 4.0 * number(map_lines.size()) * kBytes;
@@ -89,7 +88,7 @@ class MapPoints : public MetricFamily {
     rows.add("D_M", kAll, to_map);
     rows.add("inliers", kAll, to_scans.count() > 0 ? ratio(number(to_scans.count()), number(n_points)) : kUndefined,
              n_points);
-    const bool scanned = n_points > 0;  // of lines without points there is nothing to compress
+    const bool scanned = n_points > 0;  // lines without points cannot be compressed
     rows.add("compression", kAll, scanned ? ratio(2.0 * number(n_points), 4.0 * number(map_lines.size())) : kUndefined,
              std::ssize(map_lines));
     rows.add("compression_bytes", kAll, scanned ? ratio(recorded, stored) : kUndefined, std::ssize(map_lines));
@@ -102,12 +101,12 @@ class MapPoints : public MetricFamily {
   }
 
  private:
-  /// Different labels of a phase; undefined for a merger that has no such phase.
+  /// The number of clusters of a phase; undefined for a merger without that phase.
   static double clusters(const PipelineResult& result, int MergeLabel::*cluster) {
     std::set<int> labels;
     for (const MergeLabel& label : result.merge_labels) labels.insert(label.*cluster);
     labels.erase(-1);
-    return labels.empty() ? kUndefined : static_cast<double>(labels.size());
+    return labels.empty() ? kUndefined : number(labels.size());
   }
 
   Params params_;

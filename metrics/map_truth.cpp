@@ -1,19 +1,24 @@
-// map_truth: a merged map against the true walls: what of them it covers, what it adds, how often it repeats, breaks or
-// fuses them, and how exact its lines are.
+// map_truth: a merged map against the true walls: how much of them it covers, what it adds, how often it repeats,
+// breaks or fuses them, and how exact its lines are.
 //
-// What counts is the visible part of a wall: where at least 3 returns per 10 cm came from over the whole run. Walls
-// that lie on one line and touch are one surface throughout: a map is right to join them, and no scan shows the seam.
-// Collinear walls with a gap between them (a corridor with doors) stay separate for lines_per_wall and fragments, and
-// one line over both of them is no over-merging, which asks for walls on different lines; the gap that it wrongly fills
-// lowers true_share. The map is compared where it stands: its frame is that of the truth.
+// Only the visible part of a wall counts: where at least 3 returns per 10 cm came from over the whole run. Walls that
+// are on one line and touch are one surface throughout: a map is right to join them, because no scan shows the seam.
+// Collinear walls with a gap between them (a corridor with doors) are separate for lines_per_wall and fragments. One
+// line over both of them is not over-merged, because that needs walls on different lines; it lowers true_share by the
+// gap that it fills. The map is compared without an alignment: its frame is that of the truth.
+//
+// Whether a line is over-merged is decided by its members, the scan lines merged into it, and not by its place: the
+// line halfway between two walls is far from both.
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
+#include "core/interval.hpp"
 #include "core/registry.hpp"
-#include "metrics/intervals.hpp"
-#include "metrics/line_matching.hpp"
+#include "metrics/map_members.hpp"
 #include "metrics/rows.hpp"
+#include "metrics/surfaces.hpp"
 
 namespace scanbench::metrics {
 namespace {
@@ -21,7 +26,8 @@ namespace {
 constexpr double kNear = 0.05;
 constexpr double kFar = 0.10;
 constexpr double kVisibilityBin = 0.10;
-constexpr double kOneView = 0.30;  // visible parts with a smaller gap between them ask for one line, not two
+constexpr double kShare = 0.2;     // of a line's members, from each of two walls, make it over-merged
+constexpr double kOneView = 0.30;  // visible parts with a smaller gap between them need one line, not two
 
 /// Visible parts of every surface, in metres from its first end.
 std::vector<std::vector<Interval>> visible_parts(const MetricInput& input, const Surfaces& surfaces,
@@ -29,7 +35,7 @@ std::vector<std::vector<Interval>> visible_parts(const MetricInput& input, const
   const Truth& truth = *input.truth;
   const std::size_t count = surfaces.segments.size();
   std::vector<std::vector<Interval>> visible(count);
-  if (truth.wall_ids.empty()) {  // lines without scans: nothing says that a part was not seen
+  if (truth.wall_ids.empty()) {  // lines without scans: every part counts as seen
     for (std::size_t s = 0; s < count; ++s) visible[s] = {{0.0, surfaces.segments[s].length()}};
     return visible;
   }
@@ -39,11 +45,11 @@ std::vector<std::vector<Interval>> visible_parts(const MetricInput& input, const
         1, static_cast<std::size_t>(std::ceil(surfaces.segments[s].length() / kVisibilityBin - 1e-9))));
   for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
     const Scan scan = input.observed.scan(f);
-    const auto beams = static_cast<std::size_t>(scan.beams());
+    const auto beams = as_index(scan.beams());
     for (std::size_t i = 0; i < beams; ++i) {
       const std::int32_t wall = truth.wall_ids[f * beams + i];
       if (wall < 0 || !scan.valid(static_cast<int>(i))) continue;
-      const auto s = static_cast<std::size_t>(surfaces.of_wall[static_cast<std::size_t>(wall)]);
+      const std::size_t s = as_index(surfaces.of_wall[as_index(wall)]);
       const Segment& segment = surfaces.segments[s];
       const Vec2 p = truth.world_from_sensor[f] *
                      Vec2(truth.ranges[f * beams + i] * scan.sensor.geometry.direction(static_cast<int>(i)));
@@ -63,24 +69,17 @@ std::vector<std::vector<Interval>> visible_parts(const MetricInput& input, const
   return visible;
 }
 
-double angle_between(const Segment& a, const Segment& b) {
-  const Vec2 u = a.direction();
-  const Vec2 v = b.direction();
-  return std::atan2(std::fabs(cross(u, v)), std::fabs(u.dot(v)));
-}
-
 /// Distance of p from the infinite line of s.
 double line_distance(const Vec2& p, const Segment& s) {
   return std::fabs(cross(s.direction(), p - s.a));
 }
 
-/// The part of a surface that a map line represents: near it, and between the line's ends in projection. Empty: absent.
+/// The part of a surface that a map line represents: near the line and between the projections of its ends. Absent if
+/// it is empty.
 std::optional<Interval> represented_part(const Segment& surface, const Segment& line) {
   const auto near = part_near(surface, line, kFar);
   if (!near) return std::nullopt;
-  const Vec2 u = surface.direction();
-  const auto [low, high] = std::minmax({u.dot(line.a - surface.a), u.dot(line.b - surface.a)});
-  const Interval part{std::max(near->low, low), std::min(near->high, high)};
+  const Interval part = intersection(*near, projection(line, surface.a, surface.direction()));
   if (!(part.high > part.low)) return std::nullopt;
   return part;
 }
@@ -99,11 +98,11 @@ class MapTruth : public MetricFamily {
     double over_merge_m = 0.15;
     static auto fields() {
       return std::tuple{field("max_angle_deg", &Params::max_angle_deg, between(0, 90), "deg",
-                              "largest angle between a map line and the wall that it stands for"),
+                              "largest angle between a map line and the wall that it represents"),
                         field("min_hits_per_m", &Params::min_hits_per_m, at_least(0), "1/m",
                               "returns over the run that make a part of a wall visible"),
                         field("over_merge_m", &Params::over_merge_m, at_least(0), "m",
-                              "walls further apart than this must not share a map line")};
+                              "walls farther apart than this must not share a map line")};
     }
   };
 
@@ -112,17 +111,17 @@ class MapTruth : public MetricFamily {
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
     return {{"covered_5cm", "", higher_is_better, 0.005,
-             "share of the visible wall length within 5 cm of a map line like it"},
+             "share of the visible wall length within 5 cm of a map line of its direction"},
             {"covered_10cm", "", higher_is_better, 0.005, "the same within 10 cm"},
             {"true_share_5cm", "", higher_is_better, 0.005, "share of the map's length within 5 cm of a wall"},
             {"true_share_10cm", "", higher_is_better, 0.005, "the same within 10 cm"},
-            {"lines_per_wall", "", lower_is_better, 0.02, "map lines that stand for a visible wall, per visible wall"},
+            {"lines_per_wall", "", lower_is_better, 0.02, "map lines that represent a visible wall, per visible wall"},
             {"duplicates", "", lower_is_better, 0.0,
-             "map lines of which more than half repeats longer lines of the same wall"},
+             "map lines that repeat longer lines of the same wall over more than half of their length"},
             {"fragments", "", lower_is_better, 0.0, "further lines of a wall beyond one for each visible part of it"},
             {"over_merged", "", lower_is_better, 0.0,
-             "map lines over more than half of each of two walls on different lines"},
-            {"unassigned", "", lower_is_better, 0.0, "map lines that stand for no wall"},
+             "map lines with members, a fifth or more each, from two walls on different lines"},
+            {"unassigned", "", lower_is_better, 0.0, "map lines that represent no wall"},
             {"map_offset", "m", lower_is_better, 0.001,
              "distance of map lines' midpoints from their wall's line, mean weighted by the lines' lengths"},
             {"map_angle", "deg", lower_is_better, 0.05,
@@ -149,13 +148,13 @@ class MapTruth : public MetricFamily {
     rows.add("covered_10cm", kAll, ratio(covered(map, surfaces, visible, kFar), visible_m), n_visible);
     rows.add("true_share_5cm", kAll, true_share(map, surfaces, kNear), std::ssize(map));
     rows.add("true_share_10cm", kAll, true_share(map, surfaces, kFar), std::ssize(map));
-    add_assignment(rows, map, surfaces, visible, n_visible);
+    add_assignment(rows, map, surfaces, visible, n_visible, over_merged(input, surfaces));
     rows.add("visible_m", kAll, visible_m, n_visible);
     return rows.take();
   }
 
  private:
-  /// Truth about walls, and about beams unless the run has lines only.
+  /// True if the truth has walls and, unless the run has lines only, knows the wall of each beam.
   static bool consistent(const MetricInput& input) {
     if (input.truth == nullptr || input.truth->walls.empty()) return false;
     return input.truth->wall_ids.empty() || has_beam_truth(input);
@@ -190,26 +189,23 @@ class MapTruth : public MetricFamily {
   }
 
   void add_assignment(Rows& rows, const std::vector<Segment>& map, const Surfaces& surfaces,
-                      const std::vector<std::vector<Interval>>& visible, std::int64_t n_visible) const {
+                      const std::vector<std::vector<Interval>>& visible, std::int64_t n_visible,
+                      double n_over_merged) const {
     const std::size_t n_surfaces = surfaces.segments.size();
     std::vector<std::vector<Assigned>> assigned(n_surfaces);
     Mean offset, angle;
-    std::int64_t over_merged = 0;
     for (std::size_t k = 0; k < map.size(); ++k) {
       std::size_t best = n_surfaces;
       Interval best_part;
-      std::vector<std::size_t> mostly_covered;
       for (std::size_t s = 0; s < n_surfaces; ++s) {
         const Segment& surface = surfaces.segments[s];
         if (!alike(map[k], surface)) continue;
         const auto part = represented_part(surface, map[k]);
         if (!part) continue;
-        if (part->length() > 0.5 * surface.length()) mostly_covered.push_back(s);
         if (best < n_surfaces && part->length() <= best_part.length()) continue;
         best = s;
         best_part = *part;
       }
-      over_merged += fuses(mostly_covered, surfaces) ? 1 : 0;
       if (best == n_surfaces) continue;
       assigned[best].push_back({k, best_part});
       offset.add(line_distance(map[k].midpoint(), surfaces.segments[best]), map[k].length());
@@ -222,7 +218,7 @@ class MapTruth : public MetricFamily {
       std::vector<Interval> kept;
       std::int64_t originals = 0;
       for (const Assigned& a : assigned[s]) {
-        if (common_length({a.part}, unite(kept)) > 0.5 * a.part.length()) {
+        if (common_length({&a.part, 1}, unite(kept)) > 0.5 * a.part.length()) {
           ++duplicates;
           continue;
         }
@@ -234,23 +230,34 @@ class MapTruth : public MetricFamily {
       if (!visible[s].empty()) on_visible += std::ssize(assigned[s]);
     }
 
-    const auto number = [](std::int64_t n) { return static_cast<double>(n); };
     const std::int64_t n_assigned = offset.count();
     rows.add("lines_per_wall", kAll, ratio(number(on_visible), number(n_visible)), n_visible);
     rows.add("duplicates", kAll, number(duplicates), n_assigned);
     rows.add("fragments", kAll, number(fragments), n_assigned);
-    rows.add("over_merged", kAll, number(over_merged), std::ssize(map));
+    rows.add("over_merged", kAll, n_over_merged, std::ssize(map));
     rows.add("unassigned", kAll, number(std::ssize(map) - n_assigned), std::ssize(map));
     rows.add("map_offset", kAll, offset);
     rows.add("map_angle", kAll, angle);
   }
 
-  /// True if two of the surfaces lie on lines too far apart for one map line.
-  bool fuses(const std::vector<std::size_t>& covered, const Surfaces& surfaces) const {
-    for (std::size_t i = 0; i < covered.size(); ++i)
+  /// Map lines with kShare or more of their members from each of two surfaces on lines too far apart for one map line;
+  /// undefined if the members of the map's lines are unknown.
+  double over_merged(const MetricInput& input, const Surfaces& surfaces) const {
+    const auto members = members_by_surface(input, surfaces, radians(params_.max_angle_deg));
+    if (members.empty() && !input.result.map.lines.empty()) return kUndefined;
+    return number(std::ranges::count_if(members, [&](const MemberCounts& counts) { return fuses(counts, surfaces); }));
+  }
+
+  bool fuses(const MemberCounts& counts, const Surfaces& surfaces) const {
+    int all = 0;
+    for (const auto& [surface, count] : counts) all += count;
+    std::vector<Segment> sources;
+    for (const auto& [surface, count] : counts)
+      if (surface >= 0 && count >= kShare * all) sources.push_back(surfaces.segments[as_index(surface)]);
+    for (std::size_t i = 0; i < sources.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
-        const Segment& a = surfaces.segments[covered[i]];
-        const Segment& b = surfaces.segments[covered[j]];
+        const Segment& a = sources[i];
+        const Segment& b = sources[j];
         if (std::max(line_distance(a.midpoint(), b), line_distance(b.midpoint(), a)) > params_.over_merge_m)
           return true;
       }

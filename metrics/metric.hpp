@@ -13,13 +13,13 @@
 
 namespace scanbench::metrics {
 
-/// One value, as it stands in metrics.csv.
+/// One value: a row of metrics.csv.
 struct MetricRow {
   std::string metric;
   std::string subject;     ///< what it is about: a wall's label, "all", ...
   double value = 0.0;      ///< NaN: not defined on this input (count is then 0)
   std::string unit;        ///< "" for counts and shares
-  std::int64_t count = 0;  ///< how many observations stand behind it
+  std::int64_t count = 0;  ///< observations that the value is computed from
   std::optional<double> ci_low;
   std::optional<double> ci_high;
 };
@@ -31,9 +31,9 @@ struct MetricDescription {
   std::string metric;
   std::string unit;
   Direction direction = Direction::neither;
-  double tolerance = 0.0;  ///< absolute change, in the metric's unit, that `compare` lets pass
+  double tolerance = 0.0;  ///< absolute change, in the metric's unit, that `compare` accepts
   std::string doc;
-  bool timing = false;  ///< depends on the machine: never part of a comparison of bytes
+  bool timing = false;  ///< depends on the machine: excluded from comparisons of bytes
 };
 
 struct MetricInput {
@@ -42,7 +42,10 @@ struct MetricInput {
   const PipelineResult& result;
 };
 
-/// Observations behind the rows, one a line, as a file of the cell: <name>.csv.
+/// True if there is a truth for every beam of the observed scans and one entry of lines per frame.
+bool has_beam_truth(const MetricInput& input);
+
+/// The observations that rows are computed from, one per line, as a file of the cell: <name>.csv.
 struct MetricTable {
   std::string name;
   std::vector<std::string> columns;
@@ -55,12 +58,12 @@ class MetricFamily {
   static constexpr std::string_view kKind = "metrics";
   virtual ~MetricFamily() = default;
   virtual std::vector<MetricDescription> describe() const = 0;
-  /// False: the family cannot say anything about this input (no truth, no map); then it is absent, not zero.
+  /// False if the family is not defined for this input (no truth, no map): its metrics are then absent, not zero.
   virtual bool applies(const MetricInput& input) const = 0;
   virtual std::vector<MetricRow> evaluate(const MetricInput& input) const = 0;
-  /// Tables that its parameters ask for.
+  /// The tables that its parameters request.
   virtual std::vector<MetricTable> tables(const MetricInput&) const { return {}; }
-  /// Names of all tables that it can write, whatever its parameters: a later score removes those it does not write.
+  /// Names of all tables that it can write with any parameters: a later `score` removes those that it does not write.
   virtual std::vector<std::string> table_names() const { return {}; }
 };
 

@@ -1,4 +1,4 @@
-// Rows of a metric family.
+// Fills the rows of a metric family and names its subjects.
 #include "metrics/rows.hpp"
 
 #include <algorithm>
@@ -24,20 +24,12 @@ MetricRow& Rows::add(std::string_view metric, std::string_view subject, double v
 }
 
 std::vector<std::string> wall_subjects(std::span<const Wall> walls) {
-  std::map<std::string_view, int> uses{{"", 2}, {"mean", 2}, {kAll, 2}};  // names that rows use for something else
+  std::map<std::string_view, int> uses{{"", 2}, {"mean", 2}, {kAll, 2}};  // subjects with another meaning
   for (const Wall& wall : walls) ++uses[wall.label];
   std::vector<std::string> subjects;
   for (std::size_t i = 0; i < walls.size(); ++i)
     subjects.push_back(uses[walls[i].label] == 1 ? walls[i].label : walls[i].label + "#" + std::to_string(i));
   return subjects;
-}
-
-bool has_beam_truth(const MetricInput& input) {
-  if (input.truth == nullptr) return false;
-  const std::size_t frames = input.observed.frames.size();
-  const std::size_t beams = frames * static_cast<std::size_t>(input.observed.sensor.geometry.beams());
-  return input.truth->world_from_sensor.size() == frames && input.truth->wall_ids.size() == beams &&
-         input.truth->ranges.size() == beams && input.result.lines.size() == frames;
 }
 
 }  // namespace scanbench::metrics

@@ -1,28 +1,34 @@
-// What the metric families share: averages that know when they are undefined, and the rows of a table.
+// Tools of the metric families: averages that are undefined without observations, and the rows of a table.
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/special_values.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::metrics {
 
-inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kUndefined = kNaN;
 inline constexpr std::string_view kAll = "all";
+
+/// A count as the value of a row.
+inline double number(std::integral auto count) {
+  return static_cast<double>(count);
+}
 
 /// numerator / denominator; NaN when the denominator is 0.
 inline double ratio(double numerator, double denominator) {
   return denominator != 0 ? numerator / denominator : kUndefined;
 }
 
-/// Arithmetic mean of weighted observations; NaN without any.
+/// Arithmetic mean of weighted observations; NaN without observations.
 class Mean {
  public:
   void add(double value, double weight = 1.0) {
@@ -40,12 +46,12 @@ class Mean {
   std::int64_t count_ = 0;
 };
 
-/// Rows in the order they are added, with the units of the family's own description.
+/// Rows in the order in which they are added, with the units of the family's description.
 class Rows {
  public:
   explicit Rows(std::vector<MetricDescription> descriptions) : descriptions_(std::move(descriptions)) {}
 
-  /// A value that is not finite becomes NaN with count 0. A metric that the family does not describe is a bug.
+  /// A value that is not finite becomes NaN with count 0. The metric must be one that the family describes.
   MetricRow& add(std::string_view metric, std::string_view subject, double value, std::int64_t count);
   MetricRow& add(std::string_view metric, std::string_view subject, const Mean& mean) {
     return add(metric, subject, mean.value(), mean.count());
@@ -57,10 +63,7 @@ class Rows {
   std::vector<MetricRow> rows_;
 };
 
-/// One subject per wall: its label; walls without one or sharing one are told apart by their index ("door#7").
+/// One subject per wall: its label, with the index added where walls share a label or have none ("door#7").
 std::vector<std::string> wall_subjects(std::span<const Wall> walls);
-
-/// True if there is a truth for every beam of the observed scans and one entry of lines per frame.
-bool has_beam_truth(const MetricInput& input);
 
 }  // namespace scanbench::metrics

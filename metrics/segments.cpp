@@ -1,18 +1,19 @@
-// segments: found lines against true ones, scan by scan: which are true, split, merged, false, missed, and how exact
-// the true ones are. After the region measures of Hoover et al., "An experimental comparison of range image
-// segmentation algorithms", PAMI 1996, carried over to lines of one scan.
+// segments: compares the found lines of each scan with the true ones: which are true, split, merged, false or missed,
+// and how exact the true ones are. After the region measures of Hoover et al., "An experimental comparison of range
+// image segmentation algorithms", PAMI 1996, applied to the lines of a scan.
 //
-// A right line on a piece of wall that is too small to be a true line counts as false: so says the rule, and one return
-// more or less decides. `n_small` says how many of the false ones those are, and `f1_small_ignored` is F1 with them
-// neither true nor false, as detection benchmarks treat objects too small to be asked for (Everingham et al., "The
+// A correct line on a piece of wall that is too small to be a true line counts as false, although a single return can
+// decide about that. `n_small` is the number of these lines, and `f1_small_ignored` is F1 with them neither true nor
+// false, as detection benchmarks treat objects that are too small to be required (Everingham et al., "The
 // Pascal visual object classes challenge", IJCV 2010, section 3: "difficult" objects).
 //
-// A merged line is also true for one of its walls, and the other wall counts as missed. What a body in front of a wall
-// cuts in two is two true lines: one found line across both leaves one of them missed.
+// A merged line is also true for one of its walls; the other wall counts as missed. A wall that a body in front of it
+// cuts in two makes two true lines: one found line across both leaves one of them missed.
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/registry.hpp"
 #include "metrics/line_matching.hpp"
 #include "metrics/rows.hpp"
@@ -20,10 +21,10 @@
 namespace scanbench::metrics {
 namespace {
 
-// Two returns may lie on anything.
+// Any two returns are on a line, so a piece needs three.
 constexpr TrueLineRule kAnyPiece{.min_beams = 3, .min_length_m = 0.0};
 
-// False lines that would be true for some piece of a wall if it counted.
+// The number of false lines that match a piece of a wall that is too small to be a true line.
 std::int64_t on_small_pieces(std::span<const LineFeature> found, const LineMatching& matching,
                              std::span<const TrueLine> pieces, const MatchRule& rule) {
   std::vector<LineFeature> false_lines;
@@ -45,7 +46,7 @@ class Segments : public MetricFamily {
       return std::tuple{
           field("min_beams", &Params::min_beams, at_least(2), "", "fewest returns of a true line"),
           field("min_length_m", &Params::min_length_m, at_least(0), "m",
-                "shortest true line; shorter found lines that match nothing are passed over"),
+                "shortest true line; shorter found lines that match nothing are ignored"),
           field("max_angle_deg", &Params::max_angle_deg, between(0, 90), "deg", "largest angle of a match"),
           field("max_offset_m", &Params::max_offset_m, at_least(0), "m",
                 "largest distance of a match's midpoint from the true line"),
@@ -62,20 +63,21 @@ class Segments : public MetricFamily {
         {"recall", "", higher_is_better, 0.005, "true / (true + missed)"},
         {"f1", "", higher_is_better, 0.005, "harmonic mean of precision and recall"},
         {"f1_small_ignored", "", higher_is_better, 0.005,
-         "f1 without the right lines on pieces of walls that are too small to be true lines"},
+         "f1 without the correct lines on pieces of walls that are too small to be true lines"},
         {"split", "", lower_is_better, 0.005, "share of lines that repeat a true line: split / (true + false + split)"},
         {"merged", "", lower_is_better, 0.005,
-         "share of lines over more than half of two true lines of different walls"},
+         "share of lines that cover more than half of two true lines of different walls"},
         {"sigma_offset", "m", lower_is_better, 0.001,
-         "root mean square distance of true ones' midpoints from the true line"},
-        {"sigma_angle", "deg", lower_is_better, 0.05, "root mean square angle between true ones and the true line"},
-        {"overlap", "", higher_is_better, 0.005, "intersection over union of the extents, mean over true ones"},
+         "root mean square distance of the midpoints of matched lines from their true lines"},
+        {"sigma_angle", "deg", lower_is_better, 0.05,
+         "root mean square angle between matched lines and their true lines"},
+        {"overlap", "", higher_is_better, 0.005, "intersection over union of the extents, mean over matched lines"},
         {"n_true", "", neither, 0.0, "found lines matched with a true line"},
         {"n_false", "", neither, 0.0, "found lines that match no true line"},
-        {"n_small", "", neither, 0.0, "of the false ones: right lines on pieces of walls too small to be true lines"},
+        {"n_small", "", neither, 0.0, "false lines that are correct on a piece of a wall too small to be a true line"},
         {"n_missed", "", neither, 0.0, "true lines without a match"},
         {"n_split", "", neither, 0.0, "further found lines of a matched true line"},
-        {"n_merged", "", neither, 0.0, "found lines over two true lines of different walls"}};
+        {"n_merged", "", neither, 0.0, "found lines that cover more than half of two true lines of different walls"}};
   }
 
   bool applies(const MetricInput& input) const override { return has_beam_truth(input); }
@@ -102,20 +104,19 @@ class Segments : public MetricFamily {
       for (std::size_t k = 0; k < found.size(); ++k) {
         if (matching.outcome[k] != Outcome::true_line) continue;
         ++n_true;
-        const Overlap o = overlap(found[k].segment, truths[static_cast<std::size_t>(matching.truth[k])].segment);
+        const Overlap o = overlap(found[k].segment, truths[as_index(matching.truth[k])].segment);
         offset2.add(o.offset_m * o.offset_m);
         angle2.add(degrees(o.angle_rad) * degrees(o.angle_rad));
         iou.add(o.length_m / o.union_m);
       }
     }
 
-    const auto number = [](std::int64_t n) { return static_cast<double>(n); };
     const std::int64_t n_found = n_true + n_false + n_split;
     const std::int64_t n_missed = n_truth - n_true;
     Rows rows(describe());
     rows.add("precision", kAll, ratio(number(n_true), number(n_found)), n_found);
     rows.add("recall", kAll, ratio(number(n_true), number(n_truth)), n_truth);
-    // 2 / (1/precision + 1/recall), which is 0 and not 0/0 where lines exist but none is true.
+    // 2 / (1/precision + 1/recall) in the form that is 0, not 0/0, if lines exist but none is true.
     rows.add("f1", kAll, ratio(2.0 * number(n_true), number(n_found + n_truth)), n_found + n_truth);
     rows.add("f1_small_ignored", kAll, ratio(2.0 * number(n_true), number(n_found - n_small + n_truth)),
              n_found - n_small + n_truth);

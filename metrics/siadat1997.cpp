@@ -1,25 +1,27 @@
 // siadat1997: number of segments, residuals and times (Siadat, Kaske, Klausmann, Dufaut & Husson, "An optimized
 // segmentation method for a 2D laser-scanner applied to mobile robot navigation", SICICA 1997, tables 1-3).
 //
-// The paper's "geometric average" and "average of the maximal error of every single scan" leave the averaging open.
-// d_mean and d_max average over a scan's segments first and over the scans then, which alone fits the ratios of the
-// printed tables; the two literal readings stand beside them. polygon_bytes and compression are the size of the
-// representation of section 6 (core/polygon.hpp), which the paper gives as 48 bytes a segment.
+// The paper's "geometric average" and "average of the maximal error of every single scan" do not define the averaging.
+// d_mean and d_max average over the segments of a scan and then over the scans: no other order fits the ratios of the
+// printed tables. d_mean_pts and d_max_scan follow the words literally. polygon_bytes and compression are about the
+// size of the representation of section 6 (core/polygon.hpp), 48 bytes a segment in the paper.
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/polygon.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::metrics {
 namespace {
 
-constexpr double kRangeBytes = 4.0;  // as wide as a field of the polygon
+constexpr double kRangeBytes = 4.0;  // the width of a field of the polygon
 
-/// Residuals of one group: sum and maximum of the points' distances to its line.
+/// Sum and maximum of the distances of a group's points from its line.
 struct GroupResidual {
   int points = 0;
   double sum = 0.0;
@@ -27,28 +29,28 @@ struct GroupResidual {
 };
 
 std::vector<GroupResidual> group_residuals(const Scan& scan, const ScanLines& found) {
-  SCANBENCH_ASSERT(found.labels.size() == static_cast<std::size_t>(scan.beams()));
+  SCANBENCH_ASSERT(found.labels.size() == as_index(scan.beams()));
   std::vector<Vec2> normals;
   for (const LineFeature& line : found.lines) normals.push_back(line.line.normal());
   std::vector<GroupResidual> groups(found.lines.size());
   for (int i = 0; i < scan.beams(); ++i) {
-    const int label = found.labels[static_cast<std::size_t>(i)];
+    const int label = found.labels[as_index(i)];
     if (label < 0 || !scan.valid(i)) continue;
-    const auto k = static_cast<std::size_t>(label);
+    const auto k = as_index(label);
     const double d = std::fabs(normals[k].dot(scan.point(i)) - found.lines[k].line.rho);
     ++groups[k].points;
     groups[k].sum += d;
     groups[k].max = std::max(groups[k].max, d);
   }
-  // One or two points determine their line: whatever an extractor wrote there, they have no residual.
+  // One or two points determine their line and have no residual, even if the extractor's line misses them.
   for (GroupResidual& g : groups)
     if (g.points <= 2) g.sum = g.max = 0.0;
   return groups;
 }
 
-/// Mean over the frames of the CPU time spent in one of the stages, in ms. A run that was timed but never entered the
-/// stage spent 0 there (LT has no fit after its grouping); one that was not timed has no rows at all. Some extractors
-/// call the fit after their grouping by its name.
+/// Mean over the frames of the CPU time spent in the given stages, in ms. A timed run that never entered a stage spent
+/// 0 in it (LT has no fit after its grouping); a run that was not timed has no rows at all. Some extractors call the
+/// fit after their grouping "fit" instead of "post".
 Mean stage_time(const std::vector<StageTime>& times, std::initializer_list<std::string_view> stages) {
   std::map<int, double> per_frame;
   for (const StageTime& t : times) {
@@ -68,22 +70,23 @@ class Siadat1997 : public MetricFamily {
 
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
-    return {{"s_min", "", neither, 0.5, "fewest segments of a scan; single points count"},
-            {"s_mean", "", lower_is_better, 0.5, "segments per scan"},
-            {"s_max", "", neither, 0.5, "most segments of a scan"},
-            {"d_mean", "m", lower_is_better, 0.001,
-             "mean distance of points from their segment's line: over the segment, its scan's segments, the scans"},
-            {"d_max", "m", lower_is_better, 0.002,
-             "largest distance of a point from its segment's line: mean over a scan's segments, then the scans"},
-            {"d_mean_pts", "m", lower_is_better, 0.001, "mean distance over all points of a scan, then the scans"},
-            {"d_max_scan", "m", lower_is_better, 0.005, "largest distance in a scan, mean over the scans"},
-            {"t_pre", "ms", lower_is_better, 0.0, "CPU time per scan before segmentation", true},
-            {"t_seg", "ms", lower_is_better, 0.0, "CPU time per scan of segmentation", true},
-            {"t_post", "ms", lower_is_better, 0.0, "CPU time per scan of fitting after segmentation", true},
-            {"t_total", "ms", lower_is_better, 0.0, "CPU time per scan of all three", true},
-            {"polygon_bytes", "B", lower_is_better, 0.0, "size of a scan's polygon, 48 bytes a segment (section 6)"},
-            {"compression", "", higher_is_better, 0.0,
-             "size of the scans' ranges, 32 bits a beam, over that of their polygons"}};
+    return {
+        {"s_min", "", neither, 0.5, "fewest segments of a scan; single points count"},
+        {"s_mean", "", lower_is_better, 0.5, "segments per scan"},
+        {"s_max", "", neither, 0.5, "most segments of a scan"},
+        {"d_mean", "m", lower_is_better, 0.001,
+         "mean distance of points from their segment's line, averaged over a segment, a scan's segments, the scans"},
+        {"d_max", "m", lower_is_better, 0.002,
+         "largest distance of a point from its segment's line, averaged over a scan's segments, the scans"},
+        {"d_mean_pts", "m", lower_is_better, 0.001, "mean distance, averaged over all points of a scan, the scans"},
+        {"d_max_scan", "m", lower_is_better, 0.005, "largest distance in a scan, mean over the scans"},
+        {"t_pre", "ms", lower_is_better, 0.0, "CPU time per scan before segmentation", true},
+        {"t_seg", "ms", lower_is_better, 0.0, "CPU time per scan of segmentation", true},
+        {"t_post", "ms", lower_is_better, 0.0, "CPU time per scan of fitting after segmentation", true},
+        {"t_total", "ms", lower_is_better, 0.0, "CPU time per scan of all three", true},
+        {"polygon_bytes", "B", lower_is_better, 0.0, "size of a scan's polygon, 48 bytes a segment (section 6)"},
+        {"compression", "", higher_is_better, 0.0,
+         "size of the scans' ranges, 32 bits a beam, over that of their polygons"}};
   }
 
   bool applies(const MetricInput& input) const override {
@@ -93,10 +96,10 @@ class Siadat1997 : public MetricFamily {
   std::vector<MetricRow> evaluate(const MetricInput& input) const override {
     SCANBENCH_ASSERT(applies(input));
     Mean segments, d_mean, d_max, d_mean_pts, d_max_scan;
-    double fewest = std::numeric_limits<double>::infinity();
+    double fewest = kInf;
     double most = -fewest;
     for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
-      const auto count = static_cast<double>(input.result.lines[f].lines.size());
+      const double count = number(input.result.lines[f].lines.size());
       segments.add(count);
       fewest = std::min(fewest, count);
       most = std::max(most, count);

@@ -1,7 +1,7 @@
-// timing: what extraction costs, as thread CPU time, from the stages that a second pass over the scans was timed in.
+// timing: the thread CPU time of extraction, from the stages of a second, timed pass over the scans.
 //
-// The median over the scans: a machine that is busy with something else lengthens a few of them. Each stage is closed
-// by a reading of the clock, a fraction of a microsecond, which is part of the time.
+// The median over the scans is robust: a machine that is busy with other work lengthens a few of them. A reading of the
+// clock ends each stage; it takes a fraction of a microsecond, which is part of the time.
 #include <algorithm>
 #include <map>
 #include <vector>
@@ -12,7 +12,7 @@
 namespace scanbench::metrics {
 namespace {
 
-/// Stages of `extract` have plain names; those of the other slots have the slot's and a dot in front.
+/// The sum of the stages of `extract` per scan. Their names have no dot; stages of other slots are named "slot.stage".
 std::vector<double> seconds_per_scan(const std::vector<StageTime>& times) {
   std::map<int, double> per_frame;
   for (const StageTime& t : times)

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/params.hpp"
 #include "core/pose2.hpp"
 
 namespace scanbench::sim {
@@ -18,6 +19,20 @@ struct OdometryNoise {
   double rotation_per_rad = 0.0;       ///< standard deviation [rad] per radian turned
   double pose_position_sigma_m = 0.0;  ///< independent per pose, each axis
   double pose_heading_sigma_rad = 0.0;
+
+  static auto fields() {
+    using P = OdometryNoise;
+    return std::tuple{field("translation_per_m", &P::translation_per_m, at_least(0), "m",
+                            "standard deviation of the distance after one metre, along the motion"),
+                      degrees_field("rotation_per_m_deg", &P::rotation_per_m_rad, at_least(0),
+                                    "standard deviation of the heading after one metre"),
+                      field("rotation_per_rad", &P::rotation_per_rad, at_least(0), "rad",
+                            "standard deviation of the heading after turning by one radian"),
+                      field("pose_position_sigma_m", &P::pose_position_sigma_m, at_least(0), "m",
+                            "standard deviation of each coordinate, independent per pose"),
+                      degrees_field("pose_heading_sigma_deg", &P::pose_heading_sigma_rad, at_least(0),
+                                    "standard deviation of the heading, independent per pose")};
+  }
 };
 
 /// Odometry poses for true ones, same length. The first is the true pose: odometry has no error before it moves, and

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "core/number_text.hpp"
 
 namespace scanbench::sim {

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "core/geometry.hpp"
+#include "core/params.hpp"
 
 namespace scanbench::sim {
 
@@ -18,6 +19,15 @@ struct Tilt {
   double pitch_sigma_rad = 0.0;
   double height_m = 0.0;  ///< of the sensor over the floor, which tilted beams may meet; 0: there is no floor
 
+  static auto fields() {
+    using P = Tilt;
+    return std::tuple{degrees_field("roll_sigma_deg", &P::roll_sigma_rad, between(0, 30),
+                                    "standard deviation of the roll, independent per scan"),
+                      degrees_field("pitch_sigma_deg", &P::pitch_sigma_rad, between(0, 30),
+                                    "standard deviation of the pitch, independent per scan"),
+                      field("height_m", &P::height_m, at_least(0), "m",
+                            "height of the sensor over the floor, which tilted beams may meet; 0: no floor")};
+  }
   bool level() const { return !(roll_sigma_rad > 0 || pitch_sigma_rad > 0); }
 };
 

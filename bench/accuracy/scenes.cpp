@@ -1,3 +1,4 @@
+// Generates rooms and random poses in their free space.
 #include "bench/accuracy/scenes.hpp"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ sim::World l_shaped_room() {
   return world;
 }
 
-// An L of 6 to 14 m with up to four turned boxes.
+// An L-shaped room of 6 to 14 m with up to four rotated boxes.
 sim::World random_room(CounterRng& rng) {
   const auto between = [&](double low, double high) { return low + (high - low) * rng.uniform(); };
   sim::World world;

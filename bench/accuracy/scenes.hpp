@@ -1,5 +1,5 @@
-// Scenes on which the accuracy of extractors is measured: the worlds of scenarios/worlds and rooms made up by a seed,
-// each seen from random places in its free space.
+// Scenes for measuring the accuracy of extractors: the worlds of scenarios/worlds and rooms generated from a seed, each
+// seen from random places in its free space.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Scene {
   std::string name;
   std::string file;            ///< in scenarios/worlds
   bool random_rooms = false;   ///< another room for every 25 scans
-  double least_returns = 0.9;  ///< share of directions that must meet a wall: tells inside from outside
+  double least_returns = 0.9;  ///< share of directions that must hit a wall: distinguishes inside from outside
   int scans = 300;             ///< per seed
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "core/number_text.hpp"
 #include "harness/files/placed_error.hpp"
 

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "core/params.hpp"
-
 namespace scanbench::harness {
 
 void rethrow_in_file(const PlacedError& error, const std::string& file, const std::vector<std::string>& sets) {
@@ -12,13 +10,6 @@ void rethrow_in_file(const PlacedError& error, const std::string& file, const st
   if (mark.line == 0 && static_cast<std::size_t>(mark.column) < sets.size())
     throw ConfigError("--set " + sets[static_cast<std::size_t>(mark.column)] + ": " + error.what());
   throw ConfigError(fmt::format("{}:{}:{}: {}", file, mark.line, mark.column, error.what()));
-}
-
-std::string known_names(std::string_view name, const std::vector<std::string>& known) {
-  if (known.empty()) return "; known: none";
-  const std::string near = nearest_name(name, known);
-  return (near.empty() ? "" : "; did you mean '" + near + "'?") +
-         fmt::format("{} known: {}", near.empty() ? ";" : "", fmt::join(known, ", "));
 }
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// Errors with a place in an input file: line and column, and the names that would have been allowed.
+// Errors with a place in an input file: line and column.
 #pragma once
 
 #include <string>
@@ -39,8 +39,5 @@ auto in_file(const std::string& file, const std::vector<std::string>& sets, Work
     rethrow_in_file(error, file, sets);
   }
 }
-
-/// "a, b, c" and, where one is near, "; did you mean 'b'?".
-std::string known_names(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace scanbench::harness

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/modules.hpp"
+#include "core/names.hpp"
 #include "harness/report/table.hpp"
 #include "metrics/metric.hpp"
 #include "render/figure.hpp"

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/yaml/reader.hpp"
 

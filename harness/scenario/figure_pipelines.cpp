@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/names.hpp"
 #include "core/registry.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/yaml/reader.hpp"

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "core/modules.hpp"
+#include "core/names.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/yaml/reader.hpp"
 #include "metrics/metric.hpp"

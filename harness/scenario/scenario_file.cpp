@@ -54,19 +54,20 @@ class ScenarioReader {
   }
 
  private:
-  /// A section of nothing but parameters, which may be left out.
+  /// All parameters of a section of nothing but parameters, which may be left out. Angles are in degrees, as written.
   template <class Params>
-  static Params read_optional(YamlMap& map, const std::string& key) {
+  static ParamSet read_optional(YamlMap& map, const std::string& key) {
+    const std::vector<ParamSpec> specs = param_specs<Params>();
     const YamlNode* node = map.find(key);
-    if (node == nullptr) return {};
+    if (node == nullptr) return resolve(specs, {});
     YamlMap section(*node, key);
-    const auto params = make_params<Params>(section.params(param_specs<Params>()));
+    ParamSet params = resolve(specs, section.params(specs));
     section.done();
     return params;
   }
 
   void read_limits() {
-    const auto params = read_optional<LimitParams>(map_, "limits");
+    const auto params = make_params<LimitParams>(read_optional<LimitParams>(map_, "limits"));
     scenario_.limits = {params.seconds, params.memory_mib * 1024.0 * 1024.0};
   }
 
@@ -119,12 +120,10 @@ class ScenarioReader {
         map.require("kind", fmt::format("one of {}", fmt::join(module_names("trajectory"), ", ")));
     const std::string kind = map.text("kind", "a name");
     const auto entry = at_param(kind_node, [&] { return find_module("trajectory", kind); });
-    const auto odometry = read_optional<OdometryParams>(map, "odometry");
-    input.odometry_params = to_param_set(odometry);
-    input.odometry = odometry.noise();
-    const auto tilt = read_optional<TiltParams>(map, "tilt");
-    input.tilt_params = to_param_set(tilt);
-    input.tilt = tilt.tilt();
+    input.odometry_params = read_optional<sim::OdometryNoise>(map, "odometry");
+    input.odometry = make_params<sim::OdometryNoise>(input.odometry_params);
+    input.tilt_params = read_optional<sim::Tilt>(map, "tilt");
+    input.tilt = make_params<sim::Tilt>(input.tilt_params);
     ParamSpec sweep;
     sweep.name = "sweep";
     sweep.type = ParamType::boolean;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "core/number_text.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/yaml/writer.hpp"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/names.hpp"
 #include "core/number_text.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/yaml/reader.hpp"

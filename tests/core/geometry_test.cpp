@@ -1,4 +1,4 @@
-// Angles, segments and lines: identities on the circle and at the degenerate places.
+// Angles, segments and lines: identities on the circle and in degenerate cases.
 #include "core/geometry.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(Canonical, HasNonNegativeRhoAndOneFormThroughTheOrigin) {
   EXPECT_NEAR(canonical(0.0, -0.25).alpha, kPi - 0.25, 1e-15);
 }
 
-TEST(LineThrough, ContainsBothPointsAndLiesOnTheOriginsFarSide) {
+TEST(LineThrough, ContainsBothPointsAndHasTheOriginOnItsPositiveSide) {
   CounterRng rng(2, RngStream::pose);
   for (int i = 0; i < 1000; ++i) {
     const Vec2 a(rng.normal(), rng.normal());
@@ -80,6 +80,15 @@ TEST(DistanceToASegment, IsToItsEndsBeyondThemAndToItsLineBetween) {
   EXPECT_DOUBLE_EQ(distance({5, 4}, s), 5.0);
   EXPECT_DOUBLE_EQ(distance({-3, -4}, s), 5.0);
   EXPECT_DOUBLE_EQ(distance({3, 4}, Segment{{0, 0}, {0, 0}}), 5.0);
+}
+
+TEST(AngleBetween, IgnoresTheDirectionsOfTheSegments) {
+  const Segment s{{1, 1}, {3, 1}};
+  for (const double angle : {0.0, 0.4, kPi / 2}) {
+    const Vec2 d(std::cos(angle), std::sin(angle));
+    EXPECT_NEAR(angle_between(s, {{5, 5}, Vec2(5, 5) + d}), angle, 1e-15);
+    EXPECT_NEAR(angle_between({Vec2(5, 5) + d, {5, 5}}, s), angle, 1e-15);
+  }
 }
 
 TEST(SegmentDirection, OfASegmentWithoutLengthIsZero) {

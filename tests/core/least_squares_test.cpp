@@ -54,7 +54,7 @@ TEST(FitLine, MovesWithTheRigidMotionOfItsPoints) {
   EXPECT_NEAR(d.alpha, 0.0, 1e-12);
 }
 
-TEST(FitLine, SaysThatADirectionIsUndefined) {
+TEST(FitLine, ReportsAnUndefinedDirection) {
   EXPECT_TRUE(fit_line(std::vector<Vec2>{}).degenerate);
   EXPECT_TRUE(fit_line(std::vector<Vec2>{{1, 2}}).degenerate);
   EXPECT_TRUE(fit_line(std::vector<Vec2>{{1, 2}, {1, 2}, {1, 2}}).degenerate);

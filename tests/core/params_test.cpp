@@ -1,4 +1,4 @@
-// Parameters and registry: one list serves defaults, types, bounds, names and errors.
+// Parameters and registry: defaults, types, bounds, names and errors from one list.
 #include "core/params.hpp"
 
 #include <gmock/gmock.h>
@@ -6,6 +6,7 @@
 
 #include "core/number_text.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench {
 namespace {
@@ -58,7 +59,7 @@ TEST(Params, KeepTheirDefaultsAndTakeGivenValues) {
   EXPECT_EQ(params.angles.size(), 2u);
 }
 
-TEST(Params, SurviveTheWayThroughASet) {
+TEST(Params, AreTheSameAfterConversionToASetAndBack) {
   Complete params;
   params.threshold_m = 0.1 + 0.2;
   params.points = {{"B", {1, 2}}, {"A", {3, 4}}};
@@ -67,14 +68,13 @@ TEST(Params, SurviveTheWayThroughASet) {
   EXPECT_EQ(again.points, params.points);
 }
 
-TEST(Params, AcceptAWholeNumberWhereANumberIsAskedFor) {
+TEST(Params, AcceptAWholeNumberForANumber) {
   EXPECT_EQ(make_params<Complete>({{"threshold_m", std::int64_t{2}}}).threshold_m, 2.0);
 }
 
-TEST(Params, RefuseWithWhatWasFoundAndWhatIsAllowed) {
+TEST(Params, RefuseWithTheValueFoundAndTheValuesAllowed) {
   EXPECT_EQ(message({{"threshold_m", -1.0}}), "threshold_m is -1; allowed: a number > 0 m");
-  EXPECT_EQ(message({{"threshold_m", std::numeric_limits<double>::quiet_NaN()}}),
-            "threshold_m is nan; allowed: a number > 0 m");
+  EXPECT_EQ(message({{"threshold_m", kNaN}}), "threshold_m is nan; allowed: a number > 0 m");
   EXPECT_EQ(message({{"count", std::int64_t{10}}}), "count is 10; allowed: a whole number 1 .. 9");
   EXPECT_THAT(message({{"count", 2.5}}), HasSubstr("allowed: a whole number"));
   EXPECT_EQ(message({{"fit", std::string("lsq")}}), "fit is 'lsq'; allowed: end_points, tls");
@@ -87,11 +87,25 @@ TEST(Params, NameTheNearestKnownNameForAMisspeltOne) {
   EXPECT_THAT(message({{"zzzzzzzz", 0.1}}), HasSubstr("known: threshold_m, count"));
 }
 
+struct Turn {
+  double angle_rad = radians(10.0);
+  static auto fields() { return std::tuple{degrees_field("angle_deg", &Turn::angle_rad, between(0, 30), "an angle")}; }
+};
+
+TEST(Params, InDegreesAreInRadiansInside) {
+  const std::vector<ParamSpec> specs = param_specs<Turn>();
+  EXPECT_EQ(specs[0].unit, "deg");
+  EXPECT_NEAR(std::get<double>(specs[0].default_value), 10.0, 1e-14);
+  EXPECT_NEAR(make_params<Turn>({{"angle_deg", 30.0}}).angle_rad, kPi / 6, 1e-16);
+  EXPECT_THROW(make_params<Turn>({{"angle_deg", 31.0}}), ParamError);
+  EXPECT_EQ(resolve(specs, {{"angle_deg", 0.2}}), (ParamSet{{"angle_deg", 0.2}}));  // as written
+}
+
 TEST(NumberText, ReadsBackToTheSameNumber) {
   for (const double v : {0.1, 1.0 / 3, 1e-300, 123456789.123, -0.0}) EXPECT_EQ(*parse_number(number_text(v)), v);
 }
 
-TEST(NumberText, RefusesAllButPlainDecimalNumbers) {
+TEST(NumberText, RefusesEverythingButPlainDecimalNumbers) {
   for (const char* text : {"", "nan", "inf", "-inf", "0x10", "1,5", "1.5 ", " 1", "++1", "1e999", "one"})
     EXPECT_FALSE(parse_number(text)) << text;
   EXPECT_EQ(parse_number("+1.5e2"), 150.0);
@@ -132,11 +146,11 @@ TEST(Registry, NamesTheKnownModulesForAnUnknownOne) {
   }
 }
 
-TEST(Registry, RefusesANameTakenTwice) {
+TEST(Registry, RefusesANameThatIsTaken) {
   EXPECT_THROW(Registry<Animal>::add<Dog>({.name = "dog", .summary = "", .reference = ""}), InternalError);
 }
 
-TEST(Params, MessagesWriteBoundsAndFindingsWithoutExponents) {
+TEST(Params, MessagesWriteBoundsAndValuesWithoutExponents) {
   EXPECT_EQ(between(1, 1e6).describe(), "1 .. 1000000");
   EXPECT_EQ(above(1e-4).describe(), "> 0.0001");
   EXPECT_EQ(at_least(1e-9).describe(), ">= 1e-09");

@@ -13,7 +13,7 @@
 namespace scanbench {
 namespace {
 
-constexpr double kFloat = 1e-6;  // relative rounding of a 32-bit field, a few metres large
+constexpr double kFloat = 1e-6;  // rounding of a 32-bit field that holds a few metres
 
 LineFeature line_from(const Vec2& a, const Vec2& b, int points = 7) {
   LineFeature line;
@@ -23,7 +23,7 @@ LineFeature line_from(const Vec2& a, const Vec2& b, int points = 7) {
   return line;
 }
 
-TEST(PolygonSegment, HasTheLayoutThatIsDocumented) {
+TEST(PolygonSegment, HasTheDocumentedLayout) {
   EXPECT_EQ(offsetof(PolygonSegment, v1), 0U);
   EXPECT_EQ(offsetof(PolygonSegment, v2), 8U);
   EXPECT_EQ(offsetof(PolygonSegment, direction), 16U);
@@ -38,7 +38,7 @@ TEST(PolygonSegment, HasTheLayoutThatIsDocumented) {
   EXPECT_EQ(after, before);
 }
 
-TEST(PolygonSegment, OfAWallTwoMetresAheadIsThis) {
+TEST(PolygonSegment, OfAWallTwoMetresAheadHasTheseFields) {
   const PolygonSegment wall = polygon_segment(line_from({2, -1}, {2, 3}, 41));
   EXPECT_EQ(wall.v1, (std::array{2.0F, -1.0F}));
   EXPECT_EQ(wall.v2, (std::array{2.0F, 3.0F}));
@@ -80,7 +80,7 @@ TEST(PolygonSegment, KeepsSegmentAndLineOfAnySegment) {
   }
 }
 
-TEST(PolygonSegment, OfASinglePointHasNoDirectionAndItsRayForANormal) {
+TEST(PolygonSegment, OfASinglePointHasNoDirectionAndItsRayAsNormal) {
   LineFeature point;
   point.segment = {{3, 4}, {3, 4}};
   point.line = canonical(5.0, std::atan2(4.0, 3.0));
@@ -100,7 +100,7 @@ TEST(PolygonSegment, OnALineThroughTheOriginKeepsItsSegment) {
   EXPECT_NEAR(std::abs(r.oriented_distance({0, 1})), std::sqrt(0.5), kFloat);
 }
 
-TEST(PolygonOf, JoinsACornerInTheIntersectionOfItsLines) {
+TEST(PolygonOf, JoinsACornerAtTheIntersectionOfItsLines) {
   // x = 2 up to y = 1.9, then y = 2 from x = 1.9 on: the corner is (2, 2).
   const ScanLines scan{{line_from({2, -1}, {2, 1.9}), line_from({1.9, 2}, {-1, 2})}, {}};
   const auto polygon = polygon_of(scan);
@@ -113,7 +113,7 @@ TEST(PolygonOf, JoinsACornerInTheIntersectionOfItsLines) {
   EXPECT_EQ(polygon[0].distance, 2.0F);
 }
 
-TEST(PolygonOf, JoinsNearlyParallelNeighboursInTheMidpoint) {
+TEST(PolygonOf, JoinsNearlyParallelNeighboursAtTheMidpoint) {
   const ScanLines scan{{line_from({2, -1}, {2, 0}), line_from({2.1, 0}, {2.1, 1})}, {}};
   const auto polygon = polygon_of(scan);
   EXPECT_FLOAT_EQ(polygon[0].v2[0], 2.05F);
@@ -123,7 +123,7 @@ TEST(PolygonOf, JoinsNearlyParallelNeighboursInTheMidpoint) {
   EXPECT_NEAR(polygon[0].distance, (2 + 0.05) / std::hypot(0.05, 1.0), kFloat);
 }
 
-TEST(PolygonOf, LeavesNeighboursApartAcrossAGap) {
+TEST(PolygonOf, DoesNotJoinNeighboursAcrossAGap) {
   const ScanLines scan{{line_from({2, -1}, {2, 0}), line_from({2, 0.3}, {2, 1})}, {}};
   const auto polygon = polygon_of(scan);
   EXPECT_EQ(polygon[0], polygon_segment(scan.lines[0]));

@@ -1,19 +1,16 @@
-// The portable functions against long double, and their special values.
+// The portable functions compared with long double, and their special values.
 #include "core/portable_math.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "core/angles.hpp"
 #include "core/rng.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench {
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Distance in units in the last place of the exact value.
 double ulps(double value, long double exact) {

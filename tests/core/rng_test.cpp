@@ -10,8 +10,8 @@ namespace scanbench {
 namespace {
 
 TEST(CounterRng, IsPhilox4x32WithTenRounds) {
-  // Known answer of Random123's kat_vectors for a zero key and counter; ours differs in the stream's word only, so this
-  // constructs the zero stream.
+  // Known answer of Random123's kat_vectors for a zero key and a zero counter. The stream is one word of the counter,
+  // so the test needs a stream of number zero.
   CounterRng rng(0, static_cast<RngStream>(0), 0, 0);
   EXPECT_EQ(rng.bits(), 0x6627e8d5u);
   EXPECT_EQ(rng.bits(), 0xe169c58du);
@@ -35,7 +35,7 @@ TEST(CounterRng, SeparatesSeedsStreamsFramesAndBeams) {
   EXPECT_NE(base, CounterRng(3, RngStream::range, 7, 10).uniform());
 }
 
-TEST(CounterRng, UniformAndNormalHaveTheMomentsOfTheirNames) {
+TEST(CounterRng, UniformAndNormalDrawsHaveTheMomentsOfTheirDistributions) {
   constexpr int kN = 1000000;
   CounterRng rng(11, RngStream::range);
   double u1 = 0, u2 = 0, n1 = 0, n2 = 0, n4 = 0;

@@ -1,17 +1,15 @@
-// Scans as views: beam angles, valid returns, data-sheet noise.
+// Valid returns of a scan, its geometry, and the noise of a data sheet.
 #include "core/scan.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench {
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 TEST(ValidPoints, KeepTheBeamNumberOfEveryReturn) {
   SensorModel sensor;

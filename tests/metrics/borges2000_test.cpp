@@ -1,5 +1,6 @@
-// borges2000 against sums written out by hand.
+// borges2000 compared with sums written by hand.
 #include "core/rng.hpp"
+#include "core/special_values.hpp"
 #include "made_up.hpp"
 
 namespace scanbench::test {
@@ -45,7 +46,7 @@ TEST(Borges2000, AveragesOverTheScansWithALineAndPoolsErrorsOverTheValidOnes) {
 }
 
 TEST(Borges2000, ALineAcrossTwoWallsBelongsToTheMoreSimilarOneOnly) {
-  // 45 deg stands 45 deg from both directions; rho decides: |2.2 - 2| / 0.5 = 0.4 against |2.2 - 3| / 0.5 = 1.6.
+  // 45 deg differs by 45 deg from both walls; rho decides: |2.2 - 2| / 0.5 = 0.4 against |2.2 - 3| / 0.5 = 1.6.
   MadeUpRun run = six_beams(kTwoWalls, 1);
   add_line(run, 0, polar_line(2.2, 45), {3, 4, 5});
   const auto rows = evaluate("borges2000", run);
@@ -70,7 +71,7 @@ TEST(Borges2000, SimilarityScalesRhoByHalfAMetreAndAlphaByTwentyDegrees) {
   EXPECT_STREQ(winner(2.2), "b");  // 0.16
 }
 
-TEST(Borges2000, EquallySimilarWallsAreToldApartByTheirSupport) {
+TEST(Borges2000, BetweenEquallySimilarWallsTheSupportDecides) {
   MadeUpRun run = six_beams({{"a", {{2, 0}, {2, 1}}}, {"b", {{2, 1}, {2, 2}}}}, 2);
   add_line(run, 0, polar_line(2.0, 0), {3, 4, 5});     // one point of a, two of b
   add_line(run, 1, polar_line(2.0, 0), {2, 3, 4, 5});  // two of each: the lower index
@@ -82,13 +83,13 @@ TEST(Borges2000, EquallySimilarWallsAreToldApartByTheirSupport) {
 
 TEST(Borges2000, AWallThatTheLinesPointsDoNotComeFromIsNoCandidate) {
   MadeUpRun run = six_beams(kTwoWalls, 1);
-  add_line(run, 0, polar_line(3.0, 90), {0, 1});  // lies on north, but its points are east's
+  add_line(run, 0, polar_line(3.0, 90), {0, 1});  // is on north, but its points are on east
   const auto rows = evaluate("borges2000", run);
   expect_value(rows, "eta", "east", 0.0, 1);
   expect_undefined(rows, "n_lines", "north");
 }
 
-TEST(Borges2000, LinesOnNoWallAreSpuriousAndSinglePointsArePassedOver) {
+TEST(Borges2000, LinesOnNoWallAreSpuriousAndSinglePointsAreIgnored) {
   MadeUpRun run = make_run(ScanGeometry(0.0, 0.1, 6), kTwoWalls);
   add_frame(run, {}, std::vector<double>(6, 1.0), std::vector<std::int32_t>{0, 0, -1, -1, -1, 1});
   add_line(run, 0, polar_line(2, 0), {0, 1});
@@ -99,7 +100,7 @@ TEST(Borges2000, LinesOnNoWallAreSpuriousAndSinglePointsArePassedOver) {
   expect_value(rows, "spurious", "all", 1.0, 2);
   expect_value(rows, "n_lines", "east", 1.0, 1);
   expect_undefined(rows, "n_lines", "north");
-  expect_undefined(rows, "missed", "north");  // one point only: nobody could have found it
+  expect_undefined(rows, "missed", "north");  // a single point: no extractor can find the wall
 }
 
 TEST(Borges2000, LinesNearTheOriginAndAtTheSeamOfTheCircleAreNotDeclaredInvalid) {
@@ -118,7 +119,7 @@ TEST(Borges2000, LinesNearTheOriginAndAtTheSeamOfTheCircleAreNotDeclaredInvalid)
   expect_value(rows, "eps_alpha", "west", 1.0, 2);
 }
 
-TEST(Borges2000, ErrorsAreThoseOfTheWorldFrameUnlessTheSensorsIsAskedFor) {
+TEST(Borges2000, ErrorsAreInTheWorldFrameUnlessTheSensorFrameIsRequested) {
   // Seen from (0, 10) the wall x = 2 is (2, 0). A line (2, 1 deg) there is (2 + 10 sin 1 deg, 1 deg) in the world.
   MadeUpRun run = six_beams(kTwoWalls, 1, Pose2(0, 10, 0));
   add_line(run, 0, polar_line(2.0, 1), {0, 1});
@@ -130,11 +131,11 @@ TEST(Borges2000, ErrorsAreThoseOfTheWorldFrameUnlessTheSensorsIsAskedFor) {
 
 TEST(Borges2000, LostReturnsDoNotMakeAWallMissed) {
   MadeUpRun run = six_beams(kTwoWalls, 1);
-  for (const std::size_t i : {0, 1, 2}) run.observed.frames[0].ranges[i] = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : {0, 1, 2}) run.observed.frames[0].ranges[i] = kInf;
   expect_undefined(evaluate("borges2000", run), "missed", "east");  // one return of four
 }
 
-TEST(Borges2000, WhateverTheLinesTheMeasuresStayWithinTheirBounds) {
+TEST(Borges2000, TheMeasuresOfRandomLinesStayWithinTheirBounds) {
   MadeUpRun run = six_beams(kTwoWalls, 200);
   CounterRng rng(7, RngStream::resampling);
   for (std::size_t f = 0; f < 200; ++f) {
@@ -153,7 +154,7 @@ TEST(Borges2000, WhateverTheLinesTheMeasuresStayWithinTheirBounds) {
     EXPECT_GE(r.value, r.metric == "n_lines" ? 1.0 : 0.0) << r.metric;
     EXPECT_LE(r.value, limit) << r.metric;
   }
-  EXPECT_LT(row(rows, "eta", "mean").value, 0.5);  // the lines are random: the bounds were put to a test
+  EXPECT_LT(row(rows, "eta", "mean").value, 0.5);  // the lines are random, so most are invalid
 }
 
 TEST(Borges2000, WithoutLinesOrFramesEveryRowIsThereAndUndefined) {
@@ -171,7 +172,7 @@ TEST(Borges2000, DoesNotApplyWithoutTruth) {
   EXPECT_FALSE(family("borges2000")->applies(run.input_without_truth()));
 }
 
-TEST(Borges2000, WallsWithoutALabelOfTheirOwnAreToldApartByIndex) {
+TEST(Borges2000, WallsWithoutALabelOfTheirOwnGetTheirIndex) {
   const MadeUpRun run = six_beams({{"w", {{2, 0}, {2, 1}}}, {"w", {{3, 0}, {3, 1}}}, {"", {{4, 0}, {4, 1}}}}, 1);
   const auto rows = evaluate("borges2000", run);
   for (const char* subject : {"w#0", "w#1", "#2"}) expect_undefined(rows, "n_lines", subject);

@@ -1,9 +1,12 @@
-// efficiency: the bound against numerical derivatives and a Monte-Carlo maximum-likelihood estimate, errors by hand.
+// efficiency: the bound compared with numerical derivatives and with a Monte-Carlo maximum-likelihood estimate; errors
+// computed by hand.
 #include <algorithm>
 
 #include <Eigen/LU>
 
+#include "core/index.hpp"
 #include "core/rng.hpp"
+#include "core/special_values.hpp"
 #include "made_up.hpp"
 #include "metrics/chi_square.hpp"
 #include "metrics/line_bound.hpp"
@@ -16,8 +19,8 @@ using metrics::chi_square_quantile;
 using metrics::join_walls;
 using metrics::line_bound;
 
-/// 41 beams over 40 deg on the wall (2 m, 30 deg), off its foot, so that offset and angle are correlated everywhere
-/// else but in the middle.
+/// 41 beams over 40 deg on the wall (2 m, 30 deg), beside its foot, so that offset and angle are correlated everywhere
+/// except in the middle.
 const PolarLine kWall{2.0, radians(30)};
 const ScanGeometry kFan(radians(40), radians(1), 41);
 
@@ -52,7 +55,7 @@ TEST(LineBound, IsTheInverseInformationFromNumericalDerivatives) {
   noise.quantum_m = 0.01;
   noise.bearing_sigma_rad = radians(0.1);
   MadeUpRun run = fan(noise);
-  run.observed.frames[0].ranges[7] = std::numeric_limits<double>::infinity();
+  run.observed.frames[0].ranges[7] = kInf;
   const auto truth = only_true_line(run);
 
   const double h = 1e-6;
@@ -85,7 +88,7 @@ TEST(LineBound, IsTheInverseInformationFromNumericalDerivatives) {
 }
 
 TEST(LineBound, OfAWallStraightAheadIsThatOfTheMeanOfItsReadings) {
-  // For beams close to the normal the offset is the mean of n readings: sigma^2 / n.
+  // For beams close to the normal the offset is the mean of n readings, so its variance is sigma^2 / n.
   SensorNoise noise;
   noise.sigma_m = 0.01;
   MadeUpRun run = make_run(ScanGeometry(radians(-1), radians(0.1), 21), {{"w", {{30, -9}, {30, 9}}}});
@@ -114,7 +117,7 @@ PolarLine most_likely_line(const std::vector<double>& ranges) {
       const double delta = kFan.angle(i) - x[1];
       const Eigen::Vector2d g(1 / std::cos(delta), -x[0] * std::sin(delta) / std::pow(std::cos(delta), 2));
       a += g * g.transpose();
-      b += g * (ranges[static_cast<std::size_t>(i)] - x[0] / std::cos(delta));
+      b += g * (ranges[as_index(i)] - x[0] / std::cos(delta));
     }
     x += a.inverse() * b;
   }
@@ -191,8 +194,8 @@ TEST(Efficiency, LinesOfTooFewBeamsDoNotCount) {
 }
 
 TEST(Nees, TakesTheErrorAtTheFoundLinesMidpointWithTheSignsOfItsNormal) {
-  // Wall x = 2. The found line is turned counter-clockwise by atan(0.01) about (2, 0): at its midpoint, y = 1, it
-  // stands at x = 2 - 0.01, which is 0.01 cos(angle) nearer along its normal.
+  // The wall is x = 2. The found line is rotated counter-clockwise by atan(0.01) about (2, 0): at its midpoint, y = 1,
+  // it is at x = 2 - 0.01, which is 0.01 cos(angle) nearer along its normal.
   SensorNoise noise;
   noise.sigma_m = 0.02;
   MadeUpRun run = make_run(ScanGeometry(radians(-45), radians(1), 91), {{"wall", {{2, -5}, {2, 5}}}});
@@ -224,9 +227,9 @@ TEST(Nees, IsFiniteAndRightWhenTheLinePassesTheSensorOnTheOtherSide) {
   EXPECT_NEAR(row(evaluate("efficiency", run), "nees").value, 0.02 * 0.02 / 1e-4, 1e-9);
 }
 
-TEST(ChiSquare, QuantilesAreThoseOfTheTables) {
-  EXPECT_NEAR(chi_square_quantile(0.975, 1), -2 * std::log(0.025), 1e-8);
-  EXPECT_NEAR(chi_square_quantile(0.025, 1), -2 * std::log(0.975), 1e-10);
+TEST(ChiSquare, QuantilesAreThoseOfPublishedTables) {
+  EXPECT_NEAR(chi_square_quantile(0.975, 1), -2 * std::log(0.025), 1e-12);
+  EXPECT_NEAR(chi_square_quantile(0.025, 1), -2 * std::log(0.975), 1e-13);
   EXPECT_NEAR(chi_square_quantile(0.025, 10), 9.59078, 1e-5);
   EXPECT_NEAR(chi_square_quantile(0.975, 10), 34.16961, 1e-5);
   EXPECT_NEAR(chi_square_quantile(0.025, 50), 74.22193, 1e-5);
@@ -246,7 +249,7 @@ TEST(Efficiency, NeedsTruthAndGivesAllRowsForAnEmptyRun) {
   for (const auto& r : rows) expect_undefined(rows, r.metric);
 }
 
-TEST(Efficiency, WritesMatchesWhenAskedTo) {
+TEST(Efficiency, WritesMatchesOnRequest) {
   SensorNoise noise;
   noise.sigma_m = 0.02;
   MadeUpRun run = fan(noise, 2);
@@ -266,7 +269,7 @@ TEST(Efficiency, WritesMatchesWhenAskedTo) {
   const auto value = [&](std::string_view column) {
     const auto found = std::ranges::find(tables[0].columns, column);
     EXPECT_NE(found, tables[0].columns.end()) << column;
-    return tables[0].rows[0][static_cast<std::size_t>(found - tables[0].columns.begin())];
+    return tables[0].rows[0][as_index(found - tables[0].columns.begin())];
   };
   EXPECT_EQ(value("frame"), 1);
   EXPECT_EQ(value("line"), 1);

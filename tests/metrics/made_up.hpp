@@ -1,8 +1,7 @@
-// Small worlds for the tests of metrics: scans by brute force, lines written by hand or taken from the truth.
+// Small worlds for the tests of metrics: scans cast by brute force, lines by hand or from the truth.
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,9 +10,11 @@
 
 #include <gtest/gtest.h>
 
+#include "core/index.hpp"
 #include "core/recording.hpp"
 #include "core/registry.hpp"
 #include "core/result.hpp"
+#include "core/special_values.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::test {
@@ -54,7 +55,7 @@ inline void cast_frame(MadeUpRun& run, const Pose2& world_from_sensor) {
   std::vector<std::int32_t> ids;
   for (int i = 0; i < geometry.beams(); ++i) {
     const Vec2 d = world_from_sensor.rotate(geometry.direction(i));
-    ranges.push_back(std::numeric_limits<double>::infinity());
+    ranges.push_back(kInf);
     ids.push_back(-1);
     for (std::size_t w = 0; w < run.truth.walls.size(); ++w) {
       const Segment& s = run.truth.walls[w].segment;
@@ -84,7 +85,7 @@ inline LineFeature line_between(const Vec2& a, const Vec2& b) {
 /// Appends a line supported by the given beams to a frame; returns it for changes.
 inline LineFeature& add_line(MadeUpRun& run, std::size_t frame, LineFeature line, const std::vector<int>& beams) {
   ScanLines& lines = run.result.lines[frame];
-  for (const int beam : beams) lines.labels[static_cast<std::size_t>(beam)] = static_cast<int>(lines.lines.size());
+  for (const int beam : beams) lines.labels[as_index(beam)] = static_cast<int>(lines.lines.size());
   line.points = static_cast<int>(beams.size());
   if (!beams.empty()) {
     line.first_beam = beams.front();
@@ -103,8 +104,8 @@ inline LineFeature polar_line(double rho, double alpha_deg) {
 /// Finds every maximal run of two or more beams of one wall as one exact line.
 inline void find_all_lines(MadeUpRun& run, std::size_t frame) {
   const Scan scan = run.observed.scan(frame);
-  const auto beams = static_cast<std::size_t>(scan.beams());
-  const auto id = [&](int i) { return run.truth.wall_ids[frame * beams + static_cast<std::size_t>(i)]; };
+  const auto beams = as_index(scan.beams());
+  const auto id = [&](int i) { return run.truth.wall_ids[frame * beams + as_index(i)]; };
   for (int begin = 0, end = 0; begin < scan.beams(); begin = end) {
     std::vector<int> members;
     for (end = begin; end < scan.beams() && id(end) == id(begin); ++end) members.push_back(end);

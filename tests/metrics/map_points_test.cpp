@@ -1,4 +1,5 @@
-// map_points by hand.
+// map_points compared with values computed by hand.
+#include "core/special_values.hpp"
 #include "made_up.hpp"
 
 namespace scanbench::test {
@@ -43,7 +44,7 @@ TEST(MapPoints, PointsAndLinesArePlacedByTheEstimatedPoses) {
 
 TEST(MapPoints, CompressionCountsNumbersAndBytes) {
   MadeUpRun run = cross_run({});
-  run.observed.frames[0].ranges[3] = std::numeric_limits<double>::infinity();
+  run.observed.frames[0].ranges[3] = kInf;
   run.result.map.lines = {map_line({1, -1}, {1, 1}), map_line({0, 0}, {1, 0})};
   const auto rows = evaluate("map_points", run);
   expect_value(rows, "compression", "all", 3.0 * 2 / (2.0 * 4), 2);
@@ -63,7 +64,7 @@ TEST(MapPoints, WithoutAMapOrLinesTheDistancesAreUndefined) {
   expect_undefined(rows, "D_M");
 }
 
-TEST(MapPoints, ClustersAreCountedByTheirLinesAndDroppedLinesAreOfNone) {
+TEST(MapPoints, CountsClustersByTheirLinesAndIgnoresDroppedLines) {
   MadeUpRun run = cross_run({});
   for (const char* metric : {"clusters1", "clusters2"}) expect_undefined(evaluate("map_points", run), metric);
   run.result.merge_labels = {{0, 0, 4, 7, 0}, {0, 1, 4, 8, 0}, {0, 2, 6, 9, 1}, {0, 3, -1, -1, -1}};
@@ -72,9 +73,9 @@ TEST(MapPoints, ClustersAreCountedByTheirLinesAndDroppedLinesAreOfNone) {
   expect_value(rows, "clusters2", "all", 3, 0);
 }
 
-TEST(MapPoints, OfLinesWithoutScansThereIsNothingToCompress) {
+TEST(MapPoints, CompressionOfLinesWithoutScansIsUndefined) {
   MadeUpRun run = cross_run({});
-  for (double& range : run.observed.frames[0].ranges) range = std::numeric_limits<double>::infinity();
+  for (double& range : run.observed.frames[0].ranges) range = kInf;
   run.result.map.lines = {map_line({1, -1}, {1, 1})};
   const auto rows = evaluate("map_points", run);
   for (const char* metric : {"compression", "compression_bytes"}) expect_undefined(rows, metric);

@@ -1,13 +1,9 @@
-// map_truth by hand, and its geometry against sampling.
-#include "core/rng.hpp"
+// map_truth compared with values computed by hand.
+#include "core/special_values.hpp"
 #include "made_up.hpp"
-#include "metrics/intervals.hpp"
 
 namespace scanbench::test {
 namespace {
-
-using metrics::Interval;
-using metrics::part_near;
 
 /// Walls without scans, all of them visible, and a map.
 MadeUpRun map_of(std::vector<Wall> walls, const std::vector<Segment>& lines) {
@@ -26,13 +22,13 @@ TEST(MapTruth, APerfectMapIsPerfect) {
   const auto rows = evaluate("map_truth", map_of(kCorner, {{{4, 0}, {0, 0}}, {{4, 0}, {4, 3}}}));
   for (const char* metric : {"covered_5cm", "covered_10cm", "true_share_5cm", "true_share_10cm", "lines_per_wall"})
     expect_value(rows, metric, "all", 1.0, 2);
-  for (const char* metric : {"duplicates", "fragments", "over_merged", "unassigned", "map_offset", "map_angle"})
+  for (const char* metric : {"duplicates", "fragments", "unassigned", "map_offset", "map_angle"})
     expect_value(rows, metric, "all", 0.0, 2);
   expect_value(rows, "visible_m", "all", 7.0, 2);
 }
 
-TEST(MapTruth, CoverageReachesPastTheEndsByWhatTheDistanceLeaves) {
-  // A line 3 cm beside a, from x = 1 to 3: within 5 cm of it lies the wall from 1 - 0.04 to 3 + 0.04.
+TEST(MapTruth, CoverageExtendsPastTheEndsOfALine) {
+  // A line 3 cm beside a, from x = 1 to 3: the wall from 1 - 0.04 to 3 + 0.04 is within 5 cm of it.
   const auto rows = evaluate("map_truth", map_of(kCorner, {{{1, 0.03}, {3, 0.03}}}));
   expect_value(rows, "covered_5cm", "all", 2.08 / 7, 2);
   expect_value(rows, "covered_10cm", "all", (2 + 2 * std::sqrt(0.01 - 0.0009)) / 7, 2);
@@ -50,7 +46,7 @@ TEST(MapTruth, ALineAcrossAWallCoversNothingAndIsTrueOnlyWhereTheyCross) {
   expect_undefined(rows, "map_offset");
 }
 
-TEST(MapTruth, TellsDuplicatesFromFragments) {
+TEST(MapTruth, DistinguishesDuplicatesFromFragments) {
   // Wall a as [0, 2.5] and [2.5, 4], and once more [0.5, 1.5]; b as a whole.
   const auto rows = evaluate(
       "map_truth",
@@ -71,24 +67,83 @@ TEST(MapTruth, WallsThatContinueEachOtherMayShareALine) {
   const std::vector<Wall> walls{{"left", {{0, 0}, {2, 0}}}, {"right", {{2, 0}, {4, 0}}}};
   const auto joined = evaluate("map_truth", map_of(walls, {{{0, 0}, {4, 0}}}));
   expect_value(joined, "lines_per_wall", "all", 1.0, 1);
-  expect_value(joined, "over_merged", "all", 0.0, 1);
   expect_value(joined, "covered_5cm", "all", 1.0, 1);
   const auto apart = evaluate("map_truth", map_of(walls, {{{0, 0}, {2, 0}}, {{2, 0}, {4, 0}}}));
   expect_value(apart, "fragments", "all", 1.0, 2);
 }
 
-TEST(MapTruth, OverMergingIsOneLineForTwoWallsOnDifferentLines) {
-  const auto over_merged = [](double distance) {
-    const std::vector<Wall> walls{{"near", {{0, 0}, {4, 0}}}, {"far", {{0, distance}, {4, distance}}}};
-    return row(evaluate("map_truth", map_of(walls, {{{0, distance / 2}, {4, distance / 2}}})), "over_merged").value;
-  };
-  EXPECT_EQ(over_merged(0.18), 1);
-  EXPECT_EQ(over_merged(0.14), 0);
-  // Collinear with a gap: no over-merging, but 1 m of the map is false where a door stands.
+TEST(MapTruth, TheGapThatALineFillsIsFalse) {
+  // Collinear walls with a gap: 1 m of the map is across the door, of which 5 cm at each side are near a wall.
   const std::vector<Wall> corridor{{"left", {{0, 0}, {2, 0}}}, {"right", {{3, 0}, {5, 0}}}};
   const auto rows = evaluate("map_truth", map_of(corridor, {{{0, 0}, {5, 0}}}));
-  expect_value(rows, "over_merged", "all", 0.0, 1);
   expect_value(rows, "true_share_5cm", "all", (5 - (1 - 2 * 0.05)) / 5, 1);
+}
+
+/// A run of one frame without beams and one map line, into which all lines of the frame were merged.
+MadeUpRun merged_into_one(std::vector<Wall> walls, const std::vector<Segment>& members, const Segment& line) {
+  MadeUpRun run = map_of(std::move(walls), {line});
+  run.observed.frames.emplace_back();
+  run.truth.world_from_sensor.emplace_back();
+  run.result.lines.emplace_back();
+  for (const Segment& s : members) {
+    run.result.merge_labels.push_back({.frame = 0, .line = static_cast<int>(run.result.merge_labels.size())});
+    run.result.merge_labels.back().map_line = 0;
+    run.result.lines[0].lines.push_back(line_between(s.a, s.b));
+  }
+  return run;
+}
+
+double over_merged(const MadeUpRun& run) {
+  return row(evaluate("map_truth", run), "over_merged").value;
+}
+
+TEST(MapTruth, ALineHalfwayBetweenTwoWallsIsOverMergedHoweverFarTheyAreApart) {
+  const auto between_walls = [](double gap) {
+    const Segment front{{0, 0}, {4, 0}};
+    const Segment back{{0, gap}, {4, gap}};
+    return over_merged(
+        merged_into_one({{"front", front}, {"back", back}}, {front, back}, {{0, gap / 2}, {4, gap / 2}}));
+  };
+  for (const double gap : {0.16, 0.18, 0.30, 1.0}) EXPECT_EQ(between_walls(gap), 1) << gap;
+  EXPECT_EQ(between_walls(0.14), 0);
+}
+
+TEST(MapTruth, OverMergingNeedsAFifthOfTheMembersFromEachWall) {
+  const Segment front{{0, 0}, {4, 0}};
+  const Segment back{{0, 0.3}, {4, 0.3}};
+  std::vector<Segment> members{front, front, front, front, back};  // one of five
+  EXPECT_EQ(over_merged(merged_into_one({{"front", front}, {"back", back}}, members, front)), 1);
+  members.push_back(front);  // one of six
+  EXPECT_EQ(over_merged(merged_into_one({{"front", front}, {"back", back}}, members, front)), 0);
+}
+
+TEST(MapTruth, CollinearWallsMayShareALineAndWallsAtACornerMayNot) {
+  const Segment left{{0, 0}, {2, 0}};
+  const Segment right{{3, 0}, {5, 0}};
+  const Segment up{{3, 0}, {3, 2}};
+  EXPECT_EQ(over_merged(merged_into_one({{"left", left}, {"right", right}}, {left, right}, {{0, 0}, {5, 0}})), 0);
+  EXPECT_EQ(over_merged(merged_into_one({{"left", left}, {"up", up}}, {left, up}, {{0, 0}, {3, 1}})), 1);
+}
+
+TEST(MapTruth, TheBeamsOfAMemberSayWhichWallItIsOn) {
+  // Beams 0 to 3 see the near wall, 4 to 7 the far one, 8 neither.
+  MadeUpRun run = make_run(ScanGeometry(0.0, 0.1, 9), {{"near", {{1, -9}, {1, 9}}}, {"far", {{1.5, -9}, {1.5, 9}}}});
+  add_frame(run, {}, std::vector<double>(9, 1.0), std::vector<std::int32_t>{0, 0, 0, 0, 1, 1, 1, 1, -1});
+  run.result.has_map = true;
+  run.result.map.lines.resize(1);
+  run.result.map.lines[0].segment = {{1, 0}, {1, 1}};
+  // Both lines are nearest to the near wall; the second one has most of its beams on the far wall.
+  add_line(run, 0, line_between({1, 0}, {1, 1}), {0, 1, 2});
+  add_line(run, 0, line_between({1, 0}, {1, 1}), {3, 4, 5, 8});
+  run.result.merge_labels = {{.frame = 0, .line = 0, .map_line = 0}, {.frame = 0, .line = 1, .map_line = 0}};
+  EXPECT_EQ(over_merged(run), 1);
+  run.result.merge_labels[1].map_line = -1;  // dropped
+  EXPECT_EQ(over_merged(run), 0);
+}
+
+TEST(MapTruth, OverMergingIsUndefinedWithoutMembers) {
+  expect_undefined(evaluate("map_truth", map_of(kCorner, {{{0, 0}, {4, 0}}})), "over_merged");
+  expect_value(evaluate("map_truth", map_of(kCorner, {})), "over_merged", "all", 0.0, 0);
 }
 
 /// The wall y = 0 from x = -5 to 5, seen from 1 m above (0.5, 0) over 90 deg: x = -0.5 .. 1.5.
@@ -120,7 +175,7 @@ TEST(MapTruth, OnlyWhatWasSeenOftenEnoughCounts) {
 
 TEST(MapTruth, LostReturnsMakeNothingVisible) {
   MadeUpRun run = seen_from_above(0.1);
-  for (double& r : run.observed.frames[0].ranges) r = std::numeric_limits<double>::infinity();
+  for (double& r : run.observed.frames[0].ranges) r = kInf;
   expect_value(evaluate("map_truth", run), "visible_m", "all", 0.0, 0);
 }
 
@@ -154,44 +209,6 @@ TEST(MapTruth, NeedsTruthAndAMap) {
   EXPECT_TRUE(family("map_truth")->applies(no_slot_makes_one.input()));  // an empty map covers nothing: a zero
   no_slot_makes_one.result.has_map = false;
   EXPECT_FALSE(family("map_truth")->applies(no_slot_makes_one.input()));
-}
-
-TEST(PartNear, IsTheIntervalThatSamplingFinds) {
-  CounterRng rng(5, RngStream::resampling);
-  const auto point = [&] { return Vec2(3 * rng.uniform(), 3 * rng.uniform()); };
-  int found = 0;
-  for (int trial = 0; trial < 300; ++trial) {
-    const Segment probe{point(), point()};
-    const Segment target{point(), trial % 3 == 0 ? point() : Vec2(probe.b + 0.1 * point())};
-    const double d = 0.5 * rng.uniform();
-    constexpr int kSamples = 2000;
-    Interval sampled{1e9, -1e9};
-    for (int i = 0; i <= kSamples; ++i) {
-      const double t = probe.length() * i / kSamples;
-      if (distance(probe.a + t * probe.direction(), target) > d) continue;
-      sampled.low = std::min(sampled.low, t);
-      sampled.high = std::max(sampled.high, t);
-    }
-    const auto part = part_near(probe, target, d);
-    const double step = probe.length() / kSamples;
-    if (sampled.high < sampled.low) {
-      EXPECT_LE(part ? part->length() : 0.0, 1.001 * step);
-      continue;
-    }
-    ++found;
-    ASSERT_TRUE(part.has_value());
-    EXPECT_NEAR(part->low, sampled.low, 1.001 * step);
-    EXPECT_NEAR(part->high, sampled.high, 1.001 * step);
-  }
-  EXPECT_GT(found, 100);
-}
-
-TEST(Intervals, UniteAndIntersect) {
-  const auto united = metrics::unite({{3, 4}, {0, 1}, {0.5, 2}, {2, 2}, {4, 5}});
-  ASSERT_EQ(united.size(), 2u);
-  EXPECT_EQ(metrics::total_length(united), 2.0 + 2.0);
-  EXPECT_EQ(metrics::unite({{0, 1}, {1.2, 2}}, 0.3).size(), 1u);
-  EXPECT_DOUBLE_EQ(metrics::common_length(united, {{1.5, 3.5}, {4.5, 9}}), 0.5 + 0.5 + 0.5);
 }
 
 }  // namespace

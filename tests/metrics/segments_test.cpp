@@ -1,4 +1,6 @@
-// segments: perfect lines, and small errors whose price follows by arithmetic.
+// segments: perfect lines, and small errors whose effect follows by arithmetic.
+#include "core/index.hpp"
+#include "core/special_values.hpp"
 #include "made_up.hpp"
 #include "metrics/line_matching.hpp"
 
@@ -29,7 +31,7 @@ std::vector<int> beams_of(const MadeUpRun& run, int wall) {
 }
 
 Vec2 true_point(const MadeUpRun& run, int beam) {
-  return run.truth.ranges[static_cast<std::size_t>(beam)] * run.observed.sensor.geometry.direction(beam);
+  return run.truth.ranges[as_index(beam)] * run.observed.sensor.geometry.direction(beam);
 }
 
 TEST(Segments, PerfectLinesScorePerfectly) {
@@ -55,7 +57,8 @@ TEST(Segments, CountsOneOfEachKind) {
     const Vec2 a = true_point(run, beams.front());
     return Vec2(a + share * (true_point(run, beams.back()) - a));
   };
-  // South in two pieces of 60 % and 40 %, east as a whole, a line through the room, a short piece, north and west not.
+  // South in two pieces of 60 % and 40 %, east as a whole, a line through the room, a short piece; no line on north and
+  // west.
   add_line(run, 0, line_between(at(south, 0.0), at(south, 0.6)), {});
   add_line(run, 0, line_between(at(south, 0.6), at(south, 1.0)), {});
   add_line(run, 0, line_between(at(east, 0.0), at(east, 1.0)), {});
@@ -73,7 +76,7 @@ TEST(Segments, CountsOneOfEachKind) {
   expect_value(rows, "overlap", "all", (0.6 + 1.0) / 2, 2);
 }
 
-TEST(Segments, RightLinesOnPiecesTooSmallToCountAreFalseAndSaidToBeSmall) {
+TEST(Segments, CorrectLinesOnPiecesTooSmallToCountAreFalseAndCountedAsSmall) {
   // A wall, and 0.45 m of another one, 1 m apart in depth.
   MadeUpRun run = make_run(ScanGeometry(radians(10), radians(0.5), 320),
                            {{"wall", {{0.0, 2.5}, {-2.0, 2.5}}}, {"post", {{0.95, 1.5}, {0.5, 1.5}}}});
@@ -95,7 +98,7 @@ TEST(Segments, ErrorsAreRootMeanSquaresAtTheFoundLinesMidpoint) {
   const auto north = beams_of(run, 2);
   const Vec2 up(0, 0.03);
   add_line(run, 0, line_between(true_point(run, south.front()) + up, true_point(run, south.back()) + up), {});
-  // North turned by 2 deg about its midpoint and moved by 4 cm.
+  // North rotated by 2 deg about its midpoint and moved by 4 cm.
   const Vec2 middle = 0.5 * (true_point(run, north.front()) + true_point(run, north.back())) + Vec2(0, 0.04);
   const Vec2 half = Pose2(0, 0, radians(2)).rotate({-2.5, 0});
   add_line(run, 0, line_between(middle - half, middle + half), {});
@@ -134,7 +137,8 @@ TEST(Segments, OneLineOverTwoWallsIsMergedTrueForTheLongerOverlapAndMissesTheOth
   expect_value(rows, "merged", "all", 1.0, 1);
   expect_value(rows, "n_missed", "all", 1, 2);
   expect_value(rows, "precision", "all", 1.0, 1);
-  EXPECT_NEAR(row(rows, "overlap").value, 2.0 / 3.6, 0.02);  // the ends of the true line lie up to a beam inside
+  EXPECT_NEAR(row(rows, "overlap").value, 2.0 / 3.6,
+              0.02);  // the ends of the true line are up to a beam inside those of the wall
 }
 
 TEST(Segments, WallsThatContinueEachOtherAreOneTrueLine) {
@@ -151,7 +155,7 @@ TEST(Segments, WallsThatContinueEachOtherAreOneTrueLine) {
 TEST(Segments, LostReturnsDoNotCutATrueLineButABodyInFrontDoes) {
   MadeUpRun run = make_run(ScanGeometry(radians(45), radians(1), 91), {{"north", {{5, 2}, {-5, 2}}}});
   cast_frame(run, {});
-  for (std::size_t i = 0; i < 91; i += 4) run.observed.frames[0].ranges[i] = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 91; i += 4) run.observed.frames[0].ranges[i] = kInf;
   expect_value(evaluate("segments", run), "n_missed", "all", 1, 1);
   for (std::size_t i = 40; i < 50; ++i) run.truth.wall_ids[i] = -1;
   expect_value(evaluate("segments", run), "n_missed", "all", 2, 2);
@@ -167,7 +171,7 @@ TEST(Segments, TrueLinesHaveAtLeastNineReturnsAndHalfAMetre) {
     MadeUpRun run =
         make_run(ScanGeometry(radians(90 - 0.5 * (beams - 1)), radians(1), beams), {{"n", {{5, 4}, {-5, 4}}}});
     cast_frame(run, {});
-    for (int i = 0; i < lost; ++i) run.observed.frames[0].ranges[static_cast<std::size_t>(2 + i)] = 0.0;
+    for (int i = 0; i < lost; ++i) run.observed.frames[0].ranges[as_index(2 + i)] = 0.0;
     return row(evaluate("segments", run, params), "n_missed").value;
   };
   EXPECT_EQ(truths(9, {}), 1);

@@ -1,10 +1,11 @@
-// siadat1997 against sums written out by hand.
+// siadat1997 compared with sums written by hand.
+#include "core/special_values.hpp"
 #include "made_up.hpp"
 
 namespace scanbench::test {
 namespace {
 
-/// Frames of 7 beams whose points stand on x = 1 (beam 0 looks along x, further ones at 0.1 rad steps), moved outwards
+/// Frames of 7 beams whose points are on x = 1 (beam 0 looks along x, further ones at 0.1 rad steps), moved outwards
 /// along x by the given residuals.
 MadeUpRun points_near_x1(const std::vector<std::vector<double>>& residuals) {
   const ScanGeometry geometry(0.0, 0.1, 7);
@@ -19,12 +20,12 @@ MadeUpRun points_near_x1(const std::vector<std::vector<double>>& residuals) {
 }
 
 TEST(Siadat1997, ResidualsAreAveragedOverSegmentsFirstAndScansThen) {
-  const double out = std::numeric_limits<double>::quiet_NaN();
+  const double out = kNaN;
   MadeUpRun run = points_near_x1({{0.03, -0.01, 0.02, 0.08, -0.04, 0.0, 0.0}, {0.06, 0.0, 0.0, out, 0.0, 0.0, 0.0}});
   // Scan 0: |0.03|, |0.01|, |0.02| -> mean 0.02, max 0.03; two points -> 0, 0; two free points.
   add_line(run, 0, polar_line(1, 0), {0, 1, 2});
   add_line(run, 0, polar_line(1, 0), {3, 4});
-  // Scan 1: 0.06, 0, 0 -> mean 0.02, max 0.06; beam 3 has no return and is no point of its line: 1 point -> 0;
+  // Scan 1: 0.06, 0, 0 -> mean 0.02, max 0.06; beam 3 has no return, so its line has no point -> 0;
   // 3 points on the line -> 0.
   add_line(run, 1, polar_line(1, 0), {0, 1, 2});
   add_line(run, 1, polar_line(1, 0), {3});

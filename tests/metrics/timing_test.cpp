@@ -1,4 +1,4 @@
-// timing: sums and medians by hand.
+// timing compared with sums and medians computed by hand.
 #include "made_up.hpp"
 
 namespace scanbench::test {
@@ -6,7 +6,7 @@ namespace {
 
 TEST(Timing, IsTheMedianOverTheScansOfTheSumOfTheStagesOfExtraction) {
   MadeUpRun run;
-  // Scans of 3, 10 and 4 us; merging and what belongs to no scan do not count.
+  // Scans of 3, 10 and 4 us; merging and stages without a scan do not count.
   run.result.times = {{"pre", 0, 1e-6},     {"segment", 0, 2e-6},      {"pre", 1, 9e-6},  {"fit", 1, 1e-6},
                       {"extract", 2, 4e-6}, {"merge.cluster", 2, 5.0}, {"align", -1, 7.0}};
   const auto t = row(evaluate("timing", run), "t_scan");
@@ -17,7 +17,7 @@ TEST(Timing, IsTheMedianOverTheScansOfTheSumOfTheStagesOfExtraction) {
   EXPECT_NEAR(row(evaluate("timing", run), "t_scan").value, 5.0, 1e-9);
 }
 
-TEST(Timing, SaysNothingOfARunThatWasNotTimed) {
+TEST(Timing, DoesNotApplyToARunThatWasNotTimed) {
   MadeUpRun run;
   EXPECT_FALSE(family("timing")->applies(run.input()));
   run.result.times = {{"align", -1, 7.0}, {"merge.cluster", 0, 1.0}};

@@ -11,8 +11,8 @@
 
 namespace scanbench::testing {
 
-/// The lines of a scan without noise: one for each run of beams that hit the same wall, from the first point to the
-/// last.
+/// The lines of a scan without noise: one from the first to the last point of each run of beams that hit the same
+/// wall.
 inline ScanLines exact_lines(const OwnedScan& scan) {
   ScanLines result;
   result.labels.assign(scan.ranges.size(), -1);
@@ -35,7 +35,7 @@ inline ScanLines exact_lines(const OwnedScan& scan) {
   return result;
 }
 
-/// Scans that own what their observations look at.
+/// Owns the scans and lines that its observations refer to.
 class ScanSeries {
  public:
   void add(OwnedScan scan, ScanLines lines) {
@@ -45,7 +45,7 @@ class ScanSeries {
     ScanLines lines = exact_lines(scan);
     add(std::move(scan), std::move(lines));
   }
-  /// With lines by an extractor.
+  /// Adds a scan with the lines that an extractor finds.
   void add_extracted(OwnedScan scan, std::string_view extractor = "kovesi") {
     Trace silent;
     ScanLines lines = Registry<LineExtractor>::make(extractor)->extract(scan.view(), silent);

@@ -1,4 +1,4 @@
-// Running extractors in tests, and what random scans they run on.
+// Runs extractors in tests, on random scans among others.
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ inline OwnedScan random_scan(std::uint64_t seed) {
   return with_noise(cast(ring_sensor(361), random_room(seed)), sigma, seed);
 }
 
-/// The same scan seen in a mirror: beams in reverse order at mirrored angles, every point at (x, -y).
+/// The mirror image of a scan: beams in reverse order at mirrored angles, every point at (x, -y).
 inline OwnedScan mirrored(const OwnedScan& scan) {
   OwnedScan result = scan;
   const ScanGeometry& g = scan.sensor.geometry;

@@ -1,4 +1,4 @@
-// Running segment mergers in tests.
+// Runs segment mergers in tests.
 #pragma once
 
 #include <algorithm>
@@ -20,11 +20,11 @@ inline MapLine line(double x1, double y1, double x2, double y2) {
   return {.segment = {{x1, y1}, {x2, y2}}};
 }
 
-/// Largest distance of corresponding ends, whichever way round the segments are.
+/// Largest distance of corresponding ends, for the order of the ends that makes it smaller.
 inline double apart(const Segment& s, const Segment& t) {
   const double same = std::max((s.a - t.a).norm(), (s.b - t.b).norm());
-  const double turned = std::max((s.a - t.b).norm(), (s.b - t.a).norm());
-  return std::min(same, turned);
+  const double swapped = std::max((s.a - t.b).norm(), (s.b - t.a).norm());
+  return std::min(same, swapped);
 }
 
 }  // namespace scanbench::testing

@@ -1,3 +1,4 @@
+// Paths from the build's definitions and the environment.
 #include "tests/support/places.hpp"
 
 #include <cstdlib>

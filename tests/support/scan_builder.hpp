@@ -1,21 +1,20 @@
-// Scans for tests: sensors without noise models, walls cast by brute force, noise with its own seed.
+// Scans for tests: sensors without a noise model, walls cast by brute force, and noise with its own seed.
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/index.hpp"
 #include "core/rng.hpp"
 #include "core/scan.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench::testing {
 
-inline constexpr double kInf = std::numeric_limits<double>::infinity();
-inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-/// A scan that owns its sensor and ranges. ids[i] is the wall that beam i hit, -1 none (empty where nobody cast).
+/// A scan that owns its sensor and ranges. ids[i] is the wall that beam i hit, -1 for none; empty unless cast() made
+/// the scan.
 struct OwnedScan {
   SensorModel sensor;
   std::vector<double> ranges;
@@ -79,8 +78,8 @@ inline OwnedScan cast(const SensorModel& sensor, const std::vector<Segment>& wal
   return scan;
 }
 
-/// Gaussian noise along the beam, drawn per (seed, frame, beam), and the sensor told of it. Beams without a return
-/// stay so; a range that would become negative is a fault (NaN).
+/// Adds Gaussian noise along the beam, drawn per (seed, frame, beam), and states it in the sensor's model. Beams
+/// without a return stay without one; a range that would become negative is a fault (NaN).
 inline OwnedScan with_noise(OwnedScan scan, double sigma_m, std::uint64_t seed, std::uint32_t frame = 0) {
   scan.sensor.noise.sigma_m = sigma_m;
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
@@ -94,11 +93,11 @@ inline OwnedScan with_noise(OwnedScan scan, double sigma_m, std::uint64_t seed, 
 
 /// The same range for every beam.
 inline OwnedScan constant_scan(const SensorModel& sensor, double range) {
-  return {sensor, std::vector<double>(static_cast<std::size_t>(sensor.geometry.beams()), range), {}};
+  return {sensor, std::vector<double>(as_index(sensor.geometry.beams()), range), {}};
 }
 
 /// A random room: a box about the sensor with smaller boxes inside, none of which contains the sensor. The sensor
-/// stands at the origin.
+/// is at the origin.
 inline std::vector<Segment> random_room(std::uint64_t seed) {
   CounterRng rng(seed, RngStream::pose);
   const auto between = [&](double low, double high) { return low + (high - low) * rng.uniform(); };
@@ -116,7 +115,7 @@ inline std::vector<Segment> random_room(std::uint64_t seed) {
   return walls;
 }
 
-/// The same scene turned about the sensor by `angle`: the sensor's start angle moves, the ranges stay.
+/// The same scene rotated about the sensor by `angle`: only the sensor's start angle changes.
 inline OwnedScan turned(const OwnedScan& scan, double angle) {
   OwnedScan result = scan;
   const ScanGeometry& g = scan.sensor.geometry;

@@ -1,4 +1,4 @@
-// What must hold between a scan and the lines found in it, whatever the extractor (core/scan.hpp).
+// Checks what core/scan.hpp promises about a scan and the lines that any extractor finds in it.
 #pragma once
 
 #include <cmath>
@@ -6,11 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include "core/index.hpp"
 #include "core/modules.hpp"
 
 namespace scanbench::testing {
 
-/// Everything that core/scan.hpp promises of LineFeature and ScanLines.
+/// Expects everything that core/scan.hpp promises about LineFeature and ScanLines.
 inline void expect_consistent(const Scan& scan, const ScanLines& result) {
   ASSERT_EQ(result.labels.size(), scan.ranges.size());
   const int lines = static_cast<int>(result.lines.size());
@@ -18,12 +19,12 @@ inline void expect_consistent(const Scan& scan, const ScanLines& result) {
   std::vector<int> first(result.lines.size(), -1);
   std::vector<int> last(result.lines.size(), -1);
   for (int beam = 0; beam < scan.beams(); ++beam) {
-    const int label = result.labels[static_cast<std::size_t>(beam)];
+    const int label = result.labels[as_index(beam)];
     ASSERT_GE(label, -1);
     ASSERT_LT(label, lines);
     if (label < 0) continue;
     ASSERT_TRUE(scan.valid(beam)) << "beam " << beam << " has no return but supports line " << label;
-    const auto k = static_cast<std::size_t>(label);
+    const auto k = as_index(label);
     if (count[k]++ == 0) first[k] = beam;
     last[k] = beam;
   }
@@ -57,7 +58,7 @@ inline void expect_consistent(const Scan& scan, const ScanLines& result) {
   }
 }
 
-/// Bit for bit the same answer.
+/// Expects the same answer to the last bit.
 inline void expect_identical(const ScanLines& a, const ScanLines& b) {
   EXPECT_EQ(a.labels, b.labels);
   ASSERT_EQ(a.lines.size(), b.lines.size());
@@ -71,7 +72,7 @@ inline void expect_identical(const ScanLines& a, const ScanLines& b) {
   }
 }
 
-/// A trace that listens and keeps what it hears.
+/// A trace that records the stages and counts the rows.
 class ListeningTrace final : public Trace {
  public:
   bool recording() const override { return true; }

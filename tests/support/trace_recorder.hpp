@@ -1,4 +1,4 @@
-// A listener that keeps every row of an algorithm's journal.
+// Records every row of an algorithm's trace.
 #pragma once
 
 #include <map>

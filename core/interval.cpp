@@ -1,23 +1,32 @@
-// Intervals on a line.
-#include "metrics/intervals.hpp"
+// Sweeps over sorted intervals, and the intersection of a segment with the points near another one.
+#include "core/interval.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-namespace scanbench::metrics {
+#include "core/special_values.hpp"
+
+namespace scanbench {
 namespace {
 
 /// Cuts the interval down to where low <= value + slope * t <= high. False if nothing is left.
 bool clip(Interval& t, double value, double slope, double low, double high) {
   if (slope == 0) return value >= low && value <= high;
   const auto [first, last] = std::minmax({(low - value) / slope, (high - value) / slope});
-  t.low = std::max(t.low, first);
-  t.high = std::min(t.high, last);
+  t = intersection(t, {first, last});
   return t.low <= t.high;
 }
 
 }  // namespace
+
+Interval projection(const Segment& segment, const Vec2& origin, const Vec2& along) {
+  const auto [low, high] = std::minmax({along.dot(segment.a - origin), along.dot(segment.b - origin)});
+  return {low, high};
+}
+
+Interval intersection(const Interval& a, const Interval& b) {
+  return {std::max(a.low, b.low), std::min(a.high, b.high)};
+}
 
 std::vector<Interval> unite(std::vector<Interval> intervals, double gap) {
   std::ranges::sort(intervals, {}, &Interval::low);
@@ -32,16 +41,16 @@ std::vector<Interval> unite(std::vector<Interval> intervals, double gap) {
   return united;
 }
 
-double total_length(const std::vector<Interval>& united) {
+double total_length(std::span<const Interval> united) {
   double sum = 0.0;
   for (const Interval& i : united) sum += i.length();
   return sum;
 }
 
-double common_length(const std::vector<Interval>& a, const std::vector<Interval>& b) {
+double common_length(std::span<const Interval> a, std::span<const Interval> b) {
   double sum = 0.0;
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-    sum += std::max(0.0, std::min(a[i].high, b[j].high) - std::max(a[i].low, b[j].low));
+    sum += std::max(0.0, intersection(a[i], b[j]).length());
     if (a[i].high < b[j].high)
       ++i;
     else
@@ -53,7 +62,7 @@ double common_length(const std::vector<Interval>& a, const std::vector<Interval>
 std::optional<Interval> part_near(const Segment& probe, const Segment& target, double distance) {
   const Vec2 u = probe.direction();
   const Interval whole{0.0, probe.length()};
-  Interval near{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  Interval near{kInf, -kInf};
   const auto include = [&](const Interval& part) {
     near.low = std::min(near.low, part.low);
     near.high = std::max(near.high, part.high);
@@ -71,10 +80,9 @@ std::optional<Interval> part_near(const Segment& probe, const Segment& target, d
   if (clip(beside, v.dot(d), v.dot(u), 0.0, target.length()) &&
       clip(beside, cross(v, d), cross(v, u), -distance, distance))
     include(beside);
-  near.low = std::max(near.low, whole.low);
-  near.high = std::min(near.high, whole.high);
+  near = intersection(near, whole);
   if (!(near.high > near.low)) return std::nullopt;
   return near;
 }
 
-}  // namespace scanbench::metrics
+}  // namespace scanbench

@@ -1,0 +1,38 @@
+// Lists of names, and the name that a misspelt one means.
+#include "core/names.hpp"
+
+#include <gtest/gtest.h>
+
+namespace scanbench {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(Join, PutsTheSeparatorBetweenWordsOnly) {
+  EXPECT_EQ(join(Names{}), "");
+  EXPECT_EQ(join(Names{"a"}), "a");
+  EXPECT_EQ(join(Names{"a", "", "c"}), "a, , c");
+  EXPECT_EQ(join(Names{"a", "b"}, " / "), "a / b");
+}
+
+TEST(NearestName, HasAtMostTwoEditsOrAThirdOfTheLength) {
+  const Names known{"iepf", "sef", "line_tracking"};
+  EXPECT_EQ(nearest_name("ipf", known), "iepf");                     // one insertion
+  EXPECT_EQ(nearest_name("lien_tracking", known), "line_tracking");  // two substitutions
+  EXPECT_EQ(nearest_name("line_trak", known), "");                   // four insertions, three allowed for nine letters
+  EXPECT_EQ(nearest_name("line_tracki", known), "line_tracking");
+  EXPECT_EQ(nearest_name("zzzzzz", known), "");
+}
+
+TEST(NearestName, OfEquallyNearNamesIsTheFirst) {
+  EXPECT_EQ(nearest_name("b", {"ab", "bc"}), "ab");
+}
+
+TEST(KnownNames, EndsAMessage) {
+  EXPECT_EQ(known_names("ipf", {"iepf", "sef"}), "; did you mean 'iepf'? known: iepf, sef");
+  EXPECT_EQ(known_names("hough", {"iepf", "sef"}), "; known: iepf, sef");
+  EXPECT_EQ(known_names("hough", {}), "; known: none");
+}
+
+}  // namespace
+}  // namespace scanbench
