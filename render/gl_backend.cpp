@@ -1,17 +1,16 @@
 // Scene -> PNG through OSMesa, software OpenGL without a display. Anti-aliased by drawing each tile kOversample times
 // larger and averaging: smoothed GL lines differ between thread counts, plain triangles do not.
-#include <GL/gl.h>
-#include <GL/osmesa.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <mutex>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "render/osmesa.hpp"
 #include "render/png.hpp"
 #include "render/tessellate.hpp"
 
@@ -23,41 +22,42 @@ constexpr int kTile = 128;  // pixels of the picture; the buffer of 512 x 512 pi
 constexpr int kBuffer = kTile * kOversample;
 constexpr int kMostPixels = 20000;
 
-/// The process' one context: the first costs 20 ms. Used under its mutex, current in one thread at a time.
+/// The one OpenGL context of the process: the first costs 20 ms. Used under its mutex, current in one thread at a time.
 class Context {
  public:
+  /// Throws ConfigError if OSMesa is not installed.
   static Context& get() {
     static Context& context = *new Context;  // never freed: Mesa's own exit handlers may run before ours
     return context;
   }
 
   std::mutex mutex;
-
-  void make_current() {
-    if (OSMesaMakeCurrent(context_, pixels.data(), GL_UNSIGNED_BYTE, kBuffer, kBuffer) != GL_TRUE)
-      throw InternalError("OSMesa: cannot make the context current");
-    OSMesaPixelStore(OSMESA_Y_UP, 0);
-  }
-  static void release() { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
-
+  const OsMesa gl;
   std::vector<std::uint8_t> pixels;  // rows from top to bottom, RGBA
 
- private:
-  Context() : pixels(std::size_t{4} * kBuffer * kBuffer) {}
+  void make_current() {
+    if (gl.make_current(context_, pixels.data(), GL_UNSIGNED_BYTE, kBuffer, kBuffer) != GL_TRUE)
+      throw InternalError("OSMesa: cannot make the context current");
+    gl.pixel_store(OSMESA_Y_UP, 0);
+  }
+  void release() const { gl.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
 
-  static OSMesaContext create() {
+ private:
+  Context() : pixels(std::size_t{4} * kBuffer * kBuffer), context_(create(gl)) {}
+
+  static OSMesaContext create(const OsMesa& gl) {
     setenv("LP_NUM_THREADS", "0", 1);  // draw in the calling thread: workers already fill the cores
-    const OSMesaContext context = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
+    const OSMesaContext context = gl.create_context(OSMESA_RGBA, 0, 0, 0, nullptr);
     if (context == nullptr) throw InternalError("OSMesa: cannot create a context");
     return context;
   }
 
-  OSMesaContext context_ = create();
+  OSMesaContext context_;
 };
 
 struct Current {
   explicit Current(Context& c) : context(c), lock(c.mutex) { context.make_current(); }
-  ~Current() { Context::release(); }
+  ~Current() { context.release(); }
   Current(const Current&) = delete;
   Current& operator=(const Current&) = delete;
   Context& context;
@@ -70,7 +70,7 @@ struct Tile {
   std::vector<TriangleBatch> batches{};
 };
 
-/// False only if the tile lies wholly beyond the triangle's box or beyond one of its edges.
+/// False only if the tile is wholly beyond the triangle's box or beyond one of its edges.
 bool may_meet(const Vertex* t, const Rect& tile) {
   const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
   const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
@@ -80,7 +80,7 @@ bool may_meet(const Vertex* t, const Rect& tile) {
     const double nx = a.y - b.y, ny = b.x - a.x;
     const double side = nx * (c.x - a.x) + ny * (c.y - a.y);  // of the third corner
     const double flip = side < 0 ? -1.0 : 1.0;
-    // The tile's corner that lies farthest on the triangle's side of the edge.
+    // The tile's corner that is farthest on the triangle's side of the edge.
     const double x = flip * nx > 0 ? tile.x1 : tile.x0, y = flip * ny > 0 ? tile.y1 : tile.y0;
     if (flip * (nx * (x - a.x) + ny * (y - a.y)) < 0) return false;
   }
@@ -104,14 +104,14 @@ class Picture {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  const std::vector<std::uint8_t>& bgr() const { return pixels_; }
+  const std::vector<std::uint8_t>& rgb() const { return pixels_; }
 
   void draw() {
     for (const TriangleBatch& batch : tessellate(layout_.shapes, scale_ * kOversample)) sort_in(batch);
     const Current current(Context::get());
     for (const Tile& tile : tiles_) {
       if (tile.batches.empty()) continue;  // white, as it is
-      draw(tile);
+      draw(tile, current.context.gl);
       filter_down(current.context.pixels, tile);
     }
   }
@@ -149,35 +149,35 @@ class Picture {
     }
   }
 
-  void draw(const Tile& tile) {
+  void draw(const Tile& tile, const OsMesa& gl) const {
     const Rect r = paper(tile);
-    glViewport(0, 0, kBuffer, kBuffer);
-    glMatrixMode(GL_PROJECTION);
-    glLoadIdentity();
-    glOrtho(r.x0, r.x1, r.y1, r.y0, -1, 1);
-    glMatrixMode(GL_MODELVIEW);
-    glLoadIdentity();
-    glDisable(GL_DITHER);
-    glShadeModel(GL_FLAT);
-    glDisable(GL_SCISSOR_TEST);
-    glClearColor(1, 1, 1, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
-    glEnable(GL_SCISSOR_TEST);
-    glEnableClientState(GL_VERTEX_ARRAY);
-    glEnableClientState(GL_COLOR_ARRAY);
+    gl.viewport(0, 0, kBuffer, kBuffer);
+    gl.matrix_mode(GL_PROJECTION);
+    gl.load_identity();
+    gl.ortho(r.x0, r.x1, r.y1, r.y0, -1, 1);
+    gl.matrix_mode(GL_MODELVIEW);
+    gl.load_identity();
+    gl.disable(GL_DITHER);
+    gl.shade_model(GL_FLAT);
+    gl.disable(GL_SCISSOR_TEST);
+    gl.clear_color(1, 1, 1, 1);
+    gl.clear(GL_COLOR_BUFFER_BIT);
+    gl.enable(GL_SCISSOR_TEST);
+    gl.enable_client_state(GL_VERTEX_ARRAY);
+    gl.enable_client_state(GL_COLOR_ARRAY);
     for (const TriangleBatch& batch : tile.batches) {
-      if (!scissor(tile, batch.clip)) continue;
-      glVertexPointer(2, GL_FLOAT, sizeof(Vertex), &batch.vertices[0].x);
-      glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), &batch.vertices[0].r);
-      glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(batch.vertices.size()));
+      if (!scissor(tile, batch.clip, gl)) continue;
+      gl.vertex_pointer(2, GL_FLOAT, sizeof(Vertex), &batch.vertices[0].x);
+      gl.color_pointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), &batch.vertices[0].r);
+      gl.draw_arrays(GL_TRIANGLES, 0, static_cast<GLsizei>(batch.vertices.size()));
     }
-    glFinish();
+    gl.finish();
   }
 
-  /// Keeps drawing inside a panel's box; false if none of it lies on the tile.
-  bool scissor(const Tile& tile, int clip) const {
+  /// Keeps drawing inside a panel's box; false if none of it is on the tile.
+  bool scissor(const Tile& tile, int clip, const OsMesa& gl) const {
     if (clip < 0) {
-      glScissor(0, 0, kBuffer, kBuffer);
+      gl.scissor(0, 0, kBuffer, kBuffer);
       return true;
     }
     const Rect& box = layout_.panels[static_cast<std::size_t>(clip)].box;
@@ -186,7 +186,7 @@ class Picture {
     };
     const int x0 = sub(box.x0, tile.x), x1 = sub(box.x1, tile.x), y0 = sub(box.y0, tile.y), y1 = sub(box.y1, tile.y);
     if (x1 <= x0 || y1 <= y0) return false;
-    glScissor(x0, kBuffer - y1, x1 - x0, y1 - y0);
+    gl.scissor(x0, kBuffer - y1, x1 - x0, y1 - y0);
     return true;
   }
 
@@ -204,7 +204,7 @@ class Picture {
       for (std::size_t x = 0; x < static_cast<std::size_t>(tile.width); ++x) {
         const std::uint16_t* s = &sums[16 * x];
         for (std::size_t c = 0; c < 3; ++c)
-          out[3 * x + 2 - c] = static_cast<std::uint8_t>((s[c] + s[c + 4] + s[c + 8] + s[c + 12] + 8) / 16);
+          out[3 * x + c] = static_cast<std::uint8_t>((s[c] + s[c + 4] + s[c + 8] + s[c + 12] + 8) / 16);
       }
     }
   }
@@ -226,7 +226,7 @@ std::string to_png(const Scene& scene, double dpi) {
                                   placed.width / 72, placed.height / 72, dpi, kMostPixels));
   Picture picture(placed, dpi);
   picture.draw();
-  return encode_png(picture.bgr(), picture.width(), picture.height(), dpi);
+  return encode_png(picture.rgb(), picture.width(), picture.height(), dpi);
 }
 
 }  // namespace scanbench::render

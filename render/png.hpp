@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
-#include <vector>
 
 namespace scanbench::render {
 
-/// `bgr`: rows from top to bottom, 3 bytes a pixel. The size on paper is written into the file.
-std::string encode_png(const std::vector<std::uint8_t>& bgr, int width, int height, double dpi);
+/// `rgb`: rows from top to bottom, 3 bytes a pixel; `width`, `height` > 0. The size on paper is written into the file,
+/// so that a page shows the picture at its size. The same pixels give the same bytes. Throws InternalError if libpng
+/// fails.
+std::string encode_png(std::span<const std::uint8_t> rgb, int width, int height, double dpi);
 
 }  // namespace scanbench::render

@@ -7,11 +7,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <opencv2/core/mat.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <thread>
 
 #include "core/error.hpp"
+#include "decoded_png.hpp"
 #include "render/layout.hpp"
 #include "render/palette.hpp"
 
@@ -42,20 +41,19 @@ Scene rich_scene() {
   return scene;
 }
 
-cv::Mat decode(const std::string& png) {
-  return cv::imdecode(std::vector<unsigned char>(png.begin(), png.end()), cv::IMREAD_COLOR);
-}
+using test::decode_png;
+using test::DecodedPng;
 
-bool is_color(const cv::Vec3b& bgr, const Color& c) {
-  return bgr[2] == c.r && bgr[1] == c.g && bgr[0] == c.b;
+bool is_reddish(const Color& c) {
+  return c.r > c.g + 40;
 }
 
 TEST(Png, HasTheSizeAskedFor) {
   Scene scene = rich_scene();
   scene.height_in = 2.5;
-  const cv::Mat image = decode(to_png(scene, 120));
-  EXPECT_EQ(image.cols, 480);
-  EXPECT_EQ(image.rows, 300);
+  const DecodedPng image = decode_png(to_png(scene, 120));
+  EXPECT_EQ(image.width, 480);
+  EXPECT_EQ(image.height, 300);
 }
 
 TEST(Png, ShowsARedSegmentWhereTheAxesSayAndNowhereElse) {
@@ -64,16 +62,16 @@ TEST(Png, ShowsARedSegmentWhereTheAxesSayAndNowhereElse) {
   scene.panels[0].x.range = {0, 5};
   scene.panels[0].y.range = {0, 5};
   const double dpi = 144;
-  const cv::Mat image = decode(to_png(scene, dpi));
+  const DecodedPng image = decode_png(to_png(scene, dpi));
   const PanelLayout place = layout(scene).panels[0];
   for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     const Vec2 px = place.to_device({1 + 3 * t, 1 + 2 * t}) * (dpi / 72);
-    EXPECT_TRUE(is_color(image.at<cv::Vec3b>(static_cast<int>(px.y()), static_cast<int>(px.x())), kRed)) << t;
+    EXPECT_EQ(image.at(static_cast<int>(px.x()), static_cast<int>(px.y())), kRed) << t;
   }
   const Segment segment{place.to_device({1, 1}) * (dpi / 72), place.to_device({4, 3}) * (dpi / 72)};
-  for (int y = 0; y < image.rows; ++y)
-    for (int x = 0; x < image.cols; ++x)
-      if (const auto& p = image.at<cv::Vec3b>(y, x); p[2] > p[1] + 40) {  // reddish
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (is_reddish(image.at(x, y))) {
         EXPECT_LT(distance({x + 0.5, y + 0.5}, segment), 2.0 + 1.5) << x << " " << y;
       }
 }
@@ -89,12 +87,12 @@ TEST(Png, DrawsNothingOfThePanelOutsideItsBox) {
   panel.y.range = {0, 4};
   scene.panels.push_back(panel);
   const double scale = 100.0 / 72;
-  const cv::Mat image = decode(to_png(scene, 100));
+  const DecodedPng image = decode_png(to_png(scene, 100));
   const Rect box = layout(scene).panels[0].box;
   int red = 0;
-  for (int y = 0; y < image.rows; ++y)
-    for (int x = 0; x < image.cols; ++x)
-      if (const auto& p = image.at<cv::Vec3b>(y, x); p[2] > p[1] + 40) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (is_reddish(image.at(x, y))) {
         ++red;
         EXPECT_TRUE(x + 1 > box.x0 * scale - 0.5 && x < box.x1 * scale + 0.5 && y + 1 > box.y0 * scale - 0.5 &&
                     y < box.y1 * scale + 0.5)
@@ -112,11 +110,11 @@ TEST(Png, FillsAnEllipseOfTheRightArea) {
                                             .fill = kRed}}});
   scene.panels[0].x = {.range = std::pair{0.0, 4.0}, .grid = false};
   scene.panels[0].y = {.range = std::pair{0.0, 4.0}, .grid = false};
-  const cv::Mat image = decode(to_png(scene, 200));
+  const DecodedPng image = decode_png(to_png(scene, 200));
   double area = 0;
-  for (int y = 0; y < image.rows; ++y)
-    for (int x = 0; x < image.cols; ++x)
-      if (const auto& p = image.at<cv::Vec3b>(y, x); p[2] > p[1]) area += (255.0 - p[1]) / 255.0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (const Color c = image.at(x, y); c.r > c.g) area += (255.0 - c.g) / 255.0;
   const PanelLayout place = layout(scene).panels[0];
   const double px_per_m = (place.to_device({1, 0}) - place.to_device({0, 0})).norm() * 200 / 72;
   EXPECT_NEAR(area / (px_per_m * px_per_m), kPi * 1.5 * 0.5, 0.02);
@@ -208,8 +206,8 @@ TEST(Files, OfEmptyAndNonFiniteScenesAreMadeAllTheSame) {
                                   Polygon{.points = {{kNan, 0}}}, Text{.at = {0, kNan}, .text = "x"}}});
   odd.panels[0].x.range = {kNan, kNan};
   for (const Scene& scene : {Scene{}, odd}) {
-    const cv::Mat image = decode(to_png(scene));
-    EXPECT_EQ(image.cols, 700);
+    const DecodedPng image = decode_png(to_png(scene));
+    EXPECT_EQ(image.width, 700);
     expect_well_formed(to_svg(scene));
     EXPECT_TRUE(to_pdf(scene).starts_with("%PDF-"));
   }
