@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/rng.hpp"
-#include "render/layout.hpp"
+#include "render/layout/layout.hpp"
 #include "render/palette.hpp"
-#include "render/tessellate.hpp"
+#include "render/backends/tessellate.hpp"
 
 namespace scanbench::render {
 namespace {

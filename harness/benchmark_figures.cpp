@@ -1,4 +1,4 @@
-// Curves from rows and matches; render/facets makes the panels.
+// Curves from rows and matches; render/charts/facets makes the panels.
 #include "harness/benchmark_figures.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "harness/csv.hpp"
 #include "harness/error_bins.hpp"
 #include "harness/run_folder.hpp"
-#include "render/facets.hpp"
+#include "render/charts/facets.hpp"
 #include "render/figure.hpp"
 
 namespace scanbench::harness {
