@@ -2,12 +2,12 @@
 # it changes, so a build with nothing changed links nothing; one source file of harness/store includes it.
 string(TOUPPER "${CMAKE_BUILD_TYPE}" config)
 set(versions "")
-foreach(package Eigen3 fmt box2d yaml-cpp nlohmann_json OpenCV CLI11 nanoflann)
+foreach(package Eigen3 fmt box2d yaml-cpp nlohmann_json CLI11 nanoflann)
   if(${package}_VERSION)
     list(APPEND versions "${package} ${${package}_VERSION}")
   endif()
 endforeach()
-list(APPEND versions "OpenSSL ${OPENSSL_VERSION}" "zlib ${ZLIB_VERSION_STRING}" "osmesa ${OSMESA_VERSION}" "cairo ${CAIRO_cairo_VERSION}")
+list(APPEND versions "OpenSSL ${OPENSSL_VERSION}" "zlib ${ZLIB_VERSION_STRING}" "libpng ${PNG_VERSION_STRING}" "osmesa ${OSMESA_VERSION}" "cairo ${CAIRO_cairo_VERSION}")
 list(JOIN versions "," versions)
 add_custom_target(scanbench_version
   COMMAND ${CMAKE_COMMAND} -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}

@@ -1,4 +1,4 @@
-// Curves from rows and matches; render/facets makes the panels.
+// Curves from rows and matches; render/charts/facets makes the panels.
 #include "harness/report/benchmark_figures.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/summary.hpp"
-#include "render/facets.hpp"
+#include "render/charts/facets.hpp"
 #include "render/figure.hpp"
 
 namespace scanbench::harness {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/registry.hpp"
-#include "render/figures/clusters.hpp"
+#include "render/figures/parts/clusters.hpp"
 
 namespace scanbench::render {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/registry.hpp"
-#include "render/figures/common.hpp"
+#include "render/figures/parts/common.hpp"
 
 namespace scanbench::render {
 namespace {

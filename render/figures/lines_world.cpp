@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "core/registry.hpp"
-#include "render/figures/common.hpp"
+#include "render/figures/parts/common.hpp"
 
 namespace scanbench::render {
 namespace {

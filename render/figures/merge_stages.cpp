@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "core/registry.hpp"
-#include "render/figures/before_after.hpp"
-#include "render/figures/clusters.hpp"
+#include "render/figures/parts/before_after.hpp"
+#include "render/figures/parts/clusters.hpp"
 
 namespace scanbench::render {
 namespace {

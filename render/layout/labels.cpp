@@ -1,0 +1,97 @@
+// Label placement: greedy choice among fixed positions around the point, after Christensen, Marks & Shieber, "An
+// empirical study of algorithms for point-feature label placement", ACM ToG 14(3), 1995, section 2 (without annealing:
+// figures here have tens of labels, not thousands).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "render/paper/font.hpp"
+#include "render/layout/layout.hpp"
+
+namespace scanbench::render {
+namespace {
+
+double overlap(const Rect& a, const Rect& b) {
+  const double w = std::min(a.x1, b.x1) - std::max(a.x0, b.x0);
+  const double h = std::min(a.y1, b.y1) - std::max(a.y0, b.y0);
+  return w > 0 && h > 0 ? w * h : 0.0;
+}
+
+/// Length of the part of p-q inside r (Liang-Barsky).
+double length_inside(const Vec2& p, const Vec2& q, const Rect& r) {
+  double t0 = 0, t1 = 1;
+  const Vec2 d = q - p;
+  const auto cut = [&](double slope, double room) {  // slope * t <= room
+    if (slope == 0) return room >= 0;
+    const double t = room / slope;
+    if (slope < 0)
+      t0 = std::max(t0, t);
+    else
+      t1 = std::min(t1, t);
+    return t0 < t1;
+  };
+  if (!cut(-d.x(), p.x() - r.x0) || !cut(d.x(), r.x1 - p.x()) || !cut(-d.y(), p.y() - r.y0) ||
+      !cut(d.y(), r.y1 - p.y()))
+    return 0.0;
+  return (t1 - t0) * d.norm();
+}
+
+/// The rectangle of size 2 half whose nearest edge is `offset` from p.
+Rect rect_beside(const Vec2& p, const Vec2& offset, const Vec2& half) {
+  const double n = offset.norm();
+  const auto lean = [n](double c) { return n > 0 ? std::clamp(1.5 * c / n, -1.0, 1.0) : 0.0; };
+  const Vec2 c = p + offset + Vec2(lean(offset.x()) * half.x(), lean(offset.y()) * half.y());
+  return {c.x() - half.x(), c.y() - half.y(), c.x() + half.x(), c.y() + half.y()};
+}
+
+/// Moved inside the box; left as it is where the box is too small.
+Rect inside(Rect r, const Rect& box) {
+  const double dx = r.width() > box.width() ? 0 : std::max(0.0, box.x0 - r.x0) - std::max(0.0, r.x1 - box.x1);
+  const double dy = r.height() > box.height() ? 0 : std::max(0.0, box.y0 - r.y0) - std::max(0.0, r.y1 - box.y1);
+  return {r.x0 + dx, r.y0 + dy, r.x1 + dx, r.y1 + dy};
+}
+
+}  // namespace
+
+std::vector<Rect> place_labels(const std::vector<Label>& labels, double font_pt, const Rect& box,
+                               const std::vector<Vec2>& segments, const std::vector<Vec2>& dots) {
+  const Font& font = Font::get();
+  std::vector<Rect> placed;
+  placed.reserve(labels.size());
+  const Rect room{box.x0 + 1.5, box.y0 + 1.5, box.x1 - 1.5, box.y1 - 1.5};
+  for (const Label& label : labels) {
+    const double size = font_pt * label.text->scale;
+    Vec2 half(0.5 * font.width_em(label.text->text) * size + 0.5, 0.5 * font.cap_height_em() * size + 0.8);
+    if (label.text->upwards) std::swap(half.x(), half.y());
+    const Vec2 wish(label.text->offset_pt.x(), -label.text->offset_pt.y());
+    if (!label.text->movable) {
+      placed.push_back(rect_beside(label.at, wish, half));
+      continue;
+    }
+    const double reach = std::max(wish.norm(), 1.0);
+    const double heading = wish.norm() > 0 ? std::atan2(wish.y(), wish.x()) : -kPi / 2;
+    Rect best;
+    double best_cost = INFINITY;
+    for (const double far : {1.0, 2.0, 3.5, 5.5})
+      for (const double turn : {0.0, 45.0, -45.0, 180.0, 90.0, -90.0, 135.0, -135.0}) {
+        const double a = heading + radians(turn);
+        const Rect wanted = rect_beside(label.at, far * reach * Vec2(std::cos(a), std::sin(a)), half);
+        const Rect r = inside(wanted, room);
+        const Rect grown{r.x0 - 1, r.y0 - 1, r.x1 + 1, r.y1 + 1};
+        // Weights: a label on a label cannot be read; one on a line can, thanks to its halo, but hides the line.
+        double cost = 4.0 * (far - 1.0) + 0.02 * std::abs(turn);
+        cost += 4.0 * (std::abs(r.x0 - wanted.x0) + std::abs(r.y0 - wanted.y0));
+        for (const Rect& other : placed) cost += 20.0 * overlap(grown, other);
+        for (std::size_t i = 0; i + 1 < segments.size(); i += 2)
+          if (const double l = length_inside(segments[i], segments[i + 1], grown); l > 0) cost += 6.0 + 1.5 * l;
+        for (const Vec2& p : dots)
+          if (grown.contains(p)) cost += 1.5;
+        if (cost < best_cost) best = r, best_cost = cost;
+      }
+    placed.push_back(best);
+  }
+  return placed;
+}
+
+}  // namespace scanbench::render

@@ -1,0 +1,196 @@
+#include "render/layout/layout.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/rng.hpp"
+#include "render/paper/font.hpp"
+#include "render/backends/tessellate.hpp"
+
+namespace scanbench::render {
+namespace {
+
+Scene one_panel(std::vector<Item> items) {
+  Scene scene;
+  scene.panels.push_back({.title = "panel", .items = std::move(items)});
+  return scene;
+}
+
+template <class T>
+std::vector<const T*> shapes_of(const Layout& placed, int clip) {
+  std::vector<const T*> found;
+  for (const Shape& shape : placed.shapes)
+    if (const T* s = std::get_if<T>(&shape.what); s != nullptr && shape.clip == clip) found.push_back(s);
+  return found;
+}
+
+TEST(Layout, MakesAMetreAsLongInXAsInY) {
+  const Scene scene = one_panel({Lines{.segments = {{{0, 0}, {10, 3}}}}});
+  const Layout placed = layout(scene);
+  const PanelLayout& p = placed.panels[0];
+  const Vec2 o = p.to_device({0, 0}), x = p.to_device({1, 0}), y = p.to_device({0, 1});
+  EXPECT_NEAR(x.x() - o.x(), o.y() - y.y(), 1e-9);
+  EXPECT_NEAR(x.y(), o.y(), 1e-9);
+  EXPECT_GT(x.x(), o.x());
+  for (const Vec2& corner : {Vec2(0, 0), Vec2(10, 3)}) EXPECT_TRUE(p.box.contains(p.to_device(corner)));
+}
+
+TEST(Layout, MapsTheRangeToTheBoxOnFreeAndLogAxes) {
+  Scene scene = one_panel({});
+  scene.panels[0].equal_aspect = false;
+  scene.panels[0].x.range = {2, 6};
+  scene.panels[0].y.range = {0.01, 100};
+  scene.panels[0].y.log = true;
+  const PanelLayout p = layout(scene).panels[0];
+  EXPECT_NEAR((p.to_device({2, 0.01}) - Vec2(p.box.x0, p.box.y1)).norm(), 0, 1e-9);
+  EXPECT_NEAR((p.to_device({6, 100}) - Vec2(p.box.x1, p.box.y0)).norm(), 0, 1e-9);
+  EXPECT_NEAR((p.to_device({4, 1}) - 0.5 * Vec2(p.box.x0 + p.box.x1, p.box.y0 + p.box.y1)).norm(), 0, 1e-9);
+}
+
+TEST(Layout, KeepsEveryTextOnTheCanvas) {
+  Scene scene = one_panel({Lines{.segments = {{{0, 0}, {10000, 13000}}}}});
+  scene.title = "a title that is much too long for a single column of a paper, whatever its author may think of it";
+  scene.panels[0].title = scene.title;
+  scene.panels[0].y.label = scene.title;
+  scene.legend = {{.text = scene.title, .stroke = Stroke{}}, {.text = "b", .marker = Marker::square}};
+  scene.panels.push_back(scene.panels[0]);
+  scene.scale_bar = true;
+  for (const bool share : {false, true}) {
+    scene.share_axes = share;
+    const Layout placed = layout(scene);
+    for (const Shape& shape : placed.shapes)
+      if (const auto* text = std::get_if<TextShape>(&shape.what)) {
+        const double length = Font::get().width_em(text->text) * text->size;
+        const Vec2 end = text->origin + (text->upwards ? Vec2(0, -length) : Vec2(length, 0));
+        const Rect canvas{0, 0, placed.width, placed.height};
+        EXPECT_TRUE(canvas.contains(text->origin) && canvas.contains(end)) << text->text;
+        EXPECT_GE(text->origin.y() - (text->upwards ? 0 : 0.73 * text->size), 0) << text->text;
+      }
+  }
+}
+
+TEST(Layout, AnyExtentKeepsItsAxisLabelsAndHasTwoGridLinesEachWay) {
+  // Ticks decide how wide their labels are, labels how wide the boxes, boxes what ticks there are.
+  CounterRng rng(11, RngStream::range);
+  for (int i = 0; i < 4000; ++i) {
+    const double width = std::pow(10.0, 3.0 * rng.uniform());
+    const double height = width * (0.4 + rng.uniform());
+    const Vec2 low(-width * rng.uniform(), -height * rng.uniform());
+    Scene scene = one_panel({Lines{.segments = {{low, low + Vec2(width, height)}}}});
+    scene.width_in = kDoubleColumnIn;
+    scene.panels[0].x.label = scene.panels[0].y.label = "y [m]";
+    scene.panels.resize(3, scene.panels[0]);
+    scene.columns = 1 + i % 3;
+    scene.share_axes = true;
+    const bool map = i % 4 != 0;
+    for (Panel& panel : scene.panels) panel.equal_aspect = map;
+    const Layout placed = layout(scene);
+    for (const PanelLayout& p : placed.panels) {
+      EXPECT_GE(p.x_ticks.size(), 2u) << "extent " << width << " x " << height << " from " << low.transpose();
+      EXPECT_GE(p.y_ticks.size(), 2u) << "extent " << width << " x " << height << " from " << low.transpose();
+    }
+    for (const TextShape* text : shapes_of<TextShape>(placed, -1))
+      if (text->upwards) {
+        EXPECT_GE(text->origin.x() - 0.73 * text->size, 0.0) << "extent " << width << " x " << height;
+      }
+  }
+}
+
+TEST(Layout, ScaleBarIsARoundNumberOfMetresLongOnPaper) {
+  Scene scene = one_panel({Lines{.segments = {{{0, 0}, {14, 13}}}}});
+  scene.scale_bar = true;
+  const Layout placed = layout(scene);
+  const PanelLayout& p = placed.panels[0];
+  EXPECT_EQ(placed.scale_bar_m, 2.0);  // a sixth of some 15 m
+  EXPECT_NEAR(placed.scale_bar_pt, p.to_device({2, 0}).x() - p.to_device({0, 0}).x(), 1e-9);
+  bool drawn = false;
+  for (const StrokeShape* s : shapes_of<StrokeShape>(placed, -1))
+    for (std::size_t k = 0; k < s->paths(); ++k)
+      drawn = drawn ||
+              std::abs((s->points[s->starts[k + 1] - 1] - s->points[s->starts[k]]).norm() - placed.scale_bar_pt) < 1e-9;
+  EXPECT_TRUE(drawn);
+}
+
+TEST(Layout, CutsLinesAtTheBoxAndLeavesOutWhatIsNotFinite) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+  Scene scene = one_panel(
+      {Lines{.segments = {{{-1e6, 1}, {1e6, 1}}, {{kNan, 0}, {1, 1}}, {{0, 0}, {kInf, 1}}, {{50, 50}, {60, 60}}}},
+       Polyline{.points = {{0, 0}, {1, 1}, {kNan, 1}, {2, 2}, {3, 3}, {1e300, -1e300}}},
+       Points{.points = {{kNan, 1}, {kInf, 2}, {1, -kInf}, {100, 100}, {2, 3}}},
+       Polygon{.points = {{0, 0}, {kNan, 1}, {2, 0}, {1, 1}}}, Ellipse{.center = {kNan, 0}},
+       Text{.at = {kInf, 0}, .text = "lost"}, Arrow{.pose = Pose2(kNan, 0, 0)}, Bars{.tops = {{kNan, 1}, {1, kInf}}},
+       ErrorBars{.intervals = {{1, kNan, 2}}}});
+  scene.panels[0].x.range = {0, 4};
+  scene.panels[0].y.range = {0, 4};
+  const Layout placed = layout(scene);
+  const Rect box = placed.panels[0].box;
+  const double tolerance = 1.0;  // half a line's width
+  std::size_t points = 0;
+  for (const StrokeShape* s : shapes_of<StrokeShape>(placed, 0))
+    for (const Vec2& p : s->points) {
+      ++points;
+      EXPECT_TRUE(p.x() >= box.x0 - tolerance && p.x() <= box.x1 + tolerance && p.y() >= box.y0 - tolerance &&
+                  p.y() <= box.y1 + tolerance);
+    }
+  EXPECT_EQ(points, 2u + 2u + 2u);  // the long line, cut, and two pieces of the polyline
+  const auto dots = shapes_of<DotsShape>(placed, 0);
+  ASSERT_EQ(dots.size(), 1u);
+  EXPECT_EQ(dots[0]->centers.size(), 1u);
+  EXPECT_TRUE(shapes_of<TextShape>(placed, 0).empty());
+}
+
+TEST(Layout, OfAnEmptySceneAndOfEmptyPanelsIsFinite) {
+  for (const Scene& scene : {Scene{}, one_panel({}), one_panel({Lines{}, Points{}, Text{}})}) {
+    const Layout placed = layout(scene);
+    EXPECT_GT(placed.width, 0);
+    EXPECT_GT(placed.height, 0);
+    EXPECT_LT(placed.height, 2000);
+  }
+}
+
+TEST(Layout, AnAskedForHeightIsKept) {
+  Scene scene = one_panel({Lines{.segments = {{{0, 0}, {1, 30}}}}});
+  scene.height_in = 3.0;
+  EXPECT_DOUBLE_EQ(layout(scene).height, 216.0);
+  scene.height_in = 0.0;
+  EXPECT_LE(layout(scene).height, 72 * scene.max_height_in + 1e-6);
+}
+
+TEST(Labels, DoNotCoverEachOtherWhereThereIsRoom) {
+  std::vector<Text> texts(6, Text{.text = "label", .offset_pt = {0, 3}});
+  std::vector<Label> labels;
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    labels.push_back({&texts[i], Vec2(100.0 + 2.0 * static_cast<double>(i), 100.0)});
+  const Rect box{0, 0, 200, 200};
+  const std::vector<Rect> rects = place_labels(labels, 8, box, {}, {});
+  for (std::size_t i = 0; i < rects.size(); ++i) {
+    EXPECT_TRUE(box.contains({rects[i].x0, rects[i].y0}) && box.contains({rects[i].x1, rects[i].y1}));
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_FALSE(rects[i].x0 < rects[j].x1 && rects[j].x0 < rects[i].x1 && rects[i].y0 < rects[j].y1 &&
+                   rects[j].y0 < rects[i].y1)
+          << i << " covers " << j;
+  }
+}
+
+TEST(FillTriangles, CoverTheAreaOfAPolygonWithAHole) {
+  const std::vector<std::vector<Vec2>> contours{{{0, 0}, {4, 0}, {5, 3}, {0, 4}}, {{1, 1}, {1, 2}, {2, 2}, {2, 1}}};
+  double area = 0;
+  const std::vector<Vec2> t = fill_triangles(contours, true);
+  for (std::size_t i = 0; i < t.size(); i += 3) area += 0.5 * std::abs(cross(t[i + 1] - t[i], t[i + 2] - t[i]));
+  EXPECT_NEAR(area, 16.0 - 1.0, 1e-12);  // shoelace: (0 + 12 + 20 + 0) / 2 = 16
+}
+
+TEST(Font, MeasuresTextAndShortensWhatIsTooLong) {
+  const Font& font = Font::get();
+  EXPECT_NEAR(font.width_em("AB"), font.width_em("A") + font.width_em("B"), 1e-12);
+  EXPECT_EQ(fit_text("short", 100), "short");
+  const std::string cut = fit_text("\u03c3\u03c1 a long text \u03c3\u03c3\u03c3", 4);
+  EXPECT_LE(font.width_em(cut), 4);
+  EXPECT_TRUE(cut.ends_with("\u2026"));
+  EXPECT_EQ(font.shape("\xff\xc3").size(), 2u);  // malformed bytes, one mark each
+}
+
+}  // namespace
+}  // namespace scanbench::render
