@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -73,6 +74,7 @@ class ScanMatcher {
 struct Alignment {
   Status status = Status::converged;
   std::vector<Pose2> world_from_sensor;
+  std::string message{};  ///< what a status other than `converged` means here; may be empty
 };
 
 /// Aligns all scans at once, starting from initial poses.

@@ -126,6 +126,8 @@ class Chain {
         text += (first ? "" : ", ") + std::to_string(count) + " " + std::string(to_string(status));
         first = false;
       }
+      const auto message = messages_.find(slot);
+      if (message != messages_.end() && !message->second.empty()) text += " (" + message->second + ")";
     }
     return text;
   }
@@ -144,6 +146,7 @@ class Chain {
     Alignment alignment = aligner->align(observations, poses_, listener_.begin("align", -1));
     listener_.end();
     note("align", alignment.status);
+    if (alignment.status != Status::converged) messages_["align"] = alignment.message;
     if (alignment.world_from_sensor.size() != poses_.size())
       throw InvalidResult("align: " + std::to_string(alignment.world_from_sensor.size()) + " poses for " +
                           std::to_string(poses_.size()) + " scans");
@@ -224,6 +227,7 @@ class Chain {
   std::vector<Scan> views_;
   std::vector<Pose2> poses_;
   std::map<std::string, std::map<Status, int>> outcomes_;
+  std::map<std::string, std::string> messages_;
 };
 
 std::vector<ScanLines> extract_all(const LineExtractor& extractor, const ScanSet& scans, Listener& listener) {

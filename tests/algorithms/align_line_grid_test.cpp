@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "algorithms/align/line_grid.hpp"
+#include "algorithms/align/parts/line_grid.hpp"
 #include "core/rng.hpp"
 
 namespace scanbench::align {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "algorithms/align/pose_equations.hpp"
+#include "algorithms/align/parts/pose_equations.hpp"
 #include "core/rng.hpp"
 #include "tests/support/aligning.hpp"
 #include "tests/support/matchers.hpp"

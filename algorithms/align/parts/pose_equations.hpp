@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/align/line_grid.hpp"
+#include "algorithms/align/parts/line_grid.hpp"
 #include "core/modules.hpp"
 
 namespace scanbench::align {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/align/line_grid.hpp"
-#include "algorithms/align/pose_equations.hpp"
+#include "algorithms/align/parts/line_grid.hpp"
+#include "algorithms/align/parts/pose_equations.hpp"
 
 namespace scanbench::align {
 

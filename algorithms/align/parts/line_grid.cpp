@@ -1,5 +1,5 @@
 // Lines into the cells within their reach.
-#include "algorithms/align/line_grid.hpp"
+#include "algorithms/align/parts/line_grid.hpp"
 
 #include <algorithm>
 #include <numbers>

@@ -1,5 +1,5 @@
 // Shapes of scans, the rank rule and the update of a pose.
-#include "algorithms/align/pose_equations.hpp"
+#include "algorithms/align/parts/pose_equations.hpp"
 
 #include <algorithm>
 #include <cmath>

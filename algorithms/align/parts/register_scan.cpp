@@ -1,5 +1,5 @@
 // Iterations of segment-point registration.
-#include "algorithms/align/register_scan.hpp"
+#include "algorithms/align/parts/register_scan.hpp"
 
 namespace scanbench::align {
 namespace {

@@ -1,0 +1,41 @@
+// Force field simulation (FFS): all scans drawn together by the forces between their points. Lakaemper, "Augmenting
+// sparse laser scans with virtual scans to improve the performance of alignment algorithms", 2010, section 3, after
+// Lakaemper, Adluru, Latecki & Madhavan, Journal of Field Robotics 2007. docs/algorithms/ffs.md has the derivations,
+// the departures and the answers for difficult input.
+#include "algorithms/align/ffs/simulation.hpp"
+#include "core/modules.hpp"
+#include "core/registry.hpp"
+
+namespace scanbench {
+namespace {
+
+class Ffs final : public Aligner {
+ public:
+  struct Params {
+    double resample_m = 0.1;
+    double sigma_start_m = 0.6;
+    double sigma_end_m = 0.03;
+    int cooling_iterations = 60;
+    int max_iterations = 200;
+    double step_start = 1.0;
+    double step_end = 1.0;
+    double cut_sigmas = 4.0;
+    static auto fields() { return align::ffs::schedule_fields<Params>(); }
+  };
+  explicit Ffs(const Params& params) : schedule_(align::ffs::schedule_of(params)) {}
+
+  Alignment align(std::span<const Observation> scans, std::span<const Pose2> initial, Trace& trace) const override {
+    return align::ffs::simulate(scans, initial, schedule_, {}, trace);
+  }
+
+ private:
+  align::ffs::Schedule schedule_;
+};
+
+[[maybe_unused]] const bool registered = Registry<Aligner>::add<Ffs>(
+    {.name = "ffs",
+     .summary = "force field simulation: scans as rigid bodies drawn together by soft point correspondences",
+     .reference = "Lakaemper 2010, section 3; Lakaemper, Adluru, Latecki & Madhavan 2007"});
+
+}  // namespace
+}  // namespace scanbench

@@ -1,0 +1,33 @@
+// Newton's law for scans as rigid bodies (Lakaemper 2010, section 3).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algorithms/align/ffs/body.hpp"
+#include "algorithms/align/ffs/force_field.hpp"
+
+namespace scanbench::align::ffs {
+
+/// What drives a body: acceleration of its centre [per unit mass] and angular acceleration about it, and the stiffness
+/// of the springs that hold it, per unit mass and per unit inertia.
+struct Drive {
+  Vec2 acceleration = Vec2::Zero();
+  double angular = 0.0;
+  double stiffness = 0.0;
+};
+
+/// Sums of the forces on the points of each body; points of body b are consecutive, bodies in order, and follow each
+/// other from place 0. A body without extent does not turn.
+std::vector<Drive> drives_of(std::span<const Body> bodies, std::span<const Pose2> poses, const FieldPoints& points,
+                             std::span<const PointForce> forces);
+
+/// The largest dt^2 / 2 with which no body passes the balance of its springs; 0 if nothing is driven.
+double largest_step(std::span<const Drive> drives);
+
+/// Moves every body at once, from rest: acceleration * dt^2 / 2 and a turn about its centre by angular * dt^2 / 2. No
+/// point moves by more than `limit`: beyond, all motions shrink together. Returns the largest displacement.
+double move(std::span<const Body> bodies, std::span<const Drive> drives, double half_dt_squared, double limit,
+            std::vector<Pose2>& poses);
+
+}  // namespace scanbench::align::ffs

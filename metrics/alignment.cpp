@@ -1,0 +1,132 @@
+// alignment: errors of the poses that a pipeline used, after the motion that is common to all of them is removed, beside
+// those of the poses it was given. Only relative poses are observable: a map that is right but turned has no error.
+//
+// The common motion G minimises the sum over scans of |G p - q|^2 + lever^2 |G h - g|^2, p and q being the estimated and
+// the true position, h and g the unit headings: the squared distance of the pose and of a point `lever` ahead of it.
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/portable_math.hpp"
+#include "core/registry.hpp"
+#include "metrics/rows.hpp"
+
+namespace scanbench::metrics {
+namespace {
+
+struct PoseErrors {
+  std::vector<double> position_m;
+  std::vector<double> heading_deg;
+};
+
+/// Minimiser of the sum above, in closed form: the angle of the summed cross and dot products about the centroids.
+Pose2 common_motion(std::span<const Pose2> estimated, std::span<const Pose2> truth, double lever_m) {
+  const double n = static_cast<double>(estimated.size());
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();
+  for (std::size_t k = 0; k < estimated.size(); ++k) {
+    from += estimated[k].translation() / n;
+    to += truth[k].translation() / n;
+  }
+  double along = 0.0, across = 0.0;
+  for (std::size_t k = 0; k < estimated.size(); ++k) {
+    const Vec2 p = estimated[k].translation() - from, q = truth[k].translation() - to;
+    const Vec2 h(estimated[k].cos(), estimated[k].sin()), g(truth[k].cos(), truth[k].sin());
+    along += p.dot(q) + lever_m * lever_m * h.dot(g);
+    across += cross(p, q) + lever_m * lever_m * cross(h, g);
+  }
+  if (along == 0 && across == 0) along = 1;
+  const Pose2 turn = Pose2::facing(Vec2::Zero(), {along, across});
+  return Pose2::facing(to - turn.rotate(from), {along, across});
+}
+
+PoseErrors pose_errors(std::span<const Pose2> estimated, std::span<const Pose2> truth, double lever_m) {
+  const Pose2 motion = common_motion(estimated, truth, lever_m);
+  PoseErrors errors;
+  for (std::size_t k = 0; k < estimated.size(); ++k) {
+    const Pose2 off = truth[k].inverse() * (motion * estimated[k]);
+    errors.position_m.push_back(off.translation().norm());
+    errors.heading_deg.push_back(degrees(std::fabs(off.yaw())));
+  }
+  return errors;
+}
+
+double mean(std::span<const double> values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v;
+  return ratio(sum, static_cast<double>(values.size()));
+}
+
+class AlignmentErrors : public MetricFamily {
+ public:
+  struct Params {
+    double within_m = 0.10;
+    double within_deg = 2.0;
+    double lever_m = 1.0;
+    static auto fields() {
+      return std::tuple{
+          field("within_m", &Params::within_m, above(0), "m", "largest position error of a scan that counts as placed"),
+          field("within_deg", &Params::within_deg, above(0), "deg", "largest heading error of such a scan"),
+          field("lever_m", &Params::lever_m, above(0), "m",
+                "metres that a radian of heading counts for in the common motion")};
+    }
+  };
+
+  explicit AlignmentErrors(const Params& params) : params_(params) {}
+
+  std::vector<MetricDescription> describe() const override {
+    using enum Direction;
+    return {{"position_error", "m", lower_is_better, 0.005, "mean position error of the scans"},
+            {"position_error_max", "m", lower_is_better, 0.01, "largest position error of a scan"},
+            {"heading_error", "deg", lower_is_better, 0.1, "mean absolute heading error of the scans"},
+            {"heading_error_max", "deg", lower_is_better, 0.2, "largest absolute heading error of a scan"},
+            {"placed", "", higher_is_better, 0.02, "share of the scans within within_m and within_deg"},
+            {"all_placed", "", higher_is_better, 0.0, "1 if every scan is within within_m and within_deg, else 0"},
+            {"start_position_error", "m", neither, 0.0, "position_error of the recorded poses, before any alignment"},
+            {"start_heading_error", "deg", neither, 0.0, "heading_error of the recorded poses"},
+            {"error_ratio", "", lower_is_better, 0.02,
+             "position_error per start_position_error: above 1 the alignment made it worse"}};
+  }
+
+  bool applies(const MetricInput& input) const override {
+    const std::size_t frames = input.observed.frames.size();
+    return input.truth != nullptr && frames > 0 && input.truth->world_from_sensor.size() == frames &&
+           input.result.world_from_sensor.size() == frames;
+  }
+
+  std::vector<MetricRow> evaluate(const MetricInput& input) const override {
+    SCANBENCH_ASSERT(applies(input));
+    const std::vector<Pose2>& truth = input.truth->world_from_sensor;
+    std::vector<Pose2> recorded;
+    for (const Frame& frame : input.observed.frames) recorded.push_back(frame.odom_from_sensor);
+    const PoseErrors start = pose_errors(recorded, truth, params_.lever_m);
+    const PoseErrors end = pose_errors(input.result.world_from_sensor, truth, params_.lever_m);
+
+    const auto n = std::ssize(truth);
+    std::int64_t placed = 0;
+    for (std::size_t k = 0; k < truth.size(); ++k)
+      placed += end.position_m[k] <= params_.within_m && end.heading_deg[k] <= params_.within_deg ? 1 : 0;
+    Rows rows(describe());
+    rows.add("position_error", kAll, mean(end.position_m), n);
+    rows.add("position_error_max", kAll, *std::ranges::max_element(end.position_m), n);
+    rows.add("heading_error", kAll, mean(end.heading_deg), n);
+    rows.add("heading_error_max", kAll, *std::ranges::max_element(end.heading_deg), n);
+    rows.add("placed", kAll, static_cast<double>(placed) / static_cast<double>(n), n);
+    rows.add("all_placed", kAll, placed == n ? 1.0 : 0.0, 1);
+    rows.add("start_position_error", kAll, mean(start.position_m), n);
+    rows.add("start_heading_error", kAll, mean(start.heading_deg), n);
+    rows.add("error_ratio", kAll, ratio(mean(end.position_m), mean(start.position_m)), n);
+    return rows.take();
+  }
+
+ private:
+  Params params_;
+};
+
+[[maybe_unused]] const bool registered = Registry<MetricFamily>::add<AlignmentErrors>(
+    {.name = "alignment",
+     .summary = "errors of the poses of all scans against the truth, without the motion that is common to all",
+     .reference = "Lakaemper 2010, section 6 judges by eye; the errors are ours"});
+
+}  // namespace
+}  // namespace scanbench::metrics
