@@ -1,7 +1,11 @@
-// The wrong pose of each copy.
+// Copies of the walls, each with a pose of its own error.
 #include "sim/line_copies.hpp"
 
+#include <utility>
+
 #include "core/rng.hpp"
+#include "core/scan.hpp"
+#include "core/truth.hpp"
 
 namespace scanbench::sim {
 

@@ -1,5 +1,6 @@
-// Lines in place of scans: superimposed copies of a world's walls, as in the data set "Spiral" of Lakaemper,
-// "Simultaneous multi-line-segment merging for robot mapping using mean shift clustering", IROS 2009, figures 1 to 3.
+// Recordings of lines instead of scans: superimposed copies of a world's walls, as in the data set "Spiral" of
+// Lakaemper, "Simultaneous multi-line-segment merging for robot mapping using mean shift clustering", IROS 2009,
+// figures 1 to 3.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +10,15 @@
 
 namespace scanbench::sim {
 
-/// Each copy is turned about the world's origin and then shifted; both are normally distributed and independent.
+/// Each copy is rotated about the world's origin and then shifted; both are normally distributed and independent.
 struct LineCopies {
   int copies = 1;
   double rotation_sigma_rad = 0.0;
   double shift_sigma_m = 0.0;  ///< of each coordinate
 };
 
-/// A frame without beams per copy: its lines are the walls where they are, its odometry says where the copy lies, its
-/// true pose is the origin. The truth has the walls; no beam saw them, so all of them count as visible. Throws
+/// One frame per copy, without beams: its lines are the walls at their true places, its odometry is the copy's pose,
+/// its true pose is the origin. The truth has the walls; no beam saw them, so all of them count as visible. Throws
 /// ConfigError for a world that validate() refuses.
 Recording line_copies(const World& world, const LineCopies& copies, std::uint64_t seed);
 

@@ -1,9 +1,10 @@
-// Noise of a range sensor, beam by beam.
+// Noise of a range sensor, one beam at a time.
 #include "sim/noise.hpp"
 
 #include <cmath>
 #include <limits>
 
+#include "core/geometry.hpp"
 #include "core/portable_math.hpp"
 #include "core/rng.hpp"
 
@@ -18,7 +19,7 @@ CounterRng draws(const BeamAddress& address, RngStream stream) {
 
 }  // namespace
 
-Vec2 turned(const Vec2& v, double angle_rad) {
+Vec2 rotated(const Vec2& v, double angle_rad) {
   const auto [s, c] = portable::sincos(angle_rad);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }

@@ -1,33 +1,34 @@
-// What a range sensor makes of a true range. Each part has draws of its own, addressed by (seed, frame, beam): the same
-// for any number of threads, and switching one part on does not move the others.
+// Noise model of a range sensor. Each part has its own random numbers, addressed by (seed, frame, beam): they are the
+// same for any number of threads, and enabling one part does not change the others.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
+#include "core/geometry.hpp"
 #include "core/sensor_model.hpp"
 
 namespace scanbench::sim {
 
-/// Which reading of which recording a draw belongs to.
+/// Address of one reading: its recording, frame and beam.
 struct BeamAddress {
   std::uint64_t seed = 1;
   std::uint32_t frame = 0;
   std::uint32_t beam = 0;
 };
 
-/// The unit vector v turned by an angle.
-Vec2 turned(const Vec2& v, double angle_rad);
+/// The vector v rotated by an angle.
+Vec2 rotated(const Vec2& v, double angle_rad);
 
-/// The angle by which a beam really points beside its nominal direction. 0 without bearing noise.
+/// Angle from a beam's nominal direction to its true one. 0 without bearing noise.
 double bearing_error(const SensorNoise& noise, const BeamAddress& address);
 
 /// The range that a beam of finite width returns at a depth edge: when its two sides meet different surfaces whose
-/// ranges differ by more than the beam is wide there. Uniform between the two ranges, for where in the beam the edge
-/// lies is chance.
+/// ranges differ by more than the beam is wide there. Uniform between the two ranges, because the edge may be anywhere
+/// in the beam.
 double mixed_range(double range_a_m, double range_b_m, const BeamAddress& address);
 
-/// The reading of a beam whose light meets something at `true_range_m` (finite or +inf, never negative) under an angle
+/// The reading of a beam that hits a surface at `true_range_m` (finite or +inf, never negative) under an angle
 /// with cosine `cos_incidence` to its normal. In this order:
 ///   nothing within range_max: +inf, no noise; nearer than range_min: -inf;
 ///   drop-out, with probability min(1, dropout_probability + dropout_grazing (1 - cos)^2): +inf;

@@ -1,8 +1,10 @@
-// Random walk along the way, then an independent error per pose.
+// Random walk along the path, then an independent error per pose.
 #include "sim/odometry.hpp"
 
 #include <cmath>
+#include <cstddef>
 
+#include "core/geometry.hpp"
 #include "core/rng.hpp"
 
 namespace scanbench::sim {

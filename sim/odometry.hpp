@@ -1,4 +1,4 @@
-// Odometry errors: those that grow with the way, and those of somebody who places a sensor by hand.
+// Odometry errors: drift that grows with the distance driven, and independent errors of a sensor placed by hand.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace scanbench::sim {
 
-/// Odometry as wheels give it (errors grow with the way) and as somebody who places a sensor gives it (independent per
-/// pose). Errors of the way accumulate as a random walk: their variance is proportional to the way, so it does not
-/// depend on how many scans were taken on it; the figures are standard deviations after one metre or one radian.
+/// Drift of wheel odometry, and independent errors of hand-placed poses. Drift is a random walk: its variance is
+/// proportional to the distance driven, so it does not depend on the number of scans; the values are standard
+/// deviations after one metre or one radian.
 struct OdometryNoise {
   double translation_per_m = 0.0;      ///< standard deviation [m] per metre driven, along the motion
   double rotation_per_m_rad = 0.0;     ///< standard deviation [rad] per metre driven
-  double rotation_per_rad = 0.0;       ///< standard deviation [rad] per radian turned
+  double rotation_per_rad = 0.0;       ///< standard deviation [rad] per radian of rotation
   double pose_position_sigma_m = 0.0;  ///< independent per pose, each axis
   double pose_heading_sigma_rad = 0.0;
 

@@ -1,7 +1,9 @@
-// Walks along a polyline. Only + - * / sqrt: positions are part of what a recording is made of.
+// Arc length along a polyline. Uses only + - * / sqrt: positions enter recordings, whose bytes must not depend on the
+// machine.
 #include "sim/path.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "core/error.hpp"
 

@@ -1,4 +1,4 @@
-// Places in error messages: metres, to the millimetre.
+// Coordinates in error messages: metres, rounded to the millimetre.
 #pragma once
 
 #include <cmath>

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 
+#include "core/geometry.hpp"
 #include "core/pose2.hpp"
 #include "core/sensor_model.hpp"
 #include "sim/world.hpp"

@@ -1,4 +1,4 @@
-// Where a ray meets a wall or a circle, in double. Watertight: two walls that share an end point leave no gap.
+// Intersection of a ray with a wall or a circle, in double. Watertight: two walls that share an end point leave no gap.
 #pragma once
 
 #include <algorithm>
@@ -9,17 +9,17 @@
 
 namespace scanbench::sim {
 
-/// A ray that passes an end of a wall within this distance hits it, so that "aimed exactly at a corner" means a hit in
-/// spite of rounding: coordinates of 100 km and a rounded direction err by less.
+/// A ray that passes an end of a wall within this distance hits it, so that a ray aimed exactly at a corner hits in
+/// spite of rounding: the error from coordinates of 100 km and a rounded direction is smaller.
 inline constexpr double kEndToleranceM = 1e-10;
 
 inline constexpr double kNoHit = std::numeric_limits<double>::infinity();
 
-/// Range from `origin` along the unit vector `direction` to the wall; +inf if it is not met. A wall is hit from both
+/// Range from `origin` along the unit vector `direction` to the wall; +inf if there is no hit. A wall is hit from both
 /// sides and at its ends; one seen exactly edge-on is hit at its nearer end; from a point on it the range is 0.
 ///
-/// The test is on the sides of the ray on which the two ends lie. Both walls at a corner compute the corner's side from
-/// the same numbers, hence with the same sign, so no ray passes between them (the idea of Woop, Benthin & Wald,
+/// The test compares the sides of the ray on which the two ends are. Both walls at a corner compute the corner's side
+/// from the same numbers, hence with the same sign, so no ray passes between them (the idea of Woop, Benthin & Wald,
 /// "Watertight ray/triangle intersection", JCGT 2013).
 inline double range_to_wall(const Vec2& origin, const Vec2& direction, const Segment& wall) {
   const Vec2 a = wall.a - origin;
@@ -51,7 +51,7 @@ inline double cos_incidence_on_wall(const Vec2& direction, const Segment& wall) 
   return std::min(1.0, std::fabs(cross(direction, wall.direction())));
 }
 
-/// Range to a circle; 0 from inside, for a round body is solid; +inf if it is not met.
+/// Range to a circle; 0 from inside, because a round body is solid; +inf if there is no hit.
 inline double range_to_circle(const Vec2& origin, const Vec2& direction, const Vec2& center, double radius) {
   const Vec2 c = center - origin;
   const double miss = std::fabs(cross(direction, c));

@@ -1,14 +1,22 @@
-// Data sheets as parameter sets. Where a figure is ours and not a document's, the preset's source says so.
+// Data sheets as parameter sets. Where a value is ours and not a document's, the preset's source says so.
 #include "sim/sensors.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <functional>
+#include <tuple>
+#include <utility>
+#include <vector>
 
+#include "core/angles.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "core/number_text.hpp"
 
 namespace scanbench::sim {
+namespace {
 
+/// A sensor in the units of the scenario file.
 struct SensorParams {
   double angle_min_deg = -90.0;
   double angle_step_deg = 0.5;
@@ -34,10 +42,10 @@ struct SensorParams {
         field("angle_step_deg", &P::angle_step_deg, between(-360, 360), "deg",
               "from beam to beam, counter-clockwise positive"),
         field("beams", &P::beams, between(1, 1e6), "", "beams of a scan"),
-        field("range_min_m", &P::range_min_m, at_least(0), "m", "nearer things give -inf (too close)"),
-        field("range_max_m", &P::range_max_m, above(0), "m", "farther things give +inf (nothing in range)"),
+        field("range_min_m", &P::range_min_m, at_least(0), "m", "closer surfaces give -inf (too close)"),
+        field("range_max_m", &P::range_max_m, above(0), "m", "farther surfaces give +inf (nothing in range)"),
         field("scan_period_s", &P::scan_period_s, above(0), "s", "between the first beams of two scans"),
-        field("time_per_beam_s", &P::time_per_beam_s, at_least(0), "s", "from beam to beam; 0: all at once"),
+        field("time_per_beam_s", &P::time_per_beam_s, at_least(0), "s", "from beam to beam; 0: all beams at once"),
         field("sigma_m", &P::sigma_m, at_least(0), "m", "standard deviation of the range, constant part"),
         field("sigma_relative", &P::sigma_relative, at_least(0), "",
               "standard deviation of the range, part proportional to it"),
@@ -45,7 +53,7 @@ struct SensorParams {
               "0: both parts in quadrature; else the constant part below this range, the proportional one from it on"),
         field("bearing_sigma_deg", &P::bearing_sigma_deg, between(0, 45), "deg",
               "standard deviation of a beam's true direction about its nominal one"),
-        field("quantum_m", &P::quantum_m, at_least(0), "m", "ranges are rounded to multiples of this; 0: not"),
+        field("quantum_m", &P::quantum_m, at_least(0), "m", "rounding step of ranges; 0 disables rounding"),
         field("dropout_probability", &P::dropout_probability, between(0, 1), "",
               "of a beam that hits to return nothing, at normal incidence"),
         field("dropout_grazing", &P::dropout_grazing, between(0, 1), "",
@@ -56,8 +64,6 @@ struct SensorParams {
               "full opening angle of a beam; > 0: ranges between the two surfaces at depth edges (mixed pixels)")};
   }
 };
-
-namespace {
 
 SensorPreset preset(std::string name, std::string summary, std::string source, const SensorParams& params) {
   return {std::move(name), std::move(summary), std::move(source), to_param_set(params)};

@@ -1,16 +1,15 @@
-// Sensor presets from the makers' data sheets and the papers; every field can be overridden beside `preset`.
+// Sensor presets from data sheets and papers; a scenario can override every field.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/params.hpp"
 #include "core/sensor_model.hpp"
 
 namespace scanbench::sim {
-
-/// A sensor in the units of the scenario file.
-struct SensorParams;  // in sensors.cpp; its fields() are what sensor_param_specs() lists
 
 struct SensorPreset {
   std::string name;

@@ -4,12 +4,19 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <thread>
+#include <vector>
 
 #include "core/error.hpp"
+#include "core/geometry.hpp"
+#include "core/pose2.hpp"
+#include "core/sensor_model.hpp"
+#include "core/truth.hpp"
 #include "sim/noise.hpp"
 #include "sim/ray_caster.hpp"
 
@@ -78,7 +85,7 @@ class Simulation {
     Vec2 in_sensor;  // direction in the sensor's frame
 
     Beam aside(double angle_rad) const {
-      return {{ray.origin, turned(ray.direction, angle_rad), ray.time_s}, turned(in_sensor, angle_rad)};
+      return {{ray.origin, rotated(ray.direction, angle_rad), ray.time_s}, rotated(in_sensor, angle_rad)};
     }
   };
 

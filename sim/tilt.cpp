@@ -1,4 +1,4 @@
-// One rotation per scan; every beam is turned in space and looked at from above.
+// Rotation of a tilted scanning plane: beams are rotated in space and projected on the floor.
 #include "sim/tilt.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
-// A sensor that is not level, as one that is carried by hand: roll and pitch of its scanning plane (Lakaemper 2009,
-// section V.B: "error-prone pitch, roll and yaw of the laser"; the yaw's error is OdometryNoise's).
+// Tilt of a sensor that is not level, for example one carried by hand: roll and pitch of its scanning plane (Lakaemper
+// 2009, section V.B: "error-prone pitch, roll and yaw of the laser"; the yaw's error is OdometryNoise's).
 //
-// Frames: x forward, y left, z up; walls and round bodies stand upright and have no upper end. A positive pitch lowers
+// Frames: x forward, y left, z up; walls and round bodies are vertical and have no upper end. A positive pitch lowers
 // the nose, a positive roll lifts the left side; the plane is rolled first, then pitched: Ry(pitch) Rx(roll).
 #pragma once
 
@@ -36,23 +36,23 @@ struct TiltAngles {
   double pitch_rad = 0.0;
 };
 
-/// The angles of a scan. Switching one of them on does not move the other.
+/// The angles of a scan. Enabling one of them does not change the other.
 TiltAngles tilt_angles(const Tilt& tilt, std::uint64_t seed, std::uint32_t frame);
 
-/// Where a beam of a tilted sensor goes. Seen from above it is a beam of a level one that is turned aside and whose
-/// ranges are shortened.
+/// Direction of a beam of a tilted sensor. Seen from above it is a beam of a level sensor, rotated, with shorter
+/// ranges.
 struct TiltedBeam {
-  Vec2 turn{1.0, 0.0};      ///< cos and sin of the angle, seen from above, from where it goes if the sensor is level
-  double horizontal = 1.0;  ///< horizontal way per way along the beam; > 0, for no number's cosine is exactly 0
-  double up = 0.0;          ///< climb per way along the beam
+  Vec2 turn{1.0, 0.0};      ///< cos and sin of the rotation, seen from above, relative to a level sensor
+  double horizontal = 1.0;  ///< horizontal distance per unit of beam length; always > 0
+  double up = 0.0;          ///< rise per unit of beam length
 
-  /// A range seen from above as one along the beam.
+  /// The range along the beam of a range seen from above.
   double range(double horizontal_range_m) const { return horizontal_range_m / horizontal; }
   /// Range to a floor `height_m` below the sensor; +inf for a beam that does not descend, and for height 0: no floor.
   double range_to_floor(double height_m) const;
 };
 
-/// The rotation of one scan, made once for all of its beams.
+/// The rotation of one scan, computed once for all of its beams.
 class TiltRotation {
  public:
   explicit TiltRotation(const TiltAngles& angles);

@@ -1,21 +1,24 @@
-// Motion between poses, and whether the way is clear.
+// Motion between poses, and checks that the path is clear.
 #include "sim/trajectory.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/geometry.hpp"
+#include "core/number_text.hpp"
 #include "core/segment_grid.hpp"
 #include "sim/place_text.hpp"
 
 namespace scanbench::sim {
 namespace {
 
-// A sensor closer to a wall than this stands on it.
+// A sensor closer to a wall than this is on it.
 constexpr double kOnWallM = 1e-3;
 static_assert(kOnWallM < SegmentGrid::kMarginM);
 
@@ -24,26 +27,26 @@ std::string pose_text(const Trajectory& trajectory, std::size_t frame) {
          place_text(trajectory.poses[frame].world_from_sensor.translation());
 }
 
-// Where the way from p to q meets a wall, its ends included; for a way along the wall the first common place.
+// Point where the path from p to q crosses a wall, its ends included; for a path along the wall the first common point.
 std::optional<Vec2> crossing(const Vec2& p, const Vec2& q, const Segment& wall) {
-  const Vec2 way = q - p;
+  const Vec2 step = q - p;
   const Vec2 along = wall.b - wall.a;
-  const double side_a = cross(way, Vec2(wall.a - p));
-  const double side_b = cross(way, Vec2(wall.b - p));
+  const double side_a = cross(step, Vec2(wall.a - p));
+  const double side_b = cross(step, Vec2(wall.b - p));
   const double side_p = cross(along, Vec2(p - wall.a));
   const double side_q = cross(along, Vec2(q - wall.a));
   if (side_a * side_b > 0 || side_p * side_q > 0) return std::nullopt;
-  if (side_p != side_q) return Vec2(p + (side_p / (side_p - side_q)) * way);
-  // Way and wall on one line.
-  const double n2 = way.squaredNorm();
+  if (side_p != side_q) return Vec2(p + (side_p / (side_p - side_q)) * step);
+  // Path and wall are on one line.
+  const double n2 = step.squaredNorm();
   if (n2 == 0) return std::nullopt;
-  const double ta = way.dot(wall.a - p) / n2;
-  const double tb = way.dot(wall.b - p) / n2;
+  const double ta = step.dot(wall.a - p) / n2;
+  const double tb = step.dot(wall.b - p) / n2;
   if (std::max(ta, tb) < 0 || std::min(ta, tb) > 1) return std::nullopt;
-  return Vec2(p + std::clamp(std::min(ta, tb), 0.0, 1.0) * way);
+  return Vec2(p + std::clamp(std::min(ta, tb), 0.0, 1.0) * step);
 }
 
-void check_way(const World& world, const SegmentGrid& grid, const Vec2& p, const Vec2& q) {
+void check_step(const World& world, const SegmentGrid& grid, const Vec2& p, const Vec2& q) {
   std::size_t first = world.walls.size();
   grid.for_each_near({p, q}, [&](std::size_t i) {
     if (i < first && crossing(p, q, world.walls[i].segment)) first = i;
@@ -141,12 +144,12 @@ void check_clear(const World& world, const Trajectory& trajectory, double range_
   if (!trajectory.continuous) return;
   if (!trajectory.path.empty()) {
     for (std::size_t i = 1; i < trajectory.path.size(); ++i)
-      check_way(world, grid, trajectory.path[i - 1], trajectory.path[i]);
+      check_step(world, grid, trajectory.path[i - 1], trajectory.path[i]);
     return;
   }
   for (std::size_t k = 1; k < trajectory.poses.size(); ++k)
-    check_way(world, grid, trajectory.poses[k - 1].world_from_sensor.translation(),
-              trajectory.poses[k].world_from_sensor.translation());
+    check_step(world, grid, trajectory.poses[k - 1].world_from_sensor.translation(),
+               trajectory.poses[k].world_from_sensor.translation());
 }
 
 }  // namespace scanbench::sim

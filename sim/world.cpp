@@ -1,12 +1,14 @@
-// What makes a world a world, and where a moving body is.
+// Checks of a world, and positions of its moving bodies.
 #include "sim/world.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <set>
 
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "sim/path.hpp"
 #include "sim/place_text.hpp"
 
@@ -48,15 +50,15 @@ Box bounding_box(const World& world) {
 
 Vec2 MovingBody::position(double time_s) const {
   if (path.empty()) return Vec2::Zero();
-  double way = std::max(time_s, 0.0) * speed_mps;
+  double arc = std::max(time_s, 0.0) * speed_mps;
   if (loop) {
     const double length = path_length(path);
     if (length > 0) {
-      way = std::fmod(way, 2.0 * length);
-      if (way > length) way = 2.0 * length - way;
+      arc = std::fmod(arc, 2.0 * length);
+      if (arc > length) arc = 2.0 * length - arc;
     }
   }
-  return point_on_path(path, way).position;
+  return point_on_path(path, arc).position;
 }
 
 Vec2 center(const World& world) {

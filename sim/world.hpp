@@ -1,4 +1,4 @@
-// The world that is scanned: straight walls, which are the truth, and things that are not walls.
+// The world that is scanned: straight walls, which are the truth, and round bodies, which are not.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace scanbench::sim {
 
-/// A round distractor: returns beams, but is no line of the truth.
+/// A round distractor: it returns beams, but is no line of the truth.
 struct Circle {
   std::string label;
   Vec2 center = Vec2::Zero();
   double radius_m = 0.0;
 };
 
-/// A body on its own path, so that a person can walk through a scan. Kinematic: it moves whatever happens.
+/// A body on its own path, so that a person can walk through a scan. Kinematic: nothing stops it.
 struct MovingBody {
   std::string label;
   double radius_m = 0.0;
@@ -37,7 +37,7 @@ struct World {
   std::vector<MovingBody> moving;
 };
 
-/// The largest distance of anything from the centre of the world: ray casting is exact within it.
+/// The largest distance of a surface from the centre of the world; ray casting is exact within it.
 inline constexpr double kMaxWorldExtentM = 1e5;
 
 /// Throws ConfigError for a world without walls, a wall or path without length, a radius or speed that is not positive,

@@ -1,12 +1,16 @@
-// What the kinds of trajectory share: checks of their parameters, headings, time stamps.
+// Shared parts of the kinds of trajectory: checks of parameters, headings, time stamps.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/angles.hpp"
 #include "core/error.hpp"
+#include "core/geometry.hpp"
 #include "core/number_text.hpp"
+#include "core/params.hpp"
+#include "core/pose2.hpp"
 #include "sim/trajectory.hpp"
 
 namespace scanbench::sim {
@@ -14,7 +18,7 @@ namespace scanbench::sim {
 /// The largest number of scans of one trajectory.
 inline constexpr double kMaxScans = 1e7;
 
-/// A pose at p that looks along `direction` turned by `offset_deg`; exact along `direction` for offset 0.
+/// A pose at p that looks along `direction` rotated by `offset_deg`; exact along `direction` for offset 0.
 inline Pose2 looking(const Vec2& p, const Vec2& direction, double offset_deg) {
   if (offset_deg == 0) return Pose2::facing(p, direction);
   return Pose2::facing(p, Pose2(Vec2::Zero(), radians(offset_deg)).rotate(direction));

@@ -1,4 +1,8 @@
-// Poses written down one by one.
+// Trajectory of poses listed one by one.
+#include <tuple>
+#include <utility>
+
+#include "core/params.hpp"
 #include "core/registry.hpp"
 #include "sim/trajectories/common.hpp"
 
@@ -14,7 +18,7 @@ class Poses : public TrajectoryKind {
       return std::tuple{
           field("poses", &Params::poses, any_number(), "m, m, deg", "rows [x, y, heading_deg], one per scan"),
           field("continuous", &Params::continuous,
-                "the sensor moves straight from pose to pose (its way must be clear); false: it is placed")};
+                "the sensor moves straight from pose to pose (its path must be clear); false: it is placed")};
     }
   };
 
@@ -31,7 +35,7 @@ class Poses : public TrajectoryKind {
 };
 
 [[maybe_unused]] const bool registered = Registry<TrajectoryKind>::add<Poses>(
-    {.name = "poses", .summary = "poses written down one by one, one scan period apart", .reference = ""});
+    {.name = "poses", .summary = "poses listed one by one, one scan period apart", .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::sim

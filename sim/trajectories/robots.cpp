@@ -1,5 +1,9 @@
-// Several robots that stand in the world, one scan each, as in Lakaemper, "Augmenting Sparse Laser Scans with Virtual
+// Several robots at rest in the world, one scan each, as in Lakaemper, "Augmenting Sparse Laser Scans with Virtual
 // Scans to Improve the Performance of Alignment Algorithms", 2010.
+#include <tuple>
+#include <utility>
+
+#include "core/params.hpp"
 #include "core/registry.hpp"
 #include "sim/trajectories/common.hpp"
 

@@ -1,7 +1,17 @@
-// A drive along an Archimedean spiral r = r0 + c * theta, scans at the middle of equal intervals of arc length.
+// Trajectory along an Archimedean spiral r = r0 + c * theta, scans at the middle of equal intervals of arc length.
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <utility>
+#include <vector>
 
+#include "core/angles.hpp"
+#include "core/error.hpp"
+#include "core/geometry.hpp"
 #include "core/portable_math.hpp"
+#include "core/pose2.hpp"
 #include "core/registry.hpp"
 #include "sim/trajectories/common.hpp"
 
@@ -73,7 +83,7 @@ class Spiral : public TrajectoryKind {
     return (u1 - u0) / 6.0 * (speed(u0) + 4.0 * speed(0.5 * (u0 + u1)) + speed(u1));
   }
 
-  // u with arc(u0, u) = s, by Newton's method; s lies within one interval, where the speed hardly changes.
+  // u with arc(u0, u) = s, by Newton's method; s is within one interval, where the speed is nearly constant.
   double parameter_at(double u0, double s, double step) const {
     double u = u0 + std::min(step, s / std::max(speed(u0 + 0.5 * step), 1e-12));
     for (int i = 0; i < 4; ++i) u -= (arc(u0, u) - s) / std::max(speed(u), 1e-12);

@@ -1,4 +1,14 @@
-// A sensor that is carried along a line, stops every step and is turned to the same headings at each stop.
+// Trajectory of a sensor that is carried along a line, stops every step and takes scans at the same headings at each
+// stop.
+#include <cstdint>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/angles.hpp"
+#include "core/error.hpp"
+#include "core/geometry.hpp"
+#include "core/number_text.hpp"
 #include "core/portable_math.hpp"
 #include "core/registry.hpp"
 #include "sim/trajectories/common.hpp"

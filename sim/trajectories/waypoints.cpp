@@ -1,7 +1,15 @@
-// A drive along straight pieces between named points, as A-B-C-D-E-F in Borges & Aldon, "A split-and-merge segmentation
-// algorithm for line extraction in 2-D range images", ICPR 2000.
+// Trajectory along straight pieces between named points, as A-B-C-D-E-F in Borges & Aldon, "A split-and-merge
+// segmentation algorithm for line extraction in 2-D range images", ICPR 2000.
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <utility>
 
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "core/params.hpp"
 #include "core/registry.hpp"
 #include "sim/path.hpp"
 #include "sim/place_text.hpp"

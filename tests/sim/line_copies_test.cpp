@@ -1,11 +1,17 @@
-// Superimposed copies of walls: what is exact, what is random, and how much.
+// Superimposed copies of walls: exact lines, random poses and their deviations.
 #include "sim/line_copies.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/error.hpp"
+#include "core/geometry.hpp"
+#include "core/pose2.hpp"
+#include "core/recording.hpp"
 
 namespace scanbench::sim {
 namespace {
@@ -33,7 +39,7 @@ TEST(LineCopies, WithoutErrorsCoincide) {
     EXPECT_EQ(frame.odom_from_sensor, Pose2());
 }
 
-// More copies leave the first ones where they are.
+// More copies do not move the first ones.
 TEST(LineCopies, DependOnTheSeedAndTheirNumberAlone) {
   const LineCopies few{.copies = 2, .rotation_sigma_rad = 0.1, .shift_sigma_m = 0.1};
   LineCopies many = few;
@@ -45,7 +51,7 @@ TEST(LineCopies, DependOnTheSeedAndTheirNumberAlone) {
   EXPECT_NE(pose(few, 3), pose(few, 4));
 }
 
-TEST(LineCopies, HaveTheStandardDeviationsAskedFor) {
+TEST(LineCopies, HaveTheRequestedStandardDeviations) {
   constexpr int kCopies = 4000;
   const LineCopies copies{.copies = kCopies, .rotation_sigma_rad = 0.02, .shift_sigma_m = 0.5};
   double x = 0, y = 0, turn = 0;

@@ -3,11 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "core/angles.hpp"
+#include "core/sensor_model.hpp"
 
 namespace scanbench::sim {
 namespace {
@@ -180,20 +185,20 @@ TEST(Noise, ReadingsOutsideTheLimitsFollowRep117) {
   EXPECT_EQ(observed_range(sensor, 0.1, 1.0, {}), 0.1);
   EXPECT_EQ(observed_range(sensor, 30.0, 1.0, {}), 30.0);
   sensor.noise.sigma_m = 0.05;
-  // Half of the readings of a thing at the nearest range come out too close, half of those at the farthest too far.
+  // Half of the readings of a surface at range_min are too close, half of those at range_max too far.
   const auto near = readings(sensor, 0.1);
   expect_frequency(count_of(near, -kInf), 0.5);
   EXPECT_EQ(count_of(near, kInf), 0.0);
   const auto far = readings(sensor, 30.0);
   expect_frequency(count_of(far, kInf), 0.5);
   EXPECT_EQ(count_of(far, -kInf), 0.0);
-  // Without a nearest range, what would be negative or zero is too close.
+  // With range_min 0, negative and zero readings are too close.
   sensor.range_min_m = 0.0;
   expect_frequency(count_of(readings(sensor, 0.05), -kInf), 0.158655253931457);  // normal probability below -1
   EXPECT_EQ(observed_range(quiet_sensor(), 0.0, 1.0, {}), -kInf);
 }
 
-TEST(Noise, SwitchingOnePartOnDoesNotMoveTheOthers) {
+TEST(Noise, EnablingOnePartDoesNotChangeTheOthers) {
   SensorModel gaussian = quiet_sensor();
   gaussian.noise.sigma_m = 0.05;
   SensorModel dropping = gaussian;

@@ -2,13 +2,17 @@
 #include "sim/odometry.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "core/pose2.hpp"
 
 namespace scanbench::sim {
 namespace {
 
-// A straight drive of `metres` in `steps`, all poses turning in place by `turn_rad` in total as they go.
+// A straight drive of `metres` in `steps`, rotating by `turn_rad` in total.
 std::vector<Pose2> straight(double metres, int steps, double turn_rad = 0.0) {
   std::vector<Pose2> poses;
   for (int i = 0; i <= steps; ++i) poses.emplace_back(metres * i / steps, 0.0, turn_rad * i / steps);
@@ -53,7 +57,7 @@ TEST(Odometry, TheFirstPoseIsTrueUnderAllNoise) {
   EXPECT_NE(odometry[1], truth[1]);
 }
 
-TEST(Odometry, TheErrorOfTheWayGrowsWithItsRootAndNotWithTheNumberOfScans) {
+TEST(Odometry, DriftGrowsWithTheRootOfTheDistanceAndNotWithTheNumberOfScans) {
   for (const int steps : {4, 64}) {
     const Spread one = last_pose_rms(straight(1.0, steps), {.translation_per_m = 0.02});
     EXPECT_NEAR(one.x, 0.02, tolerance(0.02));
@@ -63,7 +67,7 @@ TEST(Odometry, TheErrorOfTheWayGrowsWithItsRootAndNotWithTheNumberOfScans) {
   }
 }
 
-TEST(Odometry, TheHeadingDriftsWithTheWayAndWithTurning) {
+TEST(Odometry, TheHeadingDriftsWithDistanceAndWithRotation) {
   EXPECT_NEAR(last_pose_rms(straight(4.0, 16), {.rotation_per_m_rad = 0.01}).yaw, 0.02, tolerance(0.02));
   EXPECT_NEAR(last_pose_rms(straight(0.0, 16, 2.25), {.rotation_per_rad = 0.04}).yaw, 0.06, tolerance(0.06));
   EXPECT_EQ(last_pose_rms(straight(0.0, 16), {.rotation_per_rad = 0.04}).yaw, 0.0);

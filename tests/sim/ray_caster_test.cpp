@@ -2,10 +2,20 @@
 #include "sim/ray_caster.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/angles.hpp"
 #include "core/error.hpp"
+#include "core/geometry.hpp"
+#include "core/pose2.hpp"
+#include "core/rng.hpp"
+#include "core/sensor_model.hpp"
 #include "tests/sim/test_worlds.hpp"
 
 namespace scanbench::sim {
@@ -18,7 +28,7 @@ using test::kInf;
 struct Comparison {
   double largest = 0.0;
   int hits = 0;
-  int disagreements = 0;  ///< hit against no hit
+  int disagreements = 0;  ///< one reports a hit, the other none
   int wrong_surfaces = 0;
 };
 
@@ -140,7 +150,7 @@ TEST(RayCaster, TheNearerOfTwoWallsANanometreApartWinsAndOverlapsGoToTheLowerInd
   EXPECT_EQ(hit.range_m, 400.0);
 }
 
-TEST(RayCaster, TheLargestRangeIsInclusiveAndSensorsMayStandFarOutside) {
+TEST(RayCaster, TheLargestRangeIsInclusiveAndSensorsMayBeFarOutside) {
   const RayCaster caster(test::box_world(4.0, 3.0));
   EXPECT_EQ(caster.cast({{1, 1}, {1, 0}, 0}, 3.0).range_m, 3.0);
   EXPECT_EQ(caster.cast({{1, 1}, {1, 0}, 0}, 3.0 - 1e-9).range_m, kInf);

@@ -1,10 +1,16 @@
-// The presets against the figures of the data sheets and papers, and what overriding a field refuses.
+// Sensor presets against the data sheets and papers, and errors of overridden fields.
 #include "sim/sensors.hpp"
+
+#include <cstdint>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angles.hpp"
 #include "core/error.hpp"
+#include "core/params.hpp"
+#include "core/sensor_model.hpp"
 
 namespace scanbench::sim {
 namespace {

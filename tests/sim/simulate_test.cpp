@@ -1,13 +1,23 @@
 // Whole recordings: truth and observation, threads, invariances, sweeps.
 #include "sim/simulate.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angles.hpp"
 #include "core/error.hpp"
+#include "core/geometry.hpp"
+#include "core/pose2.hpp"
+#include "core/recording.hpp"
+#include "core/truth.hpp"
 #include "sim/sensors.hpp"
 #include "tests/sim/test_worlds.hpp"
 
@@ -112,7 +122,7 @@ TEST(Simulate, TruthIsTheBruteForceRangeOfTheNominalBeamsAndObservationWithoutNo
   EXPECT_GT(nothing, 0);
 }
 
-TEST(Simulate, TurningSensorAndWorldTogetherLeavesTheRangesUnchanged) {
+TEST(Simulate, RotatingSensorAndWorldTogetherLeavesTheRangesUnchanged) {
   SimulationInput input;
   input.world = test::rooms_world(2, 2, {0, 0});
   input.sensor = make_sensor("custom", {});
@@ -188,7 +198,7 @@ TEST(Simulate, BearingNoiseMovesReadingsAlongTheWallAndNotTheTruth) {
   EXPECT_NEAR(std::sqrt(squares / 3000.0), radians(0.1), 5.0 * radians(0.1) / std::sqrt(6000.0));
 }
 
-TEST(Simulate, MixedPixelsAppearOnlyAtDepthEdgesAndLieBetweenTheSurfaces) {
+TEST(Simulate, MixedPixelsAppearOnlyAtDepthEdgesAndAreBetweenTheSurfaces) {
   SimulationInput input;
   input.world = test::box_world(10, 10);
   input.world.walls.push_back({"panel", {{4, 5}, {4, 8}}});  // seen from (1, 5): its end is straight ahead
@@ -223,7 +233,7 @@ TEST(Simulate, ProgressGrowsToOneAndAnExceptionInItEndsTheSimulation) {
   EXPECT_THROW(simulate(input, 2, [](double) { throw ConfigError("stop"); }), ConfigError);
 }
 
-TEST(Simulate, ChecksTheWayTheWorldAndTheSweepFirst) {
+TEST(Simulate, ChecksThePathTheWorldAndTheSweepFirst) {
   const auto complaint = [](const SimulationInput& input) -> std::string {
     try {
       simulate(input);

@@ -1,11 +1,15 @@
-// Worlds for the tests of the simulator, and a caster that knows nothing of the one under test.
+// Worlds for the tests of the simulator, and an independent ray caster.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "core/angles.hpp"
+#include "core/geometry.hpp"
 #include "core/rng.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/world.hpp"
@@ -79,7 +83,7 @@ inline World small_ring_world(int corners) {
 
 /// First range over all walls and circles in long double, by the definition: a wall is the points between its ends,
 /// a ray that passes an end within 1e-11 m touches it, and one that starts within 1e-11 m of a wall touches it at once.
-/// Writes the surfaces within 1e-8 m of that range, if asked.
+/// If `surfaces` is given, it receives the surfaces within 1e-8 m of that range.
 inline double brute_force(const World& world, const Ray& ray, std::vector<int>* surfaces = nullptr) {
   using Real = long double;
   const Real ox = ray.origin.x();

@@ -1,12 +1,22 @@
 // Tilted scans against rays and planes in space, and the angles against their distribution.
 #include "sim/tilt.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "core/angles.hpp"
+#include "core/geometry.hpp"
+#include "core/params.hpp"
+#include "core/pose2.hpp"
+#include "core/recording.hpp"
+#include "core/rng.hpp"
 #include "sim/noise.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulate.hpp"
@@ -22,7 +32,7 @@ using test::kInf;
 constexpr double kWidth = 8.0;
 constexpr double kDepth = 6.0;
 
-/// Direction in the world of what leaves the sensor at an angle in its plane.
+/// World direction of a beam at an angle in the sensor's plane.
 Vector3d direction_in_space(double yaw, const TiltAngles& tilt, double angle) {
   const Eigen::Matrix3d world_from_sensor =
       (AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(tilt.pitch_rad, Vector3d::UnitY()) *
@@ -75,7 +85,7 @@ struct Counts {
   int floor_lost = 0;  // beams whose floor is beyond the largest range
 };
 
-/// Holds every reading against the planes of the box.
+/// Compares every reading with the planes of the box.
 Counts expect_readings_of_the_box(const SimulationInput& input) {
   const Recording recording = simulate(input, 2);
   Counts counts;
@@ -113,7 +123,7 @@ TEST(Tilt, RangesToUprightWallsAreThoseOfRaysAndPlanesInSpace) {
   EXPECT_EQ(counts.floor, 0);
 }
 
-TEST(Tilt, TheFloorIsMetWhereItIsNearerThanTheWall) {
+TEST(Tilt, TheFloorIsHitWhereItIsNearerThanTheWall) {
   const Counts counts = expect_readings_of_the_box(box_input(300, {0.25, 0.25, 0.7}, 30.0));
   EXPECT_GT(counts.walls, 10000);
   EXPECT_GT(counts.floor, 3000);
@@ -129,7 +139,7 @@ TEST(Tilt, WorksTogetherWithASweepAndBearingNoise) {
   SimulationInput input = box_input(100, {0.25, 0.25, 0.7}, 30.0,
                                     {{"bearing_sigma_deg", 2.0}, {"scan_period_s", 0.1}, {"time_per_beam_s", 0.001}});
   input.sweep = true;
-  for (std::size_t k = 0; k < 100; ++k) {  // round the middle
+  for (std::size_t k = 0; k < 100; ++k) {  // around the middle
     const double angle = 0.2 * static_cast<double>(k);
     const Vec2 place = Vec2(kWidth / 2, kDepth / 2) + 1.5 * test::unit(angle);
     input.trajectory.poses[k].world_from_sensor = Pose2(place, angle + kPi / 2);
@@ -139,7 +149,7 @@ TEST(Tilt, WorksTogetherWithASweepAndBearingNoise) {
   EXPECT_GT(counts.floor, 1000);
 }
 
-TEST(Tilt, PointsOfTheFloorLieOnItAndPointsOfWallsAboveIt) {
+TEST(Tilt, PointsOfTheFloorAreOnItAndPointsOfWallsAboveIt) {
   const SimulationInput input = box_input(100, {0.25, 0.25, 0.7}, 30.0);
   const Recording recording = simulate(input);
   int on_floor = 0;
@@ -189,7 +199,7 @@ struct Mixtures {
   int floor = 0;
 };
 
-/// Holds every reading at the depth edge against the share that the level sensor's readings have of the wall behind.
+/// Compares every reading at the depth edge with the share that the level sensor's readings have of the wall behind.
 Mixtures expect_mixtures(const Tilt& tilt, double range_max_m) {
   const Recording level = simulate(depth_edge({}, 30.0));
   const Recording tilted = simulate(depth_edge(tilt, range_max_m));
@@ -217,7 +227,7 @@ Mixtures expect_mixtures(const Tilt& tilt, double range_max_m) {
   return mixtures;
 }
 
-TEST(Tilt, AMixedPixelLiesBetweenTheTwoSurfacesAlongTheBeam) {
+TEST(Tilt, AMixedPixelIsBetweenTheTwoSurfacesAlongTheBeam) {
   const Mixtures mixtures = expect_mixtures({.pitch_sigma_rad = 0.2}, 9.5);
   EXPECT_GT(mixtures.with_wall, 500);
   EXPECT_GT(mixtures.panel, 50);  // the wall behind is out of reach, along the beam
@@ -282,7 +292,7 @@ TEST(Tilt, AnglesAreNormalIndependentAndHaveTheirDeviations) {
   EXPECT_NEAR(roll4 / kScans, 3.0, 5.0 * std::sqrt(96.0 / kScans));  // of a normal: variance of x^4 is 105 - 9
 }
 
-TEST(Tilt, SwitchingOneAngleOnDoesNotMoveTheOther) {
+TEST(Tilt, EnablingOneAngleDoesNotChangeTheOther) {
   const TiltAngles both = tilt_angles({0.1, 0.2, 0}, 3, 4);
   const TiltAngles pitch_only = tilt_angles({0.0, 0.2, 0}, 3, 4);
   EXPECT_EQ(pitch_only.pitch_rad, both.pitch_rad);
@@ -294,7 +304,7 @@ bool same_bytes(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
-TEST(Tilt, ALevelSensorReadsTheSameBytesHoweverHighItStands) {
+TEST(Tilt, ALevelSensorReadsTheSameBytesAtAnyHeight) {
   const ParamSet noise = {{"bearing_sigma_deg", 1.0}, {"beam_divergence_deg", 0.5}, {"sigma_m", 0.02}};
   const Recording without = simulate(box_input(20, {}, 30.0, noise));
   const Recording level = simulate(box_input(20, {.height_m = 0.1}, 30.0, noise));

@@ -3,13 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angles.hpp"
 #include "core/error.hpp"
+#include "core/geometry.hpp"
+#include "core/params.hpp"
+#include "core/pose2.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
 #include "tests/sim/test_worlds.hpp"
@@ -65,7 +74,7 @@ TEST(Waypoints, ScansAreAtTheMiddleOfEqualIntervalsAndLookAhead) {
   EXPECT_TRUE(t.continuous);
 }
 
-TEST(Waypoints, TheHeadingOffsetTurnsTheSensor) {
+TEST(Waypoints, TheHeadingOffsetRotatesTheSensor) {
   const Trajectory t =
       make("waypoints", {{"points_m", kCorner}, {"scans", std::int64_t{4}}, {"heading_offset_deg", std::int64_t{180}}});
   expect_pose(pose(t, 0), 1, 0, 180);
@@ -168,7 +177,7 @@ TEST(StepAndShoot, StopsAreOneStepApartAndEachHasAllHeadings) {
               HasSubstr("headings_deg is empty"));
 }
 
-TEST(Poses, RowsAreTakenAsTheyStand) {
+TEST(Poses, RowsAreTakenUnchanged) {
   const NumberRows rows{{1, 2, 30}, {3, 4, -90}};
   const Trajectory t = make("poses", {{"poses", rows}});
   ASSERT_EQ(t.poses.size(), 2U);
@@ -216,7 +225,7 @@ TEST(CheckClear, NamesTheWallAndThePlaceThatAPathCrosses) {
   EXPECT_THAT(complaint([&] { check_clear(world, drive({{5, 1, 0}, {5, 9, 0}})); }), HasSubstr("'door' at (5, 4) m"));
   EXPECT_THAT(complaint([&] { check_clear(world, drive({{1, 4, 0}, {9, 4, 0}})); }), HasSubstr("'door' at (5, 4) m"));
   EXPECT_NO_THROW(check_clear(world, drive({{1, 3.9, 0}, {9, 3.9, 0}})));
-  // Placed sensors have no path; a path that is known counts for more than the chords between the poses.
+  // Placed sensors have no path; a known path takes precedence over the chords between the poses.
   Trajectory placed = drive({{1, 5, 0}, {9, 5.5, 0}});
   placed.continuous = false;
   EXPECT_NO_THROW(check_clear(world, placed));
@@ -227,8 +236,8 @@ TEST(CheckClear, NamesTheWallAndThePlaceThatAPathCrosses) {
   EXPECT_THAT(complaint([&] { check_clear(world, around); }), HasSubstr("'w4' at (0, 5) m"));
 }
 
-// Short walls in a large world, so that most ways are clear; the one complained of is the first in the world's order.
-TEST(CheckClear, FindsTheWallThatGoingThroughAllOfThemFinds) {
+// Short walls in a large world, so that most paths are clear; the error names the first wall in the world's order.
+TEST(CheckClear, FindsTheSameWallAsABruteForceSearch) {
   CounterRng rng(3, RngStream::range);
   const auto place = [&](double size) { return Vec2(size * (rng.uniform() - 0.5), size * (rng.uniform() - 0.5)); };
   World world;
@@ -260,7 +269,7 @@ TEST(CheckClear, FindsTheWallThatGoingThroughAllOfThemFinds) {
   EXPECT_GT(blocked, 50);
 }
 
-TEST(CheckClear, SeesTheNearestThingHoweverManyWallsThereAre) {
+TEST(CheckClear, NamesTheNearestSurfaceAmongManyWalls) {
   CounterRng rng(4, RngStream::range);
   World world;
   for (int i = 0; i < 300; ++i) {
@@ -278,7 +287,7 @@ TEST(CheckClear, SeesTheNearestThingHoweverManyWallsThereAre) {
   }
 }
 
-TEST(CheckClear, NamesTheBodyThatAPathRunsThroughOrASensorStandsIn) {
+TEST(CheckClear, NamesTheBodyThatAPathOrASensorIsIn) {
   World world = test::box_world(10, 10);
   world.circles.push_back({"pillar", {5, 5}, 0.5});
   world.moving.push_back({"person", 0.3, {{1, 8}, {9, 8}}, 1.0, false});

@@ -1,13 +1,15 @@
-// What a world may be, and where moving bodies are.
+// Worlds that are refused, and positions of moving bodies.
 #include "sim/world.hpp"
 
 #include <functional>
 #include <limits>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/geometry.hpp"
 #include "tests/sim/test_worlds.hpp"
 
 namespace scanbench::sim {
