@@ -27,7 +27,7 @@ std::string parse_trouble(const CLI::App& app, const CLI::ParseError& error, int
   std::vector<std::string> verbs;
   for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
     verbs.push_back(verb->get_name());
-  return (argc > 1 ? "there is no verb '" + first + "'" : "a verb is missing") + harness::known_names(first, verbs);
+  return (argc > 1 ? "there is no verb '" + first + "'" : "a verb is missing") + known_names(first, verbs);
 }
 
 int run_program(int argc, char** argv) {

@@ -5,6 +5,7 @@
 
 #include "algorithms/align/parts/pose_equations.hpp"
 #include "core/rng.hpp"
+#include "core/special_values.hpp"
 #include "tests/support/aligning.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/trace_recorder.hpp"
@@ -15,8 +16,6 @@ namespace {
 using testing::AngleNear;
 using testing::box;
 using testing::cast;
-using testing::kInf;
-using testing::kNaN;
 using testing::OwnedScan;
 using testing::PointNear;
 using testing::polygon;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "algorithms/extract/breakpoints.hpp"
+#include "core/special_values.hpp"
 #include "tests/support/extraction.hpp"
 #include "tests/support/scan_lines_checks.hpp"
 
@@ -136,8 +137,8 @@ TEST(AdaptiveBreakpoint, APlaneMetAtMoreThanLambdaStaysWholeAtAnyRange) {
 
 TEST(Gaps, EndLinesByDistanceAndByMissingBeams) {
   OwnedScan scan = testing::cast(testing::fan_sensor(41, radians(40)), {{{2, -9}, {2, 9}}});
-  scan.ranges[10] = testing::kInf;
-  scan.ranges[20] = scan.ranges[21] = testing::kNaN;
+  scan.ranges[10] = kInf;
+  scan.ranges[20] = scan.ranges[21] = kNaN;
   for (const std::string module : {"sef", "line_tracking", "iepf"}) {
     SCOPED_TRACE(module);
     const auto count = [&](const ParamSet& params) { return testing::extract(module, scan, params).lines.size(); };

@@ -7,6 +7,7 @@
 
 #include "core/modules.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/scan_builder.hpp"
 #include "tests/support/scan_lines_checks.hpp"
@@ -19,8 +20,6 @@ using testing::constant_scan;
 using testing::expect_consistent;
 using testing::expect_identical;
 using testing::fan_sensor;
-using testing::kInf;
-using testing::kNaN;
 using testing::LineNear;
 using testing::OwnedScan;
 using testing::PointNear;

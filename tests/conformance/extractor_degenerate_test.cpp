@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "core/special_values.hpp"
 #include "tests/support/extraction.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/scan_lines_checks.hpp"
@@ -15,8 +16,6 @@ namespace scanbench {
 namespace {
 
 using testing::cast;
-using testing::kInf;
-using testing::kNaN;
 using testing::OwnedScan;
 using testing::ring_sensor;
 using testing::with_noise;

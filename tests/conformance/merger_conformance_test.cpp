@@ -7,14 +7,13 @@
 
 #include "core/modules.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/scan_builder.hpp"
 
 namespace scanbench {
 namespace {
 
-using testing::kInf;
-using testing::kNaN;
 using testing::SegmentNear;
 
 // Mergers whose answer may depend on the order of the segments, and why.

@@ -4,6 +4,7 @@
 
 #include "core/modules.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 #include "tests/support/aligning.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/scan_builder.hpp"
@@ -35,7 +36,7 @@ OwnedScan room(const Pose2& pose) {
 }
 
 OwnedScan nothing() {
-  return testing::constant_scan(testing::ring_sensor(360), testing::kInf);
+  return testing::constant_scan(testing::ring_sensor(360), kInf);
 }
 
 bool finite(const Pose2& p) {
@@ -135,7 +136,7 @@ TEST_P(AlignerConformance, ScansWithoutReturnsAreAnsweredWithOnePoseEach) {
 }
 
 TEST_P(AlignerConformance, ScansOfFaultyReadingsAreAnswered) {
-  for (const double reading : {testing::kNaN, testing::kInf, -testing::kInf, 0.0, -1.0, 1e300, 1e-300}) {
+  for (const double reading : {kNaN, kInf, -kInf, 0.0, -1.0, 1e300, 1e-300}) {
     OwnedScan odd = room({0, 0, 0});
     for (std::size_t i = 0; i < odd.ranges.size(); i += 3) odd.ranges[i] = reading;
     align(of_each({odd, odd, odd, odd}), believed());

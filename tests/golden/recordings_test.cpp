@@ -15,8 +15,10 @@
 
 #include "core/pose2.hpp"
 #include "core/recording.hpp"
-#include "harness/hash.hpp"
-#include "harness/scenario.hpp"
+#include "harness/files/hash.hpp"
+#include "harness/run/make_recording.hpp"
+#include "harness/scenario/scenario.hpp"
+#include "harness/scenario/scenario_file.hpp"
 #include "tests/support/places.hpp"
 
 namespace scanbench {

@@ -1,5 +1,5 @@
 // Fake modules and helpers of the tests of runs.
-#include "run_support.hpp"
+#include "tests/harness/run_support.hpp"
 
 #include <algorithm>
 #include <bit>

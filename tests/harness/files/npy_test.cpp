@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "run_support.hpp"
+#include "tests/harness/run_support.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -17,7 +17,7 @@
 #include "harness/run/score.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
-#include "run_support.hpp"
+#include "tests/harness/run_support.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -10,8 +10,8 @@
 #include "harness/files/csv.hpp"
 #include "harness/files/npy.hpp"
 #include "harness/store/run_folder.hpp"
-#include "run_support.hpp"
 #include "sim/line_copies.hpp"
+#include "tests/harness/run_support.hpp"
 
 namespace scanbench::harness {
 namespace {
