@@ -12,6 +12,12 @@ double Segment::direction_angle() const {
   return direction_mod_pi(portable::atan2(b.y() - a.y(), b.x() - a.x()));
 }
 
+double angle_between(const Segment& a, const Segment& b) {
+  const Vec2 u = a.direction();
+  const Vec2 v = b.direction();
+  return std::atan2(std::fabs(cross(u, v)), std::fabs(u.dot(v)));
+}
+
 double distance(const Vec2& p, const Segment& s) {
   const Vec2 d = s.b - s.a;
   const double n2 = d.squaredNorm();

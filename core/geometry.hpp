@@ -38,6 +38,9 @@ struct Segment {
   bool operator==(const Segment&) const = default;
 };
 
+/// Angle between the undirected directions of two segments, in [0, pi/2].
+double angle_between(const Segment& a, const Segment& b);
+
 /// Distance from p to the nearest point of s (of the segment, not of its line). A segment without length is its point.
 double distance(const Vec2& p, const Segment& s);
 

@@ -6,6 +6,9 @@
 // Collinear walls with a gap between them (a corridor with doors) are separate for lines_per_wall and fragments. One
 // line over both of them is not over-merged, because that needs walls on different lines; it lowers true_share by the
 // gap that it fills. The map is compared without an alignment: its frame is that of the truth.
+//
+// Whether a line is over-merged is decided by its members, the scan lines merged into it, and not by its place: the
+// line halfway between two walls is far from both.
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +16,7 @@
 #include "core/index.hpp"
 #include "core/interval.hpp"
 #include "core/registry.hpp"
+#include "metrics/map_members.hpp"
 #include "metrics/rows.hpp"
 #include "metrics/surfaces.hpp"
 
@@ -22,6 +26,7 @@ namespace {
 constexpr double kNear = 0.05;
 constexpr double kFar = 0.10;
 constexpr double kVisibilityBin = 0.10;
+constexpr int kOneIn = 5;          // one in so many members must come from each of two walls that a line fuses
 constexpr double kOneView = 0.30;  // visible parts with a smaller gap between them need one line, not two
 
 /// Visible parts of every surface, in metres from its first end.
@@ -64,15 +69,14 @@ std::vector<std::vector<Interval>> visible_parts(const MetricInput& input, const
   return visible;
 }
 
-double angle_between(const Segment& a, const Segment& b) {
-  const Vec2 u = a.direction();
-  const Vec2 v = b.direction();
-  return std::atan2(std::fabs(cross(u, v)), std::fabs(u.dot(v)));
-}
-
 /// Distance of p from the infinite line of s.
 double line_distance(const Vec2& p, const Segment& s) {
   return std::fabs(cross(s.direction(), p - s.a));
+}
+
+/// How far apart the lines of two nearly parallel segments are.
+double offset_between(const Segment& a, const Segment& b) {
+  return std::max(line_distance(a.midpoint(), b), line_distance(b.midpoint(), a));
 }
 
 /// The part of a surface that a map line represents: near the line and between the projections of its ends. Absent if
@@ -121,7 +125,7 @@ class MapTruth : public MetricFamily {
              "map lines that repeat longer lines of the same wall over more than half of their length"},
             {"fragments", "", lower_is_better, 0.0, "further lines of a wall beyond one for each visible part of it"},
             {"over_merged", "", lower_is_better, 0.0,
-             "map lines over more than half of each of two walls on different lines"},
+             "map lines with members, a fifth or more each, from two parallel walls on different lines"},
             {"unassigned", "", lower_is_better, 0.0, "map lines that represent no wall"},
             {"map_offset", "m", lower_is_better, 0.001,
              "distance of map lines' midpoints from their wall's line, mean weighted by the lines' lengths"},
@@ -149,7 +153,7 @@ class MapTruth : public MetricFamily {
     rows.add("covered_10cm", kAll, ratio(covered(map, surfaces, visible, kFar), visible_m), n_visible);
     rows.add("true_share_5cm", kAll, true_share(map, surfaces, kNear), std::ssize(map));
     rows.add("true_share_10cm", kAll, true_share(map, surfaces, kFar), std::ssize(map));
-    add_assignment(rows, map, surfaces, visible, n_visible);
+    add_assignment(rows, map, surfaces, visible, n_visible, over_merged(input, surfaces));
     rows.add("visible_m", kAll, visible_m, n_visible);
     return rows.take();
   }
@@ -190,26 +194,23 @@ class MapTruth : public MetricFamily {
   }
 
   void add_assignment(Rows& rows, const std::vector<Segment>& map, const Surfaces& surfaces,
-                      const std::vector<std::vector<Interval>>& visible, std::int64_t n_visible) const {
+                      const std::vector<std::vector<Interval>>& visible, std::int64_t n_visible,
+                      double n_over_merged) const {
     const std::size_t n_surfaces = surfaces.segments.size();
     std::vector<std::vector<Assigned>> assigned(n_surfaces);
     Mean offset, angle;
-    std::int64_t over_merged = 0;
     for (std::size_t k = 0; k < map.size(); ++k) {
       std::size_t best = n_surfaces;
       Interval best_part;
-      std::vector<std::size_t> mostly_covered;
       for (std::size_t s = 0; s < n_surfaces; ++s) {
         const Segment& surface = surfaces.segments[s];
         if (!alike(map[k], surface)) continue;
         const auto part = represented_part(surface, map[k]);
         if (!part) continue;
-        if (part->length() > 0.5 * surface.length()) mostly_covered.push_back(s);
         if (best < n_surfaces && part->length() <= best_part.length()) continue;
         best = s;
         best_part = *part;
       }
-      over_merged += fuses(mostly_covered, surfaces) ? 1 : 0;
       if (best == n_surfaces) continue;
       assigned[best].push_back({k, best_part});
       offset.add(line_distance(map[k].midpoint(), surfaces.segments[best]), map[k].length());
@@ -238,21 +239,39 @@ class MapTruth : public MetricFamily {
     rows.add("lines_per_wall", kAll, ratio(number(on_visible), number(n_visible)), n_visible);
     rows.add("duplicates", kAll, number(duplicates), n_assigned);
     rows.add("fragments", kAll, number(fragments), n_assigned);
-    rows.add("over_merged", kAll, number(over_merged), std::ssize(map));
+    rows.add("over_merged", kAll, n_over_merged, std::ssize(map));
     rows.add("unassigned", kAll, number(std::ssize(map) - n_assigned), std::ssize(map));
     rows.add("map_offset", kAll, offset);
     rows.add("map_angle", kAll, angle);
   }
 
-  /// True if two of the surfaces are on lines too far apart for one map line.
-  bool fuses(const std::vector<std::size_t>& covered, const Surfaces& surfaces) const {
-    for (std::size_t i = 0; i < covered.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) {
-        const Segment& a = surfaces.segments[covered[i]];
-        const Segment& b = surfaces.segments[covered[j]];
-        if (std::max(line_distance(a.midpoint(), b), line_distance(b.midpoint(), a)) > params_.over_merge_m)
-          return true;
-      }
+  /// Map lines with a fifth or more of their members from each of two parallel walls too far apart for one map line;
+  /// undefined if the members of the map's lines are unknown. Walls that cross have no distance: a scan line that runs
+  /// around a corner is the extractor's error.
+  double over_merged(const MetricInput& input, const Surfaces& surfaces) const {
+    const auto members = members_by_surface(input, surfaces, radians(params_.max_angle_deg));
+    if (members.empty() && !input.result.map.lines.empty()) return kUndefined;
+    return number(std::ranges::count_if(members, [&](const MemberCounts& counts) { return fuses(counts, surfaces); }));
+  }
+
+  bool fuses(const MemberCounts& counts, const Surfaces& surfaces) const {
+    int all = 0;
+    for (const auto& [surface, count] : counts) all += count;
+    const auto segment = [&](int surface) { return surfaces.segments[as_index(surface)]; };
+    // The pieces of a wall with doors in it count together.
+    std::vector<Segment> sources;
+    for (const auto& [surface, unused] : counts) {
+      if (surface < 0) continue;
+      int on_this_line = 0;
+      for (const auto& [other, count] : counts)
+        if (other >= 0 && alike(segment(surface), segment(other)) &&
+            offset_between(segment(surface), segment(other)) <= params_.over_merge_m)
+          on_this_line += count;
+      if (on_this_line * kOneIn >= all) sources.push_back(segment(surface));
+    }
+    for (std::size_t i = 0; i < sources.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (alike(sources[i], sources[j]) && offset_between(sources[i], sources[j]) > params_.over_merge_m) return true;
     return false;
   }
 

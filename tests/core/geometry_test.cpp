@@ -82,6 +82,15 @@ TEST(DistanceToASegment, IsToItsEndsBeyondThemAndToItsLineBetween) {
   EXPECT_DOUBLE_EQ(distance({3, 4}, Segment{{0, 0}, {0, 0}}), 5.0);
 }
 
+TEST(AngleBetween, IgnoresTheDirectionsOfTheSegments) {
+  const Segment s{{1, 1}, {3, 1}};
+  for (const double angle : {0.0, 0.4, kPi / 2}) {
+    const Vec2 d(std::cos(angle), std::sin(angle));
+    EXPECT_NEAR(angle_between(s, {{5, 5}, Vec2(5, 5) + d}), angle, 1e-15);
+    EXPECT_NEAR(angle_between({Vec2(5, 5) + d, {5, 5}}, s), angle, 1e-15);
+  }
+}
+
 TEST(SegmentDirection, OfASegmentWithoutLengthIsZero) {
   EXPECT_EQ(Segment{}.direction().norm(), 0.0);
 }
