@@ -3,8 +3,8 @@
 //
 // The paper leaves four things open. Lines are compared in the world frame, because its tables cannot be reproduced
 // otherwise. The difference of two lines is taken on the circle and across rho = 0. N and eta are averaged over the
-// scans in which the wall has a line: the tables contain N = 1.00. The errors are pooled over the valid lines: line 3
-// of LT in the tables is possible in no other way.
+// scans in which the wall has a line: the tables contain N = 1.00. The errors are pooled over the valid lines: no
+// other average gives line 3 of LT in the tables.
 #include <algorithm>
 #include <map>
 

@@ -85,15 +85,17 @@ class Efficiency : public MetricFamily {
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
     return {
-        {"efficiency_offset", "", lower_is_better, 0.05,
-         "mean squared error of the offset at the true line's midpoint over its mean Cramer-Rao bound; 1 is the best"},
-        {"efficiency_angle", "", lower_is_better, 0.05,
-         "mean squared error of the angle over its mean Cramer-Rao bound; 1 is the best"},
+        {"efficiency_offset", "", target, 0.05,
+         "mean squared error of the offset at the true line's midpoint over its mean Cramer-Rao bound; 1 is the best",
+         false, 1.0},
+        {"efficiency_angle", "", target, 0.05,
+         "mean squared error of the angle over its mean Cramer-Rao bound; 1 is the best", false, 1.0},
         {"bound_offset", "m", neither, 0.0, "root of the mean bound of the offset"},
         {"bound_angle", "deg", neither, 0.0, "root of the mean bound of the angle"},
-        {"nees", "", neither, 0.1,
+        {"nees", "", target, 0.1,
          "mean of e' C^-1 e over lines with a covariance C; honest covariances give 2, overconfident ones more; "
-         "ci: the band that contains it with probability 95 % if they are honest"}};
+         "ci: the band that contains it with probability 95 % if they are honest",
+         false, 2.0}};
   }
 
   bool applies(const MetricInput& input) const override { return has_beam_truth(input); }

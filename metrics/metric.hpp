@@ -24,7 +24,10 @@ struct MetricRow {
   std::optional<double> ci_high;
 };
 
-enum class Direction { lower_is_better, higher_is_better, neither };
+/// Which values of a metric are good. `target`: those near one value, MetricDescription::target, on either side.
+/// `neither`: no value is better than another one, because the metric describes the input, or because a method that
+/// finds less or does worse can have a lower or a higher value.
+enum class Direction { lower_is_better, higher_is_better, target, neither };
 
 /// What a metric means, for tables, docs and `compare`.
 struct MetricDescription {
@@ -34,7 +37,16 @@ struct MetricDescription {
   double tolerance = 0.0;  ///< absolute change, in the metric's unit, that `compare` accepts
   std::string doc;
   bool timing = false;  ///< depends on the machine: excluded from comparisons of bytes
+  double target = 0.0;  ///< the best value, in the metric's unit, if direction is `target`
 };
+
+/// The value as a cost, of which less is better: the value, its negative or its distance from the target. NaN for an
+/// undefined value and for a metric of which no value is better.
+double cost(const MetricDescription& metric, double value);
+
+/// True if value `a` of the metric is strictly better than `b`. Every defined value is better than an undefined one
+/// (NaN), unless the metric's direction is `neither`: then nothing is better.
+bool better(const MetricDescription& metric, double a, double b);
 
 struct MetricInput {
   const ScanSet& observed;

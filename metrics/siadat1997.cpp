@@ -70,9 +70,10 @@ class Siadat1997 : public MetricFamily {
 
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
+    // Fewer segments are not better: an extractor that finds one line per scan has the fewest and the smallest polygon.
     return {
         {"s_min", "", neither, 0.5, "fewest segments of a scan; single points count"},
-        {"s_mean", "", lower_is_better, 0.5, "segments per scan"},
+        {"s_mean", "", neither, 0.5, "segments per scan"},
         {"s_max", "", neither, 0.5, "most segments of a scan"},
         {"d_mean", "m", lower_is_better, 0.001,
          "mean distance of points from their segment's line, averaged over a segment, a scan's segments, the scans"},
@@ -84,9 +85,8 @@ class Siadat1997 : public MetricFamily {
         {"t_seg", "ms", lower_is_better, 0.0, "CPU time per scan of segmentation", true},
         {"t_post", "ms", lower_is_better, 0.0, "CPU time per scan of fitting after segmentation", true},
         {"t_total", "ms", lower_is_better, 0.0, "CPU time per scan of all three", true},
-        {"polygon_bytes", "B", lower_is_better, 0.0, "size of a scan's polygon, 48 bytes a segment (section 6)"},
-        {"compression", "", higher_is_better, 0.0,
-         "size of the scans' ranges, 32 bits a beam, over that of their polygons"}};
+        {"polygon_bytes", "B", neither, 0.0, "size of a scan's polygon, 48 bytes a segment (section 6)"},
+        {"compression", "", neither, 0.0, "size of the scans' ranges, 32 bits a beam, over that of their polygons"}};
   }
 
   bool applies(const MetricInput& input) const override {

@@ -172,7 +172,7 @@ std::vector<double> orderings_per_seed(const ComparedColumn& column) {
 
 std::vector<BestCount> best_counts(const ComparedColumn& column, Ties ties) {
   std::vector<BestCount> counts;
-  if (column.metric.direction == Direction::neither) return counts;
+  if (column.metric.direction == Direction::neither || column.metric.direction == Direction::target) return counts;
   for (std::size_t m = 0; m < column.methods.size(); ++m)
     if (!column.methods[m].published.empty()) counts.push_back({m, 0, 0, std::vector<double>(column.seeds, 0.0)});
 

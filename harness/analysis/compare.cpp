@@ -63,7 +63,8 @@ Verdict judge(const MetricDescription& description, double a, double b) {
   const double change = b - a;
   if (std::fabs(change) <= description.tolerance) return Verdict::within;
   if (description.direction == Direction::neither) return Verdict::changed;
-  return (change > 0) == (description.direction == Direction::higher_is_better) ? Verdict::better : Verdict::worse;
+  if (metrics::better(description, b, a)) return Verdict::better;
+  return metrics::better(description, a, b) ? Verdict::worse : Verdict::changed;
 }
 
 class Comparer {
@@ -169,6 +170,8 @@ std::string_view to_string(Direction direction) {
       return "lower_is_better";
     case Direction::higher_is_better:
       return "higher_is_better";
+    case Direction::target:
+      return "target";
     case Direction::neither:
       break;
   }

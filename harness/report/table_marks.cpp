@@ -25,6 +25,7 @@ std::string heading(const std::string& metric, const Display& display) {
 
 void mark_best(const std::vector<TableCell*>& cells, const std::vector<double>& values, metrics::Direction direction) {
   using metrics::Direction;
+  if (direction == Direction::target) return;  // the caller does not give the target
   if (direction == Direction::neither || std::ranges::count_if(values, [](double v) { return std::isfinite(v); }) < 2)
     return;
   const auto better = [&](double a, double b) { return direction == Direction::lower_is_better ? a < b : a > b; };

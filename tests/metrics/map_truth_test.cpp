@@ -117,12 +117,25 @@ TEST(MapTruth, OverMergingNeedsAFifthOfTheMembersFromEachWall) {
   EXPECT_EQ(over_merged(merged_into_one({{"front", front}, {"back", back}}, members, front)), 0);
 }
 
-TEST(MapTruth, CollinearWallsMayShareALineAndWallsAtACornerMayNot) {
+TEST(MapTruth, CollinearWallsMayShareALineAndCrossingOnesAreNoOverMerging) {
   const Segment left{{0, 0}, {2, 0}};
   const Segment right{{3, 0}, {5, 0}};
   const Segment up{{3, 0}, {3, 2}};
   EXPECT_EQ(over_merged(merged_into_one({{"left", left}, {"right", right}}, {left, right}, {{0, 0}, {5, 0}})), 0);
-  EXPECT_EQ(over_merged(merged_into_one({{"left", left}, {"up", up}}, {left, up}, {{0, 0}, {3, 1}})), 1);
+  EXPECT_EQ(over_merged(merged_into_one({{"left", left}, {"up", up}}, {left, up}, {{0, 0}, {3, 1}})), 0);
+}
+
+TEST(MapTruth, ThePiecesOfAWallWithDoorsCountTogetherForOverMerging) {
+  // Six pieces of the front have one of eight members each, the back behind the doors two: a quarter.
+  std::vector<Wall> walls{{"back", {{0, 0.2}, {12, 0.2}}}};
+  std::vector<Segment> members(2, walls[0].segment);
+  for (int i = 0; i < 6; ++i) {
+    walls.push_back({"front", {{2.0 * i, 0}, {2.0 * i + 1, 0}}});
+    members.push_back(walls.back().segment);
+  }
+  EXPECT_EQ(over_merged(merged_into_one(walls, members, {{0, 0.05}, {12, 0.05}})), 1);
+  members.erase(members.begin());  // one of seven
+  EXPECT_EQ(over_merged(merged_into_one(walls, members, {{0, 0.05}, {12, 0.05}})), 0);
 }
 
 TEST(MapTruth, TheBeamsOfAMemberSayWhichWallItIsOn) {

@@ -13,6 +13,9 @@
 
 namespace scanbench::testing {
 
+using scanbench::kInf;
+using scanbench::kNaN;
+
 /// A scan that owns its sensor and ranges. ids[i] is the wall that beam i hit, -1 for none; empty unless cast() made
 /// the scan.
 struct OwnedScan {

@@ -1,0 +1,82 @@
+// Which of two values of a metric is better, and the directions that the families declare.
+#include "metrics/metric.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/registry.hpp"
+#include "core/special_values.hpp"
+
+namespace scanbench::metrics {
+namespace {
+
+MetricDescription with(Direction direction, double target = 0.0) {
+  return {.metric = "m", .unit = "", .direction = direction, .doc = "", .target = target};
+}
+
+TEST(Better, FollowsTheDirection) {
+  EXPECT_TRUE(better(with(Direction::lower_is_better), 1, 2));
+  EXPECT_FALSE(better(with(Direction::lower_is_better), 2, 1));
+  EXPECT_TRUE(better(with(Direction::higher_is_better), 2, 1));
+  EXPECT_FALSE(better(with(Direction::higher_is_better), 1, 2));
+}
+
+TEST(Better, IsNearerToATargetFromEitherSide) {
+  const MetricDescription metric = with(Direction::target, 1.0);
+  EXPECT_TRUE(better(metric, 1.0, 0.5));
+  EXPECT_TRUE(better(metric, 0.75, 1.5));
+  EXPECT_TRUE(better(metric, 1.25, 0.5));
+  EXPECT_FALSE(better(metric, 0.5, 1.5));  // equally far
+  EXPECT_FALSE(better(metric, 1.5, 0.5));
+  EXPECT_EQ(cost(metric, 0.25), 0.75);
+}
+
+TEST(Better, IsNeverTrueOfEqualValuesOrWithoutADirection) {
+  for (const Direction d :
+       {Direction::lower_is_better, Direction::higher_is_better, Direction::target, Direction::neither})
+    for (const double v : {-1.0, 0.0, 3.0, kNaN}) EXPECT_FALSE(better(with(d), v, v));
+  EXPECT_FALSE(better(with(Direction::neither), 1, 2));
+  EXPECT_FALSE(better(with(Direction::neither), 1, kNaN));
+}
+
+TEST(Better, AnUndefinedValueIsTheWorst) {
+  for (const Direction d : {Direction::lower_is_better, Direction::higher_is_better, Direction::target}) {
+    EXPECT_TRUE(better(with(d), 1e9, kNaN));
+    EXPECT_TRUE(better(with(d), -1e9, kNaN));
+    EXPECT_FALSE(better(with(d), kNaN, 1e9));
+  }
+}
+
+const MetricDescription& described(const std::vector<MetricDescription>& family, std::string_view metric) {
+  for (const MetricDescription& d : family)
+    if (d.metric == metric) return d;
+  ADD_FAILURE() << metric;
+  return family.front();
+}
+
+TEST(Direction, IsNotLowerForWhatAMethodThatFindsLessHasLessOf) {
+  const auto map_points = Registry<MetricFamily>::make("map_points")->describe();
+  const auto map_truth = Registry<MetricFamily>::make("map_truth")->describe();
+  const auto siadat1997 = Registry<MetricFamily>::make("siadat1997")->describe();
+  // The map of one line for two walls is no better than that of two lines for two walls.
+  EXPECT_FALSE(better(described(map_points, "map_lines"), 1, 2));
+  EXPECT_FALSE(better(described(map_points, "compression"), 200, 100));
+  EXPECT_FALSE(better(described(map_truth, "lines_per_wall"), 0.5, 1.0));
+  EXPECT_TRUE(better(described(map_truth, "lines_per_wall"), 1.0, 0.5));
+  EXPECT_FALSE(better(described(map_truth, "map_offset"), 0.0, 0.01));
+  EXPECT_FALSE(better(described(siadat1997, "s_mean"), 1, 4));
+}
+
+TEST(Direction, HasATargetOnlyWhereItIsTarget) {
+  for (const auto& [name, entry] : Registry<MetricFamily>::all())
+    for (const MetricDescription& d : entry.make({})->describe()) {
+      EXPECT_TRUE(std::isfinite(d.target)) << d.metric;
+      if (d.direction != Direction::target) {
+        EXPECT_EQ(d.target, 0.0) << d.metric;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace scanbench::metrics
