@@ -1,6 +1,6 @@
 // How far aligners bring scans back to their true poses, paired over seeds, and how far off they may start.
 //
-//   align_accuracy SCENARIO.yaml [SEEDS] [--set key=value]...
+//   align_accuracy SCENARIO.yaml [SEEDS [FIRST]] [--set key=value]...
 //
 // prints one row per pipeline of the scenario: mean errors after the common motion is removed, seeds with all scans
 // placed, seeds that ended worse than they began, and the paired ratio and difference to the first pipeline.
@@ -57,19 +57,20 @@ Scores scores_of(const harness::Scenario& scenario, const harness::PipelineSpec&
 }
 
 int run(const std::vector<std::string>& args) {
-  if (args.empty()) throw ConfigError("usage: align_accuracy SCENARIO.yaml [SEEDS] [--set key=value]...");
-  int seeds = 20;
+  if (args.empty()) throw ConfigError("usage: align_accuracy SCENARIO.yaml [SEEDS [FIRST]] [--set key=value]...");
+  std::vector<int> numbers;  // how many seeds, and the first
   std::vector<std::string> sets;
   for (std::size_t k = 1; k < args.size(); ++k) {
     if (args[k] == "--set" && k + 1 < args.size()) {
       sets.push_back(args[++k]);
     } else {
-      seeds = std::atoi(args[k].c_str());
+      numbers.push_back(std::atoi(args[k].c_str()));
     }
   }
   const harness::Scenario scenario = harness::load_scenario(args[0], sets);
   std::vector<Recording> recordings;
-  for (int seed = 1; seed <= seeds; ++seed)
+  const int seeds = numbers.empty() ? 20 : numbers[0], first_seed = numbers.size() < 2 ? 1 : numbers[1];
+  for (int seed = first_seed; seed < first_seed + seeds; ++seed)
     recordings.push_back(harness::make_recording(scenario, static_cast<std::uint64_t>(seed), 1));
 
   fmt::print("| pipeline | position [m] | heading [deg] | largest [m] | largest [deg] | all placed | worse | "
