@@ -14,10 +14,10 @@ class Ffs final : public Aligner {
   struct Params {
     double resample_m = 0.1;
     double sigma_start_m = 0.6;
-    double sigma_end_m = 0.03;
+    double sigma_end_m = 0.05;
     int cooling_iterations = 60;
     int max_iterations = 200;
-    double step_start = 1.0;
+    double step_start = 10.0;
     double step_end = 1.0;
     double cut_sigmas = 4.0;
     static auto fields() { return align::ffs::schedule_fields<Params>(); }

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "algorithms/align/parts/joint_step.hpp"
+#include "algorithms/align/parts/outcome.hpp"
 #include "algorithms/align/parts/register_scan.hpp"
 #include "core/modules.hpp"
 #include "core/number_text.hpp"
@@ -20,7 +21,9 @@ namespace {
 class PointToLine final : public Aligner {
  public:
   struct Params {
-    double gate_m = 0.5;
+    double odometry_sigma_m = 0.05;
+    double odometry_sigma_deg = 3.0;
+    double gate_m = 0.0;
     double final_gate_m = 0.1;
     double margin_m = 0.2;
     double max_angle_deg = 30.0;
@@ -28,8 +31,13 @@ class PointToLine final : public Aligner {
 
     static auto fields() {
       return std::tuple{
-          field("gate_m", &Params::gate_m, between(1e-6, 1e6), "m",
-                "largest distance of a point from its line at first; halves from step to step"),
+          field("odometry_sigma_m", &Params::odometry_sigma_m, between(1e-6, 1e6), "m",
+                "standard deviation of a given position, each axis"),
+          field("odometry_sigma_deg", &Params::odometry_sigma_deg, between(0, 180), "deg",
+                "standard deviation of a given heading"),
+          field("gate_m", &Params::gate_m, between(0, 1e6), "m",
+                "largest distance of a point from its line at first; halves from step to step; 0: what the error of the "
+                "given poses asks for"),
           field("final_gate_m", &Params::final_gate_m, between(1e-6, 1e6), "m",
                 "down to this; weights of pairs fall to 0 there (Tukey)"),
           field("margin_m", &Params::margin_m, between(0, 1e6), "m",
@@ -42,10 +50,11 @@ class PointToLine final : public Aligner {
   };
 
   explicit PointToLine(const Params& p)
-      : gates_{p.gate_m, p.final_gate_m},
+      : odometry_{p.odometry_sigma_m, radians(p.odometry_sigma_deg)},
+        gates_{p.gate_m, p.final_gate_m},
         rules_{p.gate_m, p.margin_m, std::cos(radians(p.max_angle_deg))},
         max_rounds_(p.max_rounds) {
-    if (p.final_gate_m > p.gate_m)
+    if (p.gate_m > 0 && p.final_gate_m > p.gate_m)
       throw ParamError("final_gate_m", "final_gate_m = " + number_text(p.final_gate_m) + " m is larger than gate_m = " +
                                            number_text(p.gate_m) + " m; allowed: up to gate_m");
   }
@@ -53,9 +62,12 @@ class PointToLine final : public Aligner {
   Alignment align(std::span<const Observation> scans, std::span<const Pose2> initial, Trace& trace) const override;
 
  private:
+  PointToLine with_gate(double wide_m) const;
+  Alignment align_shapes(std::span<const align::ScanShape> shapes, std::span<const Pose2> initial, Trace& trace) const;
   std::vector<Pose2> one_after_the_other(std::span<const align::ScanShape> scans, std::span<const Pose2> initial,
                                          double longest_m) const;
 
+  align::OdometryError odometry_;
   align::Gates gates_;
   align::PartnerRules rules_;  ///< with the widest gate
   int max_rounds_;
@@ -76,17 +88,34 @@ std::vector<Pose2> PointToLine::one_after_the_other(std::span<const align::ScanS
   return poses;
 }
 
+PointToLine PointToLine::with_gate(double wide_m) const {
+  PointToLine other = *this;
+  other.gates_.wide_m = other.rules_.gate_m = std::max(wide_m, gates_.narrow_m);
+  return other;
+}
+
 Alignment PointToLine::align(std::span<const Observation> scans, std::span<const Pose2> initial, Trace& trace) const {
   Alignment result;
   result.world_from_sensor.assign(initial.begin(), initial.end());
-  if (scans.size() < 2) return result;
+  result.message = align::unusable_pose(initial);
+  if (!result.message.empty()) result.status = Status::degenerate;
+  if (scans.size() < 2 || !result.message.empty()) return result;
 
   std::vector<align::ScanShape> shapes;
-  double longest = 0.0;
+  std::vector<double> levers;
   for (const Observation& scan : scans) {
     shapes.push_back(align::shape_of(scan));
-    for (const Segment& line : shapes.back().lines) longest = std::max(longest, line.length());
+    if (!shapes.back().readings.empty()) levers.push_back(shapes.back().lever_m);
   }
+  if (gates_.wide_m > 0) return align_shapes(shapes, initial, trace);
+  return with_gate(align::gate_for(odometry_, levers)).align_shapes(shapes, initial, trace);
+}
+
+Alignment PointToLine::align_shapes(std::span<const align::ScanShape> shapes, std::span<const Pose2> initial,
+                                    Trace& trace) const {
+  double longest = 0.0;
+  for (const align::ScanShape& shape : shapes)
+    for (const Segment& line : shape.lines) longest = std::max(longest, line.length());
 
   trace.stage("one_by_one");
   std::vector<Pose2> poses = one_after_the_other(shapes, initial, longest);
@@ -103,14 +132,8 @@ Alignment PointToLine::align(std::span<const Observation> scans, std::span<const
                         last.largest.shift_m, last.largest.turn_rad});
   }
 
-  if (last.pairs == 0) {
-    result.status = Status::no_match;
-    return result;
-  }
-  if (!converged) result.status = Status::max_iterations;
-  if (last.lowest_rank < 3) result.status = Status::degenerate;
-  for (std::size_t k = 1; k < scans.size(); ++k) result.world_from_sensor[k] = initial[0] * poses[k];
-  return result;
+  const align::Outcome outcome{last.groups, last.lowest_rank < 3, converged, max_rounds_, last.largest};
+  return align::judged(outcome, initial, poses);
 }
 
 [[maybe_unused]] const bool registered = Registry<Aligner>::add<PointToLine>(

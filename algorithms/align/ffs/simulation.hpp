@@ -18,10 +18,10 @@ namespace scanbench::align::ffs {
 struct Schedule {
   double resample_m = 0.1;
   double sigma_start_m = 0.6;
-  double sigma_end_m = 0.03;
+  double sigma_end_m = 0.05;
   int cooling_iterations = 60;
   int max_iterations = 200;
-  double step_start = 1.0;
+  double step_start = 10.0;
   double step_end = 1.0;
   double cut_sigmas = 4.0;
 
@@ -42,9 +42,9 @@ auto schedule_fields() {
       field("cooling_iterations", &P::cooling_iterations, between(1, 1e6), "",
             "iterations in which radius and step width fall geometrically from start to end"),
       field("max_iterations", &P::max_iterations, between(1, 1e6), "", "iterations at most"),
-      field("step_start", &P::step_start, between(1e-6, 1), "",
+      field("step_start", &P::step_start, between(1e-6, 1e3), "",
             "step width in the first iteration: share of the largest step that no scan overshoots with"),
-      field("step_end", &P::step_end, between(1e-6, 1), "", "step width once it has cooled"),
+      field("step_end", &P::step_end, between(1e-6, 1e3), "", "step width once it has cooled"),
       field("cut_sigmas", &P::cut_sigmas, between(2, 10), "",
             "pairs farther apart than this many radii exert no force: exp(-cut^2/2) of the largest is left out")};
 }

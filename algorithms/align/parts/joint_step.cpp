@@ -35,6 +35,7 @@ JointStep joint_step(std::span<const ScanShape> scans, const PartnerRules& rules
   }
   if (weights > 0) step.rms_m = std::sqrt(squares / weights);
 
+  step.groups = equations.groups(kFewestShared);
   const std::vector<Eigen::Vector3d> motions = equations.solve(step.lowest_rank);
   for (std::size_t k = 1; k < scans.size(); ++k) {
     const Move move = move_by(motions[k], scans[k].lever_m, world_from_sensor[k]);

@@ -6,14 +6,19 @@
 
 #include "algorithms/align/parts/line_grid.hpp"
 #include "algorithms/align/parts/pose_equations.hpp"
+#include "algorithms/align/parts/scan_groups.hpp"
 
 namespace scanbench::align {
+
+/// Pairs of a point and a line that make two scans meet.
+inline constexpr int kFewestShared = 5;
 
 struct JointStep {
   Move largest;         ///< of the scans' moves
   double rms_m = 0.0;   ///< weighted residual before the step
   int pairs = 0;        ///< of a point and a line of another scan
   int lowest_rank = 3;  ///< of the scans but the first: how many of their motions the others determine
+  ScanGroups groups{};  ///< joined by at least kFewestShared pairs
 };
 
 /// Towards the minimum of the weighted sum of squared distances between every point of every scan and the nearest line

@@ -1,0 +1,59 @@
+// Hypotheses about the map: lines and rectangles, made anew in every iteration from real data only, plotted as a virtual
+// scan, and followed from iteration to iteration for the journal (Lakaemper 2010, sections 4 and 5).
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "algorithms/align/ffs/hough_lines.hpp"
+#include "algorithms/align/ffs/rectangles.hpp"
+#include "algorithms/align/ffs/simulation.hpp"
+
+namespace scanbench::align::ffs {
+
+enum class Shape { line = 0, rectangle = 1 };
+enum class Fate { born = 0, confirmed = 1, changed = 2, dropped = 3 };
+
+struct Hypothesis {
+  Shape shape = Shape::line;
+  std::vector<Vec2> corners;  ///< the two ends of a line, the four corners of a rectangle
+  double certainty = 0.0;     ///< 0 .. 1
+  int id = -1;                ///< the same for what is taken for the same in the next iteration
+};
+
+struct HypothesisRules {
+  HoughRules lines;
+  RectangleRules rectangles;
+  double merge_angle_deg = 10.0;  ///< of segments of different scans that stand for one wall (section 4.2, figure 7)
+  double merge_distance_m = 0.2;
+  double merge_gap_m = 1.5;
+  double line_weight = 1.0;       ///< of a virtual point of a line of certainty 1; a real point has 1
+  double rectangle_weight = 1.0;
+  double resample_m = 0.1;
+};
+
+/// Lines and rectangles of the current map.
+std::vector<Hypothesis> hypotheses_of(const CurrentMap& map, const HypothesisRules& rules);
+
+/// Plots them at the density of the real points, with weights: strength of the kind times certainty. Hypotheses of
+/// weight 0 are not plotted.
+VirtualScan plotted(const std::vector<Hypothesis>& hypotheses, const HypothesisRules& rules);
+
+/// Follows hypotheses: each takes the id of the nearest one of its kind in the last iteration, if no corner is farther
+/// than five steps of resampling (lines: no end is farther from the other line); confirmed within one step, else
+/// changed.
+class HypothesisJournal {
+ public:
+  explicit HypothesisJournal(double step_m) : step_m_(step_m) {}
+
+  /// Gives ids and writes one trace row `hypothesis` each, and one for each that is dropped: iteration, shape, id, fate,
+  /// certainty, x1, y1 .. x4, y4 (a line's second end three times), world frame.
+  void follow(const CurrentMap& map, std::vector<Hypothesis>& hypotheses, Trace& trace);
+
+ private:
+  double step_m_;
+  std::vector<Hypothesis> last_;
+  int next_id_ = 0;
+};
+
+}  // namespace scanbench::align::ffs

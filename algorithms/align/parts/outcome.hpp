@@ -1,0 +1,37 @@
+// What the aligners that solve for all poses at once share around the solution: how far to look for partners, and what
+// to say in the end.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algorithms/align/parts/pose_equations.hpp"
+#include "algorithms/align/parts/scan_groups.hpp"
+#include "core/modules.hpp"
+
+namespace scanbench::align {
+
+/// Standard deviations of the given poses: of a position on each axis, and of a heading.
+struct OdometryError {
+  double sigma_m;
+  double sigma_rad;
+};
+
+/// How far two scans may place one surface apart: 2.5 standard deviations of the difference of two poses, at the
+/// median of the levers (typical distances of the returns of a scan) [m]; without levers at none.
+double gate_for(const OdometryError& error, std::span<const double> levers_m);
+
+/// How the last round of a joint solution went.
+struct Outcome {
+  ScanGroups groups;
+  bool slides;  ///< some scan has motions that the others do not determine
+  bool converged;
+  int rounds;
+  Move last;
+};
+
+/// no_match, with the poses as given, if no two scans meet; degenerate if groups of scans do not meet or one can slide;
+/// max_iterations if the last round still moved poses. The first pose keeps its given place.
+Alignment judged(const Outcome& outcome, std::span<const Pose2> initial, std::span<const Pose2> poses);
+
+}  // namespace scanbench::align
