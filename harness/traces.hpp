@@ -1,13 +1,15 @@
-// The two listeners to an algorithm's journal: a stopwatch and a recorder of rows.
+// What listens to the traces of modules: a stopwatch and a journal of rows.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/result.hpp"
+#include "core/stage_time.hpp"
 #include "core/trace.hpp"
 #include "core/trace_rows.hpp"
 
@@ -16,18 +18,19 @@ namespace scanbench::harness {
 /// CPU time of the calling thread in seconds: other processes on the machine do not enter it.
 double thread_cpu_seconds();
 
-/// Thread CPU time per stage between start() and stop(). Time before the first named stage goes to that stage; a module
-/// that names none has one stage, `whole`. Stages are listed in the order of their first appearance.
-class Stopwatch final : public Trace {
+/// Thread CPU time per stage between start() and stop(). Time before the first stage counts for that stage; a module
+/// that names none has one time without a stage. Stages are listed in the order of their first appearance.
+class Stopwatch {
  public:
-  void start();
-  void stage(std::string_view name) override;
-  /// The stages since start(), as rows of `frame`, each name with `prefix` in front.
-  void stop(std::string_view whole, std::string_view prefix, int frame, std::vector<StageTime>& times);
+  /// A trace whose stages are timed until stop().
+  Trace start();
+  void stage(Stage begun);
+  /// Appends the times since start().
+  void stop(std::string_view slot, int frame, std::vector<StageTime>& times);
 
  private:
   struct Part {
-    std::string name;
+    std::optional<Stage> stage;
     double seconds = 0.0;
   };
   void close_current(double now);
@@ -49,17 +52,16 @@ struct TraceChoice {
 };
 
 /// Rows as trace.csv: slot,frame,stage,name,values; `values` are numbers separated by blanks.
-class Journal final : public Trace {
+class Journal {
  public:
   explicit Journal(TraceChoice choice = {.all = true});
-  /// What follows belongs to this slot and frame (-1: the whole recording).
-  void begin(std::string_view slot, int frame);
-  bool recording() const override { return choice_.wants(slot_); }
-  void stage(std::string_view name) override { stage_ = name; }
-  void write(std::string_view name, std::span<const double> values) override;
+  /// A trace of this slot and frame (-1: the whole recording). It records while the journal lives, until the next one.
+  Trace begin(std::string_view slot, int frame);
   const std::string& csv() const { return text_; }
 
  private:
+  void write(std::string_view name, std::span<const double> values);
+
   TraceChoice choice_;
   std::string text_;
   std::string slot_;

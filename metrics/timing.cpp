@@ -12,11 +12,10 @@
 namespace scanbench::metrics {
 namespace {
 
-/// Stages of `extract` have plain names; those of the other slots have the slot's and a dot in front.
 std::vector<double> seconds_per_scan(const std::vector<StageTime>& times) {
   std::map<int, double> per_frame;
   for (const StageTime& t : times)
-    if (t.frame >= 0 && t.stage.find('.') == std::string::npos) per_frame[t.frame] += t.seconds;
+    if (t.frame >= 0 && t.of_extraction()) per_frame[t.frame] += t.seconds;
   std::vector<double> seconds;
   for (const auto& [frame, s] : per_frame) seconds.push_back(s);
   return seconds;
