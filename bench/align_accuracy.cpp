@@ -15,9 +15,9 @@
 
 #include "core/error.hpp"
 #include "core/registry.hpp"
-#include "harness/pipeline.hpp"
-#include "harness/scenario.hpp"
-#include "harness/statistics.hpp"
+#include "harness/run/pipeline.hpp"
+#include "harness/scenario/scenario.hpp"
+#include "harness/analysis/statistics.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::accuracy {

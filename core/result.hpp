@@ -1,11 +1,11 @@
 // The results of one pipeline on one recording, as metrics and figures read them.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/line_map.hpp"
 #include "core/scan.hpp"
+#include "core/stage_time.hpp"
 
 namespace scanbench {
 
@@ -16,13 +16,6 @@ struct MergeLabel {
   int cluster1 = -1;
   int cluster2 = -1;
   int map_line = -1;
-};
-
-/// Thread CPU time of one stage of one module on one frame; frame -1: the whole recording.
-struct StageTime {
-  std::string stage;
-  int frame = -1;
-  double seconds = 0.0;
 };
 
 struct PipelineResult {

@@ -1,31 +1,40 @@
-// The journal of an algorithm: what it thought on the way. Costs nothing unless somebody listens.
+// The journal of an algorithm: the stages of its work and the rows that it writes down on the way. Both cost next to
+// nothing unless somebody listens.
 #pragma once
 
-#include <initializer_list>
+#include <functional>
 #include <span>
-#include <string_view>
+#include <utility>
 
-#include "core/geometry.hpp"
+#include "core/stage.hpp"
+#include "core/trace_schema.hpp"
 
 namespace scanbench {
 
-/// Base class and null object: all calls do nothing. A recorder overrides write(), a stopwatch overrides stage(). Code
-/// that must prepare what it writes asks recording() first.
+/// Passes stages and rows to whoever listens; a Trace made without arguments passes them to nobody.
 class Trace {
  public:
-  virtual ~Trace() = default;
-  virtual bool recording() const { return false; }
-  /// A stage of the work begins ("pre", "segment", "fit", ...); the one before it ends.
-  virtual void stage(std::string_view) {}
-  /// A named row of numbers; rows of one name have one length.
-  virtual void write(std::string_view, std::span<const double>) {}
+  struct Listener {
+    std::function<void(Stage)> stage = {};                                      ///< may be empty
+    std::function<void(const TraceSchema&, std::span<const double>)> row = {};  ///< may be empty
+  };
 
-  void row(std::string_view name, std::initializer_list<double> values) {
-    write(name, {values.begin(), values.size()});
+  Trace() = default;
+  explicit Trace(Listener listener) : listener_(std::move(listener)) {}
+
+  /// Does anybody read the rows? Code that must prepare what it writes asks first.
+  bool recording() const { return static_cast<bool>(listener_.row); }
+  /// A stage of the work begins; the stage before it ends.
+  void stage(Stage begun) {
+    if (listener_.stage) listener_.stage(begun);
   }
-  void scalar(std::string_view name, double value) { row(name, {value}); }
-  void point(std::string_view name, const Vec2& p) { row(name, {p.x(), p.y()}); }
-  void segment(std::string_view name, const Segment& s) { row(name, {s.a.x(), s.a.y(), s.b.x(), s.b.y()}); }
+  template <TraceRowType Row>
+  void row(const Row& row) {
+    if (listener_.row) listener_.row(schema_of<Row>(), values_of(row));
+  }
+
+ private:
+  Listener listener_;
 };
 
 }  // namespace scanbench

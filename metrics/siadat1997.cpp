@@ -48,16 +48,19 @@ std::vector<GroupResidual> group_residuals(const Scan& scan, const ScanLines& fo
   return groups;
 }
 
-/// Mean over the frames of the CPU time spent in the given stages, in ms. A timed run that never entered a stage spent
-/// 0 in it (LT has no fit after its grouping); a run that was not timed has no rows at all. Some extractors call the
-/// fit after their grouping "fit" instead of "post".
-Mean stage_time(const std::vector<StageTime>& times, std::initializer_list<std::string_view> stages) {
+constexpr auto kTimedStages = {Stage::pre, Stage::segment, Stage::fit, Stage::post};
+
+/// Mean over the frames of the CPU time spent in one of the stages, in ms. A run that was timed but never entered the
+/// stage spent 0 there (LT has no fit after its grouping); one that was not timed has no rows at all. Some extractors
+/// call the fit after their grouping by its name.
+Mean stage_time(const std::vector<StageTime>& times, std::initializer_list<Stage> stages) {
+  const auto is_one_of = [](const StageTime& t, std::initializer_list<Stage> some) {
+    return t.stage && std::ranges::find(some, *t.stage) != some.end();
+  };
   std::map<int, double> per_frame;
-  for (const StageTime& t : times) {
-    const bool timed_stage = t.stage == "pre" || t.stage == "segment" || t.stage == "post" || t.stage == "fit";
-    if (timed_stage && t.frame >= 0)
-      per_frame[t.frame] += std::ranges::find(stages, t.stage) != stages.end() ? t.seconds : 0.0;
-  }
+  for (const StageTime& t : times)
+    if (t.frame >= 0 && t.of_extraction() && is_one_of(t, kTimedStages))
+      per_frame[t.frame] += is_one_of(t, stages) ? t.seconds : 0.0;
   Mean mean;
   for (const auto& [frame, seconds] : per_frame) mean.add(1e3 * seconds);
   return mean;
@@ -128,10 +131,10 @@ class Siadat1997 : public MetricFamily {
     rows.add("d_max", kAll, d_max);
     rows.add("d_mean_pts", kAll, d_mean_pts);
     rows.add("d_max_scan", kAll, d_max_scan);
-    rows.add("t_pre", kAll, stage_time(input.result.times, {"pre"}));
-    rows.add("t_seg", kAll, stage_time(input.result.times, {"segment"}));
-    rows.add("t_post", kAll, stage_time(input.result.times, {"post", "fit"}));
-    rows.add("t_total", kAll, stage_time(input.result.times, {"pre", "segment", "post", "fit"}));
+    rows.add("t_pre", kAll, stage_time(input.result.times, {Stage::pre}));
+    rows.add("t_seg", kAll, stage_time(input.result.times, {Stage::segment}));
+    rows.add("t_post", kAll, stage_time(input.result.times, {Stage::post, Stage::fit}));
+    rows.add("t_total", kAll, stage_time(input.result.times, kTimedStages));
     const double ranges_bytes = kRangeBytes * input.observed.sensor.geometry.beams();
     const double polygon_bytes = static_cast<double>(sizeof(PolygonSegment)) * segments.value();
     rows.add("polygon_bytes", kAll, polygon_bytes, segments.count());

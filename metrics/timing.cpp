@@ -12,11 +12,10 @@
 namespace scanbench::metrics {
 namespace {
 
-/// The sum of the stages of `extract` per scan. Their names have no dot; stages of other slots are named "slot.stage".
 std::vector<double> seconds_per_scan(const std::vector<StageTime>& times) {
   std::map<int, double> per_frame;
   for (const StageTime& t : times)
-    if (t.frame >= 0 && t.stage.find('.') == std::string::npos) per_frame[t.frame] += t.seconds;
+    if (t.frame >= 0 && t.of_extraction()) per_frame[t.frame] += t.seconds;
   std::vector<double> seconds;
   for (const auto& [frame, s] : per_frame) seconds.push_back(s);
   return seconds;

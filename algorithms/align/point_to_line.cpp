@@ -18,6 +18,26 @@
 namespace scanbench {
 namespace {
 
+/// A step of all poses together.
+struct RoundRow {
+  static constexpr std::string_view kName = "round";
+  int round = 0;
+  double gate_m = 0.0;
+  int pairs = 0;
+  double rms_m = 0.0;
+  double largest_shift_m = 0.0;
+  double largest_turn_rad = 0.0;
+  static constexpr auto columns() {
+    using R = RoundRow;
+    return std::tuple{column("round", &R::round),
+                      column("gate_m", &R::gate_m),
+                      column("pairs", &R::pairs),
+                      column("rms_m", &R::rms_m),
+                      column("largest_shift_m", &R::largest_shift_m),
+                      column("largest_turn_rad", &R::largest_turn_rad)};
+  }
+};
+
 class PointToLine final : public Aligner {
  public:
   struct Params {
@@ -117,10 +137,10 @@ Alignment PointToLine::align_shapes(std::span<const align::ScanShape> shapes, st
   for (const align::ScanShape& shape : shapes)
     for (const Segment& line : shape.lines) longest = std::max(longest, line.length());
 
-  trace.stage("one_by_one");
+  trace.stage(Stage::one_by_one);
   std::vector<Pose2> poses = one_after_the_other(shapes, initial, longest);
 
-  trace.stage("joint");
+  trace.stage(Stage::joint);
   align::JointStep last;
   bool converged = false;
   for (int round = 0; round < max_rounds_ && !converged; ++round) {
@@ -128,8 +148,7 @@ Alignment PointToLine::align_shapes(std::span<const align::ScanShape> shapes, st
     rules.gate_m = gates_.at(round);
     last = align::joint_step(shapes, rules, longest, poses);
     converged = gates_.narrow(round) && last.largest.small();
-    trace.row("round", {static_cast<double>(round), rules.gate_m, static_cast<double>(last.pairs), last.rms_m,
-                        last.largest.shift_m, last.largest.turn_rad});
+    trace.row(RoundRow{round, rules.gate_m, last.pairs, last.rms_m, last.largest.shift_m, last.largest.turn_rad});
   }
 
   const align::Outcome outcome{last.groups, last.lowest_rank < 3, converged, max_rounds_, last.largest};

@@ -42,6 +42,18 @@ struct Component {
   }
 };
 
+/// The state at the end of a round.
+struct EmRow {
+  static constexpr std::string_view kName = "em";
+  int round = 0;
+  double sigma_m = 0.0;
+  int segments = 0;
+  static constexpr auto columns() {
+    return std::tuple{column("round", &EmRow::round), column("sigma_m", &EmRow::sigma_m),
+                      column("segments", &EmRow::segments)};
+  }
+};
+
 class Em final : public LineExtractor {
  public:
   struct Params {
@@ -75,10 +87,10 @@ class Em final : public LineExtractor {
   explicit Em(const Params& params) : params_(params) {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
+    trace.stage(Stage::pre);
     const ScanPoints points = valid_points(scan);
     const std::vector<double> sigma = tolerances(scan, points, {1.0, params_.floor_m});
-    trace.stage("segment");
+    trace.stage(Stage::segment);
     std::vector<Component> components = first_segments(points);
     std::vector<int> owner(points.size(), -1);
     double anneal = params_.start_m;
@@ -96,10 +108,10 @@ class Em final : public LineExtractor {
       owner.assign(points.size(), -1);
       for (std::size_t k = 0; k < components.size(); ++k)
         for (const int i : components[k].own) owner[static_cast<std::size_t>(i)] = static_cast<int>(k);
-      trace.row("em", {static_cast<double>(round), anneal, static_cast<double>(components.size())});
+      trace.row(EmRow{round, anneal, static_cast<int>(components.size())});
       if (cold && owner == before) break;
     }
-    trace.stage("post");
+    trace.stage(Stage::post);
     ScanLines result = lines_of_groups(scan, points, owner, static_cast<int>(components.size()), Fit::tls,
                                        {params_.min_points, params_.min_length_m});
     add_covariances(scan, points, result);

@@ -19,6 +19,13 @@
 namespace scanbench::extract {
 namespace {
 
+/// The objective after each half of an iteration.
+struct CostRow {
+  static constexpr std::string_view kName = "fuzzy_cost";
+  double cost_m2 = 0.0;
+  static constexpr auto columns() { return std::tuple{column("cost_m2", &CostRow::cost_m2)}; }
+};
+
 constexpr double kZeroDistance2 = 1e-18;  // [m^2] a point this near to a prototype belongs to it
 
 // Eq. (4), f and g.
@@ -158,9 +165,9 @@ class FuzzyLinesModule final : public LineExtractor {
         rules_{p.min_points, p.min_length_m} {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
+    trace.stage(Stage::pre);
     const ScanPoints in = valid_points(scan);
-    trace.stage("segment");
+    trace.stage(Stage::segment);
     // Initial prototypes: equal runs of points in scan order, as SMF halves its lines.
     const std::span<const Vec2> points(in.points);
     const std::size_t count = std::min(static_cast<std::size_t>(lines_), points.size());
@@ -170,8 +177,8 @@ class FuzzyLinesModule final : public LineExtractor {
       initial.push_back(prototype_of(points.subspan(begin, (i + 1) * points.size() / count - begin), {1.0, 0.0}));
     }
     const FuzzyLines fuzzy = fuzzy_lines(points, initial, options_);
-    for (const double cost : fuzzy.costs) trace.scalar("fuzzy_cost", cost);
-    trace.stage("fit");
+    for (const double cost : fuzzy.costs) trace.row(CostRow{cost});
+    trace.stage(Stage::fit);
     std::vector<int> group_of_point(points.size(), -1);
     for (std::size_t j = 0; j < points.size(); ++j) {
       std::size_t best = 0;

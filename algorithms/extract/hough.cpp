@@ -93,15 +93,15 @@ class Hough final : public LineExtractor {
   explicit Hough(const Params& params) : params_(params) {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
+    trace.stage(Stage::pre);
     const ScanPoints points = valid_points(scan);
     const std::vector<double> tolerance = tolerances(scan, points, {params_.sigmas, params_.floor_m});
     std::vector<int> group(points.size(), -1);
     int lines = 0;
-    trace.stage("segment");
+    trace.stage(Stage::segment);
     if (points.size() > 0) lines = group_points(points, tolerance, group);
     for (int& g : group) g = g == kSpent ? -1 : g;
-    trace.stage("post");
+    trace.stage(Stage::post);
     ScanLines result =
         lines_of_groups(scan, points, group, lines, Fit::tls, {params_.min_points, params_.min_length_m});
     add_covariances(scan, points, result);

@@ -41,16 +41,16 @@ class Iepf final : public LineExtractor {
       : params_(params), threshold_(params.threshold_m, params.threshold, params.threshold_per_m) {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
+    trace.stage(Stage::pre);
     const ScanPoints points = valid_points(scan);
-    trace.stage("segment");
+    trace.stage(Stage::segment);
     std::vector<PointRun> runs;
     runs.reserve(64);
     std::vector<PointRun> pending;
     pending.reserve(64);
     for (const PointRun& whole : runs_between_gaps(points, {params_.max_gap_m, params_.max_missing_beams}))
       split(scan, points, whole, pending, runs);
-    trace.stage("post");
+    trace.stage(Stage::post);
     return lines_of_runs(scan, points, runs, params_.fit, {params_.min_points, params_.min_length_m});
   }
 

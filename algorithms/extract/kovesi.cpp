@@ -30,9 +30,9 @@ class Kovesi final : public LineExtractor {
   explicit Kovesi(const Params& params) : params_(params), breakpoint_(params.lambda_rad) {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
+    trace.stage(Stage::pre);
     const ScanPoints points = valid_points(scan);
-    trace.stage("segment");
+    trace.stage(Stage::segment);
     std::vector<PointRun> runs;
     for (const PointRun& contour : runs_between_breakpoints(scan, points, breakpoint_)) {
       int first = contour.first;
@@ -49,7 +49,7 @@ class Kovesi final : public LineExtractor {
       }
       if (contour.size() == 1) runs.push_back(contour);
     }
-    trace.stage("post");
+    trace.stage(Stage::post);
     return lines_of_runs(scan, points, runs, Fit::tls, {params_.min_points, params_.min_length_m});
   }
 

@@ -82,9 +82,9 @@ class LineTracking final : public LineExtractor {
       : params_(params), threshold_(params.threshold_m, params.threshold, params.threshold_per_m) {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
+    trace.stage(Stage::pre);
     const ScanPoints points = valid_points(scan);
-    trace.stage("segment");
+    trace.stage(Stage::segment);
     std::vector<PointRun> runs;
     runs.reserve(32);
     for (const PointRun& whole : runs_between_gaps(points, {params_.max_gap_m, params_.max_missing_beams}))
@@ -93,10 +93,10 @@ class LineTracking final : public LineExtractor {
     // The least-squares line is part of the grouping (Siadat, end of section 3): it is charged to it.
     if (params_.fit == Fit::tls) {
       ScanLines lines = lines_of_runs(scan, points, runs, Fit::tls, rules);
-      trace.stage("post");
+      trace.stage(Stage::post);
       return lines;
     }
-    trace.stage("post");
+    trace.stage(Stage::post);
     return lines_of_runs(scan, points, runs, params_.fit, rules);
   }
 

@@ -16,6 +16,13 @@
 namespace scanbench::extract {
 namespace {
 
+/// The length of the description that was found.
+struct DescriptionRow {
+  static constexpr std::string_view kName = "optimal_description_nats";
+  double length_nats = 0.0;
+  static constexpr auto columns() { return std::tuple{column("length_nats", &DescriptionRow::length_nats)}; }
+};
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kFewestReadings = 3;  // of a line: two always lie on one
 
@@ -38,9 +45,9 @@ class Extraction {
 
   ScanLines run(SupportRules rules, Trace& trace) {
     if (model_.size() < 2) return lines_of_runs(scan_, model_.points(), {}, Fit::tls, rules);
-    trace.stage("segment");
+    trace.stage(Stage::segment);
     segment();
-    trace.stage("fit");
+    trace.stage(Stage::fit);
     // Bearing noise counts as much as the wall is oblique, which is known now.
     if (noise_.bearing_sigma_rad > 0) {
       fit();
@@ -50,7 +57,7 @@ class Extraction {
     fit();
     place_corners();
     weigh_ends();
-    trace.scalar("optimal_description_nats", cost_);
+    trace.row(DescriptionRow{cost_});
     return result(rules);
   }
 
@@ -232,7 +239,7 @@ class Optimal final : public LineExtractor {
       : sigma_m_(p.sigma_m), max_lines_(p.max_lines), rules_{p.min_points, p.min_length_m} {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
+    trace.stage(Stage::pre);
     SensorNoise noise = scan.sensor.noise;
     if (sigma_m_ > 0) {
       noise.sigma_m = sigma_m_;

@@ -20,6 +20,13 @@
 namespace scanbench::extract {
 namespace {
 
+/// The length of the shortest description that was found.
+struct DescriptionRow {
+  static constexpr std::string_view kName = "polyline_description_nats";
+  double length_nats = 0.0;
+  static constexpr auto columns() { return std::tuple{column("length_nats", &DescriptionRow::length_nats)}; }
+};
+
 constexpr double kNever = 1e6;     // [nats] for a return that must not be clutter
 constexpr int kMostVertices = 64;  // where the description decides how many
 constexpr int kMostPlaces = 400;   // where vertices may stand before they are refined
@@ -47,7 +54,7 @@ class Extraction {
 
   ScanLines run(SupportRules rules, Trace& trace) {
     if (model_.size() < 2) return lines_of_runs(scan_, model_.points(), {}, Fit::tls, rules);
-    trace.stage("search");
+    trace.stage(Stage::search);
     points_ = model_.segmentation_points({});
     for (SegmentationPoint& p : points_) {
       p.direction.y() *= mirror_;
@@ -61,7 +68,7 @@ class Extraction {
     vertex_cost_ = vertices_ > 0 ? 0.0 : 2.0 * model_.place_cost();
     search_open();
     search_closed();
-    trace.scalar("polyline_description_nats", cost_);
+    trace.row(DescriptionRow{cost_});
     return result(rules);
   }
 

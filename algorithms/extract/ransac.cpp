@@ -43,10 +43,10 @@ class Ransac final : public LineExtractor {
   explicit Ransac(const Params& params) : params_(params) {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
+    trace.stage(Stage::pre);
     const ScanPoints points = valid_points(scan);
     const std::vector<double> tolerance = tolerances(scan, points, {params_.sigmas, params_.floor_m});
-    trace.stage("segment");
+    trace.stage(Stage::segment);
     std::vector<int> group(points.size(), -1);
     const auto needed = static_cast<std::size_t>(std::max(2, params_.min_points));
     int lines = 0;
@@ -56,7 +56,7 @@ class Ransac final : public LineExtractor {
       best = refined_support(points.points, tolerance, group, std::move(best), params_.max_gap_m);
       for (const int i : best) group[static_cast<std::size_t>(i)] = lines;
     }
-    trace.stage("post");
+    trace.stage(Stage::post);
     ScanLines result =
         lines_of_groups(scan, points, group, lines, Fit::tls, {params_.min_points, params_.min_length_m});
     add_covariances(scan, points, result);

@@ -62,11 +62,11 @@ class Sef final : public LineExtractor {
   }
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
+    trace.stage(Stage::pre);
     const ScanPoints points = valid_points(scan);
-    trace.stage("segment");
+    trace.stage(Stage::segment);
     const std::vector<PointRun> runs = group(scan, points);
-    trace.stage("post");
+    trace.stage(Stage::post);
     return lines_of_runs(scan, points, runs, params_.fit, {params_.min_points, params_.min_length_m});
   }
 

@@ -17,6 +17,20 @@ namespace {
 using Group = std::vector<int>;
 using Lines = std::vector<SmfLine>;
 
+/// The lines before a generation of splits.
+struct GenerationRow {
+  static constexpr std::string_view kName = "smf_generation_lines";
+  int lines = 0;
+  static constexpr auto columns() { return std::tuple{column("lines", &GenerationRow::lines)}; }
+};
+
+/// The lines after a round of merging.
+struct MergeRow {
+  static constexpr std::string_view kName = "smf_merge_lines";
+  int lines = 0;
+  static constexpr auto columns() { return std::tuple{column("lines", &MergeRow::lines)}; }
+};
+
 SmfLine line_of(std::span<const Vec2> points, Group support) {
   SmfLine line;
   line.support = std::move(support);
@@ -179,7 +193,7 @@ std::vector<SmfLine> smf_split(std::span<const Vec2> points, const SmfOptions& o
   std::iota(all.begin(), all.end(), 0);
   lines.push_back(line_of(points, std::move(all)));  // step 1
   for (bool again = true; again;) {                  // steps 2 to 4: a generation
-    trace.scalar("smf_generation_lines", static_cast<double>(lines.size()));
+    trace.row(GenerationRow{static_cast<int>(lines.size())});
     again = false;
     for (std::size_t k = 0, count = lines.size(); k < count; ++k) {
       if (lines[k].support.size() <= 2 || smf_dispersion(lines[k].moments, options) <= options.sigma_max_m) continue;
@@ -211,7 +225,7 @@ std::vector<SmfLine> smf_merge(std::span<const Vec2> points, std::vector<SmfLine
       k = low;
       fused = true;
     }
-    trace.scalar("smf_merge_lines", static_cast<double>(lines.size()));
+    trace.row(MergeRow{static_cast<int>(lines.size())});
   }
   return lines;
 }
@@ -265,12 +279,12 @@ class Smf final : public LineExtractor {
         rules_{p.min_points, p.min_length_m} {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
+    trace.stage(Stage::pre);
     const ScanPoints in = valid_points(scan);
-    trace.stage("segment");
+    trace.stage(Stage::segment);
     Lines lines = smf_split(in.points, options_, trace);
     lines = smf_merge(in.points, std::move(lines), options_, trace);
-    trace.stage("fit");
+    trace.stage(Stage::fit);
     std::vector<int> group_of_point(in.size(), -1);
     for (std::size_t k = 0; k < lines.size(); ++k)
       for (const int j : lines[k].support) group_of_point[static_cast<std::size_t>(j)] = static_cast<int>(k);

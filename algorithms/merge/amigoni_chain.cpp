@@ -24,7 +24,7 @@ class AmigoniChain final : public SegmentMerger {
   explicit AmigoniChain(const Params& p) : rules_(merge::match_rules(p)) {}
 
   MergeResult merge(const MergeInput& input, Trace& trace) const override {
-    trace.stage("match");
+    trace.stage(Stage::match);
     const merge::DistinctLines distinct = merge::distinct_lines(input.lines);
     const auto& lines = distinct.representatives;
     const merge::NearSegments near(lines, rules_);
@@ -34,7 +34,7 @@ class AmigoniChain final : public SegmentMerger {
         if (chains.find(i) != chains.find(j) && merge::match_cost(lines[i], lines[j], rules_)) chains.unite(i, j);
       });
 
-    trace.stage("merge");
+    trace.stage(Stage::merge);
     const std::vector<int> chain = chains.labels();
     std::vector<merge::Representative> merged;
     for (std::size_t i = 0; i < lines.size(); ++i) {

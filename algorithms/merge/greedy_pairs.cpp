@@ -64,7 +64,7 @@ std::vector<std::vector<std::size_t>> GreedyPairs::neighbours(const std::vector<
 }
 
 MergeResult GreedyPairs::merge(const MergeInput& input, Trace& trace) const {
-  trace.stage("match");
+  trace.stage(Stage::match);
   const merge::DistinctLines distinct = merge::distinct_lines(input.lines);
   std::vector<merge::Representative> nodes = distinct.representatives;
   std::vector<std::vector<std::size_t>> near = neighbours(nodes);
@@ -86,7 +86,7 @@ MergeResult GreedyPairs::merge(const MergeInput& input, Trace& trace) const {
     for (const std::size_t j : near[i])
       if (i < j) consider(i, j);
 
-  trace.stage("merge");
+  trace.stage(Stage::merge);
   // Every merger is a new node; parents of a node that is alive are itself.
   std::vector<std::size_t> parent(nodes.size());
   for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = i;

@@ -17,6 +17,7 @@
 #include "algorithms/merge/mean_shift_modes.hpp"
 #include "algorithms/merge/mean_shift_phases.hpp"
 #include "algorithms/merge/mean_shift_trace.hpp"
+#include "core/mean_shift_trace.hpp"
 #include "core/modules.hpp"
 #include "core/number_text.hpp"
 #include "core/registry.hpp"
@@ -225,39 +226,39 @@ MergeResult MeanShift::merge(const MergeInput& input, Trace& trace) const {
   result.cluster1.assign(n, -1);
   result.cluster2.assign(n, -1);
 
-  trace.stage("split");
+  trace.stage(Stage::split);
   const merge::JointSpace space = merge::split_lines(input.lines, p_.sigma_m, p_.split_length_sigma * p_.sigma_m);
   const std::vector<Piece>& pieces = space.pieces;
   if (pieces.empty()) {
     if (n > 0) result.status = Status::degenerate;
-    trace.row("counts", {static_cast<double>(n), 0, 0, 0, 0, 0});
+    trace.row(mean_shift::CountsRow{.lines = static_cast<int>(n)});
     return result;
   }
   const bool recording = trace.recording();
   merge::trace_joint_space(pieces, kernels_, trace);
 
-  trace.stage("phase1");
+  trace.stage(Stage::phase1);
   const Clustering first = p_.phases == Phases::two ? merge::cluster_directions(pieces, kernels_, recording)
                                                     : merge::cluster_in_one_phase(pieces, kernels_, recording);
   const std::vector<double> directions1 = cluster_directions_of(first);
-  merge::trace_trajectories(first, "trajectory1", trace);
+  merge::trace_trajectories<1>(first, trace);
   merge::trace_ends(first, trace);
 
-  trace.stage("phase2");
+  trace.stage(Stage::phase2);
   Clustering second;
   if (p_.phases == Phases::two) {
     second = merge::cluster_collinear(pieces, first.cluster, directions1, kernels_, recording);
-    merge::trace_trajectories(second, "trajectory2", trace);
+    merge::trace_trajectories<2>(second, trace);
   }
   const Clustering& last = p_.phases == Phases::two ? second : first;
   if (!first.converged || !last.converged) result.status = Status::max_iterations;
 
-  trace.stage("merge");
+  trace.stage(Stage::merge);
   std::vector<DraftLine> drafts = merge_clusters(pieces, last, cluster_directions_of(last), trace);
   const std::size_t merged = drafts.size();
   merge::trace_merged(drafts, trace);
 
-  trace.stage("post");
+  trace.stage(Stage::post);
   if (p_.join)
     drafts = merge::join_neighbours(std::move(drafts), {.angle_rad = radians(p_.join_angle_deg),
                                                         .deviation_m = p_.join_deviation_sigma * p_.sigma_m,
@@ -283,9 +284,7 @@ MergeResult MeanShift::merge(const MergeInput& input, Trace& trace) const {
     labels.add(pieces[k].line, map_line_of[k], length);
     clusters1.add(pieces[k].line, first.cluster[k], length);
     clusters2.add(pieces[k].line, last.cluster[k], length);
-    if (recording)
-      trace.row("cluster", {static_cast<double>(k), static_cast<double>(first.cluster[k]),
-                            static_cast<double>(last.cluster[k]), static_cast<double>(map_line_of[k])});
+    trace.row(mean_shift::ClusterRow{static_cast<int>(k), first.cluster[k], last.cluster[k], map_line_of[k]});
   }
   result.labels = labels.winners();
   result.cluster1 = clusters1.winners();
@@ -307,13 +306,16 @@ MergeResult MeanShift::merge(const MergeInput& input, Trace& trace) const {
     sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
     for (const std::size_t i : sources) line.members += input.lines[i].members;
     line.points = static_cast<int>(std::lround(points));
-    if (recording) trace.segment("interval", line.segment);
+    const auto& [a, b] = line.segment;
+    trace.row(mean_shift::IntervalRow{a.x(), a.y(), b.x(), b.y()});
     result.map.lines.push_back(line);
   }
-  if (recording)
-    trace.row("counts",
-              {static_cast<double>(n), static_cast<double>(pieces.size()), static_cast<double>(first.clusters),
-               static_cast<double>(last.clusters), static_cast<double>(merged), static_cast<double>(drafts.size())});
+  trace.row(mean_shift::CountsRow{.lines = static_cast<int>(n),
+                                  .pieces = static_cast<int>(pieces.size()),
+                                  .clusters1 = first.clusters,
+                                  .clusters2 = last.clusters,
+                                  .merged = static_cast<int>(merged),
+                                  .map_lines = static_cast<int>(drafts.size())});
   return result;
 }
 

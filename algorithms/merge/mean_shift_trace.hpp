@@ -1,9 +1,7 @@
-// What mean_shift writes down on the way, for its figures (docs/algorithms/mean_shift.md, "Trace rows"). Each call does
-// nothing unless somebody records.
+// The trace rows of mean_shift (core/mean_shift_trace.hpp). Each call does nothing unless somebody records.
 #pragma once
 
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "algorithms/merge/joint_space.hpp"
@@ -16,8 +14,9 @@ namespace scanbench::merge {
 /// kernel1 and joint_space.
 void trace_joint_space(std::span<const Piece> pieces, const Kernels& kernels, Trace& trace);
 
-/// The trajectories under a name of the phase's own.
-void trace_trajectories(const Clustering& clustering, std::string_view name, Trace& trace);
+/// trajectory1 or trajectory2.
+template <int kPhase>
+void trace_trajectories(const Clustering& clustering, Trace& trace);
 
 /// mode1: where the pieces end in phase 1.
 void trace_ends(const Clustering& first, Trace& trace);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -15,51 +16,29 @@
 namespace scanbench::harness {
 namespace {
 
-/// Where the modules' traces go in one pass.
-class Listener {
- public:
-  virtual ~Listener() = default;
-  virtual Trace& begin(std::string_view slot, int frame) = 0;
-  virtual void end() {}
-};
+/// Makes a module's trace for one slot and frame (-1: the whole recording), calls the module with it, and keeps what
+/// the pass wants of it.
+using Listener = std::function<void(std::string_view slot, int frame, const std::function<void(Trace&)>& call)>;
 
-class NobodyListens final : public Listener {
- public:
-  Trace& begin(std::string_view, int) override { return nothing_; }
+void nobody_listens(std::string_view, int, const std::function<void(Trace&)>& call) {
+  Trace silent;
+  call(silent);
+}
 
- private:
-  Trace nothing_;
-};
+Listener timed_into(std::vector<StageTime>& times) {
+  return [&times, watch = Stopwatch()](std::string_view slot, int frame, const auto& call) mutable {
+    Trace trace = watch.start();
+    call(trace);
+    watch.stop(slot, frame, times);
+  };
+}
 
-class JournalListener final : public Listener {
- public:
-  explicit JournalListener(Journal& journal) : journal_(journal) {}
-  Trace& begin(std::string_view slot, int frame) override {
-    journal_.begin(slot, frame);
-    return journal_;
-  }
-
- private:
-  Journal& journal_;
-};
-
-class StopwatchListener final : public Listener {
- public:
-  explicit StopwatchListener(std::vector<StageTime>& times) : times_(times) {}
-  Trace& begin(std::string_view slot, int frame) override {
-    slot_ = slot;
-    frame_ = frame;
-    watch_.start();
-    return watch_;
-  }
-  void end() override { watch_.stop(slot_, slot_ == "extract" ? "" : slot_ + ".", frame_, times_); }
-
- private:
-  std::vector<StageTime>& times_;
-  Stopwatch watch_;
-  std::string slot_;
-  int frame_ = -1;
-};
+Listener written_into(Journal& journal) {
+  return [&journal](std::string_view slot, int frame, const auto& call) {
+    Trace trace = journal.begin(slot, frame);
+    call(trace);
+  };
+}
 
 void check_lines(const ScanLines& lines, int beams, std::size_t frame) {
   const auto refuse = [&](const std::string& what) {
@@ -95,7 +74,7 @@ void check_map(const LineMap& map, const std::string& slot) {
 /// One pass over the slots behind `extract`.
 class Chain {
  public:
-  Chain(const ScanSet& scans, PipelineResult& result, Listener& listener)
+  Chain(const ScanSet& scans, PipelineResult& result, const Listener& listener)
       : scans_(scans), result_(result), listener_(listener) {
     views_.reserve(scans.frames.size());
     for (std::size_t k = 0; k < scans.frames.size(); ++k) {
@@ -143,8 +122,8 @@ class Chain {
     const auto aligner = Registry<Aligner>::make(slot.module, slot.params);
     std::vector<Observation> observations;
     for (std::size_t k = 0; k < views_.size(); ++k) observations.push_back(observation(k));
-    Alignment alignment = aligner->align(observations, poses_, listener_.begin("align", -1));
-    listener_.end();
+    Alignment alignment;
+    listener_("align", -1, [&](Trace& trace) { alignment = aligner->align(observations, poses_, trace); });
     note("align", alignment.status);
     if (alignment.status != Status::converged) messages_["align"] = alignment.message;
     if (alignment.world_from_sensor.size() != poses_.size())
@@ -159,9 +138,9 @@ class Chain {
     const auto matcher = Registry<ScanMatcher>::make(slot.module, slot.params);
     for (std::size_t k = 1; k < views_.size(); ++k) {
       const Pose2 guess = scans_.frames[k - 1].odom_from_sensor.inverse() * scans_.frames[k].odom_from_sensor;
-      const Match found =
-          matcher->match(observation(k - 1), observation(k), guess, listener_.begin("match", static_cast<int>(k)));
-      listener_.end();
+      Match found;
+      listener_("match", static_cast<int>(k),
+                [&](Trace& trace) { found = matcher->match(observation(k - 1), observation(k), guess, trace); });
       note("match", found.status);
       const Pose2& step = found.status == Status::no_match ? guess : found.reference_from_current;
       check_pose(step, "match, frame " + std::to_string(k));
@@ -171,10 +150,8 @@ class Chain {
 
   void map(const ModuleChoice& slot) {
     const auto mapper = Registry<Mapper>::make(slot.module, slot.params);
-    for (std::size_t k = 0; k < views_.size(); ++k) {
-      mapper->insert(observation(k), poses_[k], listener_.begin("map", static_cast<int>(k)));
-      listener_.end();
-    }
+    for (std::size_t k = 0; k < views_.size(); ++k)
+      listener_("map", static_cast<int>(k), [&](Trace& trace) { mapper->insert(observation(k), poses_[k], trace); });
     result_.map = mapper->map();
     result_.has_map = true;
     check_map(result_.map, "map");
@@ -197,8 +174,8 @@ class Chain {
       }
       for (const Vec2& p : valid_points(views_[k]).points) points.push_back(poses_[k] * p);
     }
-    MergeResult merged = merger->merge({lines, points}, listener_.begin("merge", -1));
-    listener_.end();
+    MergeResult merged;
+    listener_("merge", -1, [&](Trace& trace) { merged = merger->merge({lines, points}, trace); });
     note("merge", merged.status);
     check_map(merged.map, "merge");
     const auto label_at = [&](const std::vector<int>& of, std::size_t i, const std::string& name, bool required) {
@@ -223,19 +200,18 @@ class Chain {
 
   const ScanSet& scans_;
   PipelineResult& result_;
-  Listener& listener_;
+  const Listener& listener_;
   std::vector<Scan> views_;
   std::vector<Pose2> poses_;
   std::map<std::string, std::map<Status, int>> outcomes_;
   std::map<std::string, std::string> messages_;
 };
 
-std::vector<ScanLines> extract_all(const LineExtractor& extractor, const ScanSet& scans, Listener& listener) {
-  std::vector<ScanLines> lines;
-  lines.reserve(scans.frames.size());
-  for (std::size_t k = 0; k < scans.frames.size(); ++k) {
-    lines.push_back(extractor.extract(scans.scan(k), listener.begin("extract", static_cast<int>(k))));
-    listener.end();
+std::vector<ScanLines> extract_all(const LineExtractor& extractor, const ScanSet& scans, const Listener& listener) {
+  std::vector<ScanLines> lines(scans.frames.size());
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const Scan scan = scans.scan(k);
+    listener("extract", static_cast<int>(k), [&](Trace& trace) { lines[k] = extractor.extract(scan, trace); });
   }
   return lines;
 }
@@ -271,16 +247,15 @@ PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Jou
   const std::span<const ModuleChoice> behind_lines = std::span(pipeline.slots).subspan(given ? 0 : 1);
   std::unique_ptr<LineExtractor> extractor;
   if (!given) extractor = Registry<LineExtractor>::make(pipeline.slots.front().module, pipeline.slots.front().params);
-  const auto all_lines = [&](Listener& listener) {
+  const auto all_lines = [&](const Listener& listener) {
     return given ? given_lines(scans) : extract_all(*extractor, scans, listener);
   };
 
   PipelineRun run;
-  NobodyListens nobody;
-  StopwatchListener stopwatch(run.result.times);
-  run.result.lines = all_lines(nobody);
+  run.result.lines = all_lines(nobody_listens);
   const int beams = scans.sensor.geometry.beams();
   for (std::size_t k = 0; k < run.result.lines.size(); ++k) check_lines(run.result.lines[k], beams, k);
+  const Listener stopwatch = timed_into(run.result.times);
   all_lines(stopwatch);
 
   Chain chain(scans, run.result, stopwatch);
@@ -288,7 +263,7 @@ PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Jou
   run.remarks = chain.remarks();
 
   if (journal != nullptr) {
-    JournalListener listener(*journal);
+    const Listener listener = written_into(*journal);
     PipelineResult again;
     again.lines = all_lines(listener);
     Chain journaled(scans, again, listener);

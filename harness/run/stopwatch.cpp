@@ -13,10 +13,11 @@ double thread_cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-void Stopwatch::start() {
+Trace Stopwatch::start() {
   parts_.clear();
   current_ = 0;
   since_ = thread_cpu_seconds();
+  return Trace({.stage = [this](Stage begun) { stage(begun); }});
 }
 
 void Stopwatch::close_current(double now) {
@@ -24,21 +25,18 @@ void Stopwatch::close_current(double now) {
   since_ = now;
 }
 
-void Stopwatch::stage(std::string_view name) {
+void Stopwatch::stage(Stage begun) {
   if (!parts_.empty()) close_current(thread_cpu_seconds());
-  const auto found = std::ranges::find(parts_, name, &Part::name);
+  const auto found = std::ranges::find(parts_, begun, &Part::stage);
   current_ = static_cast<std::size_t>(found - parts_.begin());
-  if (found == parts_.end()) parts_.push_back({std::string(name)});
+  if (found == parts_.end()) parts_.push_back({begun});
 }
 
-void Stopwatch::stop(std::string_view whole, std::string_view prefix, int frame, std::vector<StageTime>& times) {
+void Stopwatch::stop(std::string_view slot, int frame, std::vector<StageTime>& times) {
   const double now = thread_cpu_seconds();
-  if (parts_.empty())
-    parts_.push_back({std::string(whole)});
-  else
-    for (auto& part : parts_) part.name = std::string(prefix) + part.name;
+  if (parts_.empty()) parts_.push_back({});
   close_current(now);
-  for (const auto& part : parts_) times.push_back({part.name, frame, part.seconds});
+  for (const auto& part : parts_) times.push_back({std::string(slot), part.stage, frame, part.seconds});
 }
 
 }  // namespace scanbench::harness

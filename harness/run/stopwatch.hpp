@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/result.hpp"
+#include "core/stage_time.hpp"
 #include "core/trace.hpp"
 
 namespace scanbench::harness {
@@ -14,18 +15,19 @@ namespace scanbench::harness {
 /// CPU time of the calling thread in seconds: other processes on the machine do not enter it.
 double thread_cpu_seconds();
 
-/// Thread CPU time per stage between start() and stop(). Time before the first named stage goes to that stage; a module
-/// that names none has one stage, `whole`. Stages are listed in the order of their first appearance.
-class Stopwatch final : public Trace {
+/// Thread CPU time per stage between start() and stop(). Time before the first stage counts for that stage; a module
+/// that names none has one time without a stage. Stages are listed in the order of their first appearance.
+class Stopwatch {
  public:
-  void start();
-  void stage(std::string_view name) override;
-  /// The stages since start(), as rows of `frame`, each name with `prefix` in front.
-  void stop(std::string_view whole, std::string_view prefix, int frame, std::vector<StageTime>& times);
+  /// A trace whose stages are timed until stop().
+  Trace start();
+  void stage(Stage begun);
+  /// Appends the times since start().
+  void stop(std::string_view slot, int frame, std::vector<StageTime>& times);
 
  private:
   struct Part {
-    std::string name;
+    std::optional<Stage> stage;
     double seconds = 0.0;
   };
   void close_current(double now);

@@ -180,7 +180,7 @@ void write_result(const fs::path& cell, const PipelineSpec& pipeline, const Pipe
     write_staged_file(cell / "merge_labels.csv", csv.str());
   }
   CsvWriter csv(kTimingColumns);
-  for (const auto& time : result.times) csv.text(time.stage).integer(time.frame).number(time.seconds).end_row();
+  for (const auto& time : result.times) csv.text(time.label()).integer(time.frame).number(time.seconds).end_row();
   write_staged_file(cell / "timing.csv", csv.str());
 }
 
@@ -217,8 +217,12 @@ PipelineResult load_result(const fs::path& cell) {
   }
   if (fs::exists(cell / "timing.csv")) {
     const CsvTable csv = table(cell / "timing.csv", kTimingColumns);
-    for (std::size_t r = 0; r < csv.rows(); ++r)
-      result.times.push_back({csv.text(r, "stage"), csv.index(r, "frame"), csv.number(r, "seconds")});
+    for (std::size_t r = 0; r < csv.rows(); ++r) {
+      auto time = stage_time_labelled(csv.text(r, "stage"), csv.index(r, "frame"));
+      if (!time) csv.refuse(r, quoted_excerpt(csv.text(r, "stage")) + " is not a stage");
+      time->seconds = csv.number(r, "seconds");
+      result.times.push_back(std::move(*time));
+    }
   }
   return result;
 }

@@ -13,10 +13,13 @@ namespace scanbench::harness {
 
 Journal::Journal(TraceChoice choice) : choice_(std::move(choice)), text_("slot,frame,stage,name,values\n") {}
 
-void Journal::begin(std::string_view slot, int frame) {
+Trace Journal::begin(std::string_view slot, int frame) {
   slot_ = slot;
   frame_ = frame;
   stage_.clear();
+  if (!choice_.wants(slot_)) return Trace();
+  return Trace({.stage = [this](Stage begun) { stage_ = to_string(begun); },
+                .row = [this](const TraceSchema& schema, std::span<const double> v) { write(schema.name, v); }});
 }
 
 void Journal::write(std::string_view name, std::span<const double> values) {

@@ -1,8 +1,8 @@
-// The two listeners to an algorithm's journal: a stopwatch and a recorder of rows.
+// Traces of modules as a file of the cell.
 #pragma once
 
 #include <filesystem>
-#include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,17 +14,16 @@
 namespace scanbench::harness {
 
 /// Rows as trace.csv: slot,frame,stage,name,values; `values` are numbers separated by blanks.
-class Journal final : public Trace {
+class Journal {
  public:
   explicit Journal(TraceChoice choice = {.all = true});
-  /// What follows belongs to this slot and frame (-1: the whole recording).
-  void begin(std::string_view slot, int frame);
-  bool recording() const override { return choice_.wants(slot_); }
-  void stage(std::string_view name) override { stage_ = name; }
-  void write(std::string_view name, std::span<const double> values) override;
+  /// A trace of this slot and frame (-1: the whole recording). It records while the journal lives, until the next one.
+  Trace begin(std::string_view slot, int frame);
   const std::string& csv() const { return text_; }
 
  private:
+  void write(std::string_view name, std::span<const double> values);
+
   TraceChoice choice_;
   std::string text_;
   std::string slot_;

@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "render/paper/font.hpp"
 #include "render/layout/layout.hpp"
+#include "render/paper/font.hpp"
 #include "render/paper/stroke_style.hpp"
 
 namespace scanbench::render {

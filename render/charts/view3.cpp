@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/paper/font.hpp"
-#include "render/palette.hpp"
 #include "render/layout/ticks.hpp"
+#include "render/palette.hpp"
+#include "render/paper/font.hpp"
 
 namespace scanbench::render {
 namespace {

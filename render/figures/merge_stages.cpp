@@ -23,7 +23,7 @@ class MergeStages : public Figure {
 
   std::vector<std::string> trace_rows(std::string_view pipeline) const override {
     if (!shows(params_.pipeline, pipeline)) return {};
-    return {"merge.merged"};
+    return {key_of<mean_shift::MergedRow>(kMergeSlot)};
   }
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {
@@ -72,9 +72,8 @@ class MergeStages : public Figure {
   static std::vector<Segment> merged_before_cleaning(const NamedResult& named) {
     std::vector<Segment> merged;
     if (named.trace == nullptr) return merged;
-    if (const auto found = named.trace->find("merge.merged"); found != named.trace->end())
-      for (const auto& [frame, v] : found->second)
-        if (v.size() == 5) merged.push_back({{v[1], v[2]}, {v[3], v[4]}});
+    for (const auto& row : rows_of<mean_shift::MergedRow>(*named.trace, kMergeSlot))
+      merged.push_back({{row.x1_m, row.y1_m}, {row.x2_m, row.y2_m}});
     return merged;
   }
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/paper/font.hpp"
 #include "render/layout/layout.hpp"
 #include "render/palette.hpp"
+#include "render/paper/font.hpp"
 
 namespace scanbench::render {
 namespace {

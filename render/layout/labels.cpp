@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "render/paper/font.hpp"
 #include "render/layout/layout.hpp"
+#include "render/paper/font.hpp"
 
 namespace scanbench::render {
 namespace {

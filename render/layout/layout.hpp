@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "render/scene.hpp"
 #include "render/layout/ticks.hpp"
+#include "render/scene.hpp"
 
 namespace scanbench::render {
 

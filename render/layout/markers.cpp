@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "render/paper/font.hpp"
 #include "render/layout/layout.hpp"
+#include "render/paper/font.hpp"
 
 namespace scanbench::render {
 namespace {

@@ -7,6 +7,7 @@
 #include "core/special_values.hpp"
 #include "tests/support/extraction.hpp"
 #include "tests/support/scan_lines_checks.hpp"
+#include "tests/support/trace_recorder.hpp"
 
 namespace scanbench {
 namespace {
@@ -156,9 +157,9 @@ TEST(Gaps, EndLinesByDistanceAndByMissingBeams) {
 TEST(Stages, ArePreSegmentPostForTheThreeOfSiadat) {
   const OwnedScan scan = random_scan(1);
   for (const std::string module : {"sef", "line_tracking", "iepf"}) {
-    testing::ListeningTrace trace;
-    Registry<LineExtractor>::make(module)->extract(scan.view(), trace);
-    EXPECT_EQ(trace.stages, (std::vector<std::string>{"pre", "segment", "post"})) << module;
+    testing::TraceRecorder recorder("extract");
+    Registry<LineExtractor>::make(module)->extract(scan.view(), recorder.trace);
+    EXPECT_EQ(recorder.stages, (std::vector{Stage::pre, Stage::segment, Stage::post})) << module;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/mean_shift_trace.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "tests/algorithms/merge_spiral.hpp"
@@ -14,7 +15,6 @@ namespace scanbench {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-using Row = std::vector<double>;
 
 constexpr double kSigma = 0.20;
 constexpr double kAngleScale = radians(10.0);  // 20 cm relate to 10 degrees (eq. 4)
@@ -55,16 +55,18 @@ double relative_gradient(const std::vector<Vec3>& points, const Vec3& at, const 
 struct Climbs {
   Climbs() {
     Registry<SegmentMerger>::make("mean_shift", {{"sigma_m", kSigma}, {"cutoff", 6.0}})
-        ->merge({testing::spiral(), {}}, recorder);
-    for (const Row& row : recorder.rows["joint_space"]) points.emplace_back(row[2], row[3], row[4]);
+        ->merge({testing::spiral(), {}}, recorder.trace);
+    for (const auto& row : recorder.rows<mean_shift::JointSpaceRow>())
+      points.emplace_back(row.x_m, row.y_m, row.alpha_rad);
   }
-  std::vector<std::vector<Vec3>> paths(const std::string& name) {
+  template <int kPhase>
+  std::vector<std::vector<Vec3>> paths() const {
     std::vector<std::vector<Vec3>> result(points.size());
-    for (const Row& row : recorder.rows[name])
-      result[static_cast<std::size_t>(row[0])].emplace_back(row[2], row[3], row[4]);
+    for (const auto& row : recorder.rows<mean_shift::TrajectoryRow<kPhase>>())
+      result[static_cast<std::size_t>(row.piece)].emplace_back(row.x_m, row.y_m, row.alpha_rad);
     return result;
   }
-  testing::TraceRecorder recorder;
+  testing::TraceRecorder recorder{"merge"};
   std::vector<Vec3> points;
 };
 
@@ -77,15 +79,15 @@ void expect_a_climb_to_a_mode(const std::vector<Vec3>& path, const std::vector<V
 
 TEST(MeanShiftGradient, IsZeroAtTheEndOfEveryClimbOfPhase1AndTheDensityNeverFalls) {
   Climbs climbs;
-  for (const auto& path : climbs.paths("trajectory1")) expect_a_climb_to_a_mode(path, climbs.points, metric1);
+  for (const auto& path : climbs.paths<1>()) expect_a_climb_to_a_mode(path, climbs.points, metric1);
 }
 
 TEST(MeanShiftGradient, IsZeroAtTheEndOfEveryClimbOfPhase2AndTheDensityNeverFalls) {
   Climbs climbs;
-  const auto paths = climbs.paths("trajectory2");
+  const auto paths = climbs.paths<2>();
   std::map<int, std::vector<std::size_t>> clusters;
-  for (const Row& row : climbs.recorder.rows["cluster"])
-    clusters[static_cast<int>(row[1])].push_back(static_cast<std::size_t>(row[0]));
+  for (const auto& row : climbs.recorder.rows<mean_shift::ClusterRow>())
+    clusters[row.cluster1].push_back(static_cast<std::size_t>(row.piece));
   ASSERT_GT(clusters.size(), 5U);
   for (const auto& [cluster, members] : clusters) {
     std::vector<Vec3> points;

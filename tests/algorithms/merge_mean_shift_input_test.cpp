@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
+#include "core/mean_shift_trace.hpp"
 #include "core/rng.hpp"
 #include "tests/algorithms/merge_spiral.hpp"
 #include "tests/support/merging.hpp"
@@ -130,35 +132,40 @@ TEST(MeanShift, TrimsShortOvershootsAtIntersections) {
 
 TEST(MeanShift, LeavesATraceThatFiguresCanBeDrawnFrom) {
   const auto lines = testing::spiral();
-  testing::TraceRecorder recorder;
+  testing::TraceRecorder recorder("merge");
   const auto merger = Registry<SegmentMerger>::make("mean_shift", {{"split_length_sigma", 10.0}});
-  const MergeResult traced = merger->merge({lines, {}}, recorder);
+  const MergeResult traced = merger->merge({lines, {}}, recorder.trace);
   Trace silent;
   const MergeResult plain = merger->merge({lines, {}}, silent);
   ASSERT_EQ(traced.map.lines.size(), plain.map.lines.size());
   for (std::size_t k = 0; k < plain.map.lines.size(); ++k)
     EXPECT_EQ(traced.map.lines[k].segment, plain.map.lines[k].segment);
 
-  auto& rows = recorder.rows;
-  EXPECT_EQ(rows["joint_space"].size(), 300U);  // figure 1: 300 points for 300 segments
-  EXPECT_EQ(rows["cluster"].size(), 300U);
-  EXPECT_EQ(rows["projection"].size(), 300U);
-  EXPECT_EQ(rows["mode1"].size(), 300U);
-  EXPECT_EQ(rows["mode2"].size(), rows["kernel2"].size());
-  EXPECT_EQ(rows["interval"].size(), plain.map.lines.size());
-  ASSERT_EQ(rows["counts"].size(), 1U);
-  EXPECT_EQ(rows["counts"][0][0], 300.0);
-  EXPECT_EQ(rows["counts"][0][5], static_cast<double>(plain.map.lines.size()));
-  for (const char* name : {"trajectory1", "trajectory2"}) {
-    std::map<int, std::vector<std::vector<double>>> paths;
-    for (const auto& row : rows[name]) paths[static_cast<int>(row[0])].push_back(row);
-    ASSERT_EQ(paths.size(), 300U) << name;
-    for (const auto& [piece, path] : paths) {
-      const auto& start = rows["joint_space"][static_cast<std::size_t>(piece)];
-      EXPECT_NEAR(path.front()[2], start[2], 1e-12) << name;
-      EXPECT_NEAR(path.front()[3], start[3], 1e-12) << name;
+  const auto points = recorder.rows<mean_shift::JointSpaceRow>();
+  ASSERT_EQ(points.size(), 300U);  // figure 1: 300 points for 300 segments
+  EXPECT_EQ(recorder.rows<mean_shift::ClusterRow>().size(), 300U);
+  EXPECT_EQ(recorder.rows<mean_shift::ProjectionRow>().size(), 300U);
+  EXPECT_EQ(recorder.rows<mean_shift::Mode1Row>().size(), 300U);
+  EXPECT_EQ(recorder.rows<mean_shift::Mode2Row>().size(), recorder.rows<mean_shift::Kernel2Row>().size());
+  EXPECT_EQ(recorder.rows<mean_shift::IntervalRow>().size(), plain.map.lines.size());
+  const auto counts = recorder.rows<mean_shift::CountsRow>();
+  ASSERT_EQ(counts.size(), 1U);
+  EXPECT_EQ(counts[0].lines, 300);
+  EXPECT_EQ(counts[0].map_lines, static_cast<int>(plain.map.lines.size()));
+
+  const auto expect_a_climb_from_every_point = [&](const auto& steps) {
+    std::set<int> climbed;
+    for (const auto& step : steps) {
+      climbed.insert(step.piece);
+      if (step.step > 0) continue;
+      const auto& start = points.at(static_cast<std::size_t>(step.piece));
+      EXPECT_NEAR(step.x_m, start.x_m, 1e-12);
+      EXPECT_NEAR(step.y_m, start.y_m, 1e-12);
     }
-  }
+    EXPECT_EQ(climbed.size(), 300U);
+  };
+  expect_a_climb_from_every_point(recorder.rows<mean_shift::TrajectoryRow<1>>());
+  expect_a_climb_from_every_point(recorder.rows<mean_shift::TrajectoryRow<2>>());
 }
 
 }  // namespace

@@ -25,6 +25,13 @@ namespace scanbench::harness::testing {
 namespace fs = std::filesystem;
 namespace {
 
+struct LineRow {
+  static constexpr std::string_view kName = "line";
+  double x1_m = 0.0;
+  double y1_m = 0.0;
+  static constexpr auto columns() { return std::tuple{column("x1_m", &LineRow::x1_m), column("y1_m", &LineRow::y1_m)}; }
+};
+
 /// One line through the valid points, without the first `skip` of them.
 class LineOfAll final : public LineExtractor {
  public:
@@ -39,12 +46,12 @@ class LineOfAll final : public LineExtractor {
   explicit LineOfAll(const Params& params) : params_(params) {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
-    trace.stage("pre");
+    trace.stage(Stage::pre);
     ScanLines result;
     result.labels.assign(static_cast<std::size_t>(scan.beams()), -1);
     const ScanPoints points = valid_points(scan);
     const auto skip = static_cast<std::size_t>(params_.skip);
-    trace.stage("segment");
+    trace.stage(Stage::segment);
     if (points.size() < skip + 2) return result;
     const std::span<const Vec2> used = std::span(points.points).subspan(skip);
     const LineFit fit = fit_line(used);
@@ -58,7 +65,7 @@ class LineOfAll final : public LineExtractor {
     line.rms_m = fit.rms();
     if (params_.covariance) line.covariance = Eigen::Matrix2d{{0.1, 0.02}, {0.02, 1.0 / 3.0}};
     result.lines.push_back(line);
-    trace.segment("line", line.segment);
+    trace.row(LineRow{line.segment.a.x(), line.segment.a.y()});
     return result;
   }
 
@@ -109,14 +116,20 @@ struct Leave {
   void operator()(ScanLines&) const { ::_exit(0); }
 };
 
+struct PointsRow {
+  static constexpr std::string_view kName = "points";
+  int points = 0;
+  static constexpr auto columns() { return std::tuple{column("points", &PointsRow::points)}; }
+};
+
 /// All lines become one, from the first's start to the last's end; frame parity is the first clustering.
 class MergeAll final : public SegmentMerger {
  public:
   using Params = NoParams;
   explicit MergeAll(const Params&) {}
   MergeResult merge(const MergeInput& input, Trace& trace) const override {
-    trace.stage("cluster");
-    trace.scalar("points", static_cast<double>(input.points.size()));
+    trace.stage(Stage::phase1);
+    trace.row(PointsRow{static_cast<int>(input.points.size())});
     MergeResult result;
     result.labels.assign(input.lines.size(), 0);
     for (std::size_t i = 0; i < input.lines.size(); ++i) result.cluster1.push_back(static_cast<int>(i % 2));

@@ -53,14 +53,15 @@ TEST(Siadat1997, ScansWithoutSegmentsCountForTheNumbersButNotForTheResiduals) {
 
 TEST(Siadat1997, TimesAreMillisecondsPerScanOfTheThreeStages) {
   MadeUpRun run = points_near_x1({{0, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0}});
-  run.result.times = {{"pre", 0, 1e-3},     {"segment", 0, 2e-3}, {"pre", 1, 3e-3},
-                      {"segment", 1, 4e-3}, {"segment", 1, 2e-3}, {"merge", -1, 9.0}};
+  run.result.times = {{"extract", Stage::pre, 0, 1e-3},     {"extract", Stage::segment, 0, 2e-3},
+                      {"extract", Stage::pre, 1, 3e-3},     {"extract", Stage::segment, 1, 4e-3},
+                      {"extract", Stage::segment, 1, 2e-3}, {"merge", {}, -1, 9.0}};
   const auto rows = evaluate("siadat1997", run);
   expect_value(rows, "t_pre", "all", 2.0, 2);
   expect_value(rows, "t_seg", "all", (2.0 + 6.0) / 2, 2);
   expect_value(rows, "t_post", "all", 0.0, 2);  // line tracking has no fit after its grouping
   expect_value(rows, "t_total", "all", (3.0 + 9.0) / 2, 2);
-  run.result.times.push_back({"fit", 1, 1e-3});
+  run.result.times.push_back({"extract", Stage::fit, 1, 1e-3});
   expect_value(evaluate("siadat1997", run), "t_post", "all", 0.5, 2);
   for (const auto& d : family("siadat1997")->describe()) EXPECT_EQ(d.timing, d.metric.starts_with("t_")) << d.metric;
 }

@@ -72,17 +72,4 @@ inline void expect_identical(const ScanLines& a, const ScanLines& b) {
   }
 }
 
-/// A trace that records the stages and counts the rows.
-class ListeningTrace final : public Trace {
- public:
-  bool recording() const override { return true; }
-  void stage(std::string_view name) override { stages.emplace_back(name); }
-  void write(std::string_view name, std::span<const double> values) override {
-    EXPECT_FALSE(name.empty());
-    rows += static_cast<int>(values.size() > 0);
-  }
-  std::vector<std::string> stages;
-  int rows = 0;
-};
-
 }  // namespace scanbench::testing

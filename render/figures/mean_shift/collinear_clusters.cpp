@@ -32,7 +32,8 @@ class CollinearClusters : public Figure {
 
   std::vector<std::string> trace_rows(std::string_view pipeline) const override {
     if (!shows(params_.pipeline, pipeline)) return {};
-    return rows_of_mean_shift({"joint_space", "cluster", "mode2", "kernel2", "interval"});
+    return keys_of_mean_shift<mean_shift::JointSpaceRow, mean_shift::ClusterRow, mean_shift::Mode2Row,
+                              mean_shift::Kernel2Row, mean_shift::IntervalRow>();
   }
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {

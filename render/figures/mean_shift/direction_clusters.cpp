@@ -23,7 +23,7 @@ class DirectionClusters : public Figure {
 
   std::vector<std::string> trace_rows(std::string_view pipeline) const override {
     if (!shows(params_.pipeline, pipeline)) return {};
-    return rows_of_mean_shift({"joint_space", "cluster"});
+    return keys_of_mean_shift<mean_shift::JointSpaceRow, mean_shift::ClusterRow>();
   }
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {

@@ -22,7 +22,7 @@ class JointSpace : public Figure {
 
   std::vector<std::string> trace_rows(std::string_view pipeline) const override {
     if (!shows(params_.pipeline, pipeline)) return {};
-    return rows_of_mean_shift({"joint_space"});
+    return keys_of_mean_shift<mean_shift::JointSpaceRow>();
   }
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {

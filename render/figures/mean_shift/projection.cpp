@@ -43,7 +43,8 @@ class Projection : public Figure {
 
   std::vector<std::string> trace_rows(std::string_view pipeline) const override {
     if (!shows(params_.pipeline, pipeline)) return {};
-    return rows_of_mean_shift({"joint_space", "mode2", "projection", "merged"});
+    return keys_of_mean_shift<mean_shift::JointSpaceRow, mean_shift::Mode2Row, mean_shift::ProjectionRow,
+                              mean_shift::MergedRow>();
   }
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {

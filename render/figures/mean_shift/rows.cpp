@@ -6,26 +6,17 @@
 namespace scanbench::render {
 namespace {
 
-using Row = std::vector<double>;
+using namespace mean_shift;
 
-/// Calls visit(row) for the rows of this name that have this many numbers.
-template <class Visit>
-void for_rows(const TraceRows& trace, std::string_view name, std::size_t numbers, Visit&& visit) {
-  const auto found = trace.find("merge." + std::string(name));
-  if (found == trace.end()) return;
-  for (const TraceRow& row : found->second)
-    if (row.values.size() == numbers) visit(row.values);
-}
-
-/// The element a row's index speaks of; nullptr beyond the end.
+/// The element with this index; nullptr beyond the ends.
 template <class T>
-T* element(std::vector<T>& all, double index) {
-  return index >= 0 && index < static_cast<double>(all.size()) ? &all[static_cast<std::size_t>(index)] : nullptr;
+T* element(std::vector<T>& all, int index) {
+  return index >= 0 && index < std::ssize(all) ? &all[static_cast<std::size_t>(index)] : nullptr;
 }
 
 /// The same in a list that grows to hold it.
-CollinearCluster* cluster_at(std::vector<CollinearCluster>& all, double index, std::size_t pieces) {
-  if (!(index >= 0) || !(index < static_cast<double>(pieces))) return nullptr;  // a cluster has a piece
+CollinearCluster* cluster_at(std::vector<CollinearCluster>& all, int index, std::size_t pieces) {
+  if (index < 0 || static_cast<std::size_t>(index) >= pieces) return nullptr;  // every cluster has a piece
   all.resize(std::max(all.size(), static_cast<std::size_t>(index) + 1));
   return &all[static_cast<std::size_t>(index)];
 }
@@ -38,39 +29,37 @@ ClusteredSegments clustered(const MeanShiftRows& rows, int MergePiece::*of) {
 
 MeanShiftRows parsed(const std::string& pipeline, const TraceRows& trace) {
   MeanShiftRows rows{.pipeline = pipeline};
-  for_rows(trace, "counts", 6, [&](const Row& v) { rows.lines = v[0] > 0 ? static_cast<std::size_t>(v[0]) : 0; });
-  for_rows(trace, "kernel1", 2, [&](const Row& v) { rows.sigma_m = v[0], rows.h_rad_per_m = v[1]; });
-  for_rows(trace, "joint_space", 6, [&](const Row& v) {
-    const Vec2 center(v[2], v[3]), half = 0.5 * v[5] * Vec2(std::cos(v[4]), std::sin(v[4]));
-    rows.pieces.push_back({.segment = {center - half, center + half}, .point = {v[2], v[3], v[4]}});
-  });
+  for (const auto& r : rows_of<CountsRow>(trace, kMergeSlot))
+    rows.lines = r.lines > 0 ? static_cast<std::size_t>(r.lines) : 0;
+  for (const auto& r : rows_of<Kernel1Row>(trace, kMergeSlot))
+    rows.sigma_m = r.sigma_m, rows.h_rad_per_m = r.h_rad_per_m;
+  for (const auto& r : rows_of<JointSpaceRow>(trace, kMergeSlot)) {
+    const Vec2 center(r.x_m, r.y_m), half = 0.5 * r.length_m * Vec2(std::cos(r.alpha_rad), std::sin(r.alpha_rad));
+    rows.pieces.push_back({.segment = {center - half, center + half}, .point = {r.x_m, r.y_m, r.alpha_rad}});
+  }
   const std::size_t pieces = rows.pieces.size();
-  const auto number = [&](double v) { return v >= 0 && v < static_cast<double>(pieces) ? static_cast<int>(v) : -1; };
-  for_rows(trace, "cluster", 4, [&](const Row& v) {
-    if (MergePiece* piece = element(rows.pieces, v[0])) piece->cluster1 = number(v[1]), piece->cluster2 = number(v[2]);
-  });
-  rows.paths.resize(rows.pieces.size());
-  for_rows(trace, "trajectory1", 5, [&](const Row& v) {
-    if (auto* path = element(rows.paths, v[0])) path->emplace_back(v[2], v[3], v[4]);
-  });
-  for_rows(trace, "mode1", 4, [&](const Row& v) { rows.ends.emplace_back(v[1], v[2], v[3]); });
+  const auto known = [&](int cluster) { return cluster < std::ssize(rows.pieces) ? std::max(cluster, -1) : -1; };
+  for (const auto& r : rows_of<ClusterRow>(trace, kMergeSlot))
+    if (MergePiece* piece = element(rows.pieces, r.piece))
+      piece->cluster1 = known(r.cluster1), piece->cluster2 = known(r.cluster2);
+  rows.paths.resize(pieces);
+  for (const auto& r : rows_of<TrajectoryRow<1>>(trace, kMergeSlot))
+    if (auto* path = element(rows.paths, r.piece)) path->emplace_back(r.x_m, r.y_m, r.alpha_rad);
+  for (const auto& r : rows_of<Mode1Row>(trace, kMergeSlot)) rows.ends.emplace_back(r.x_m, r.y_m, r.alpha_rad);
 
-  for_rows(trace, "mode2", 4, [&](const Row& v) {
-    if (auto* c = cluster_at(rows.collinear, v[0], pieces)) c->mode = Vec2(v[1], v[2]), c->theta_rad = v[3];
-  });
-  for_rows(trace, "kernel2", 6, [&](const Row& v) {
-    if (auto* c = cluster_at(rows.collinear, v[0], pieces))
-      c->kernel = Ellipse{.center = {v[1], v[2]}, .semi_axes = {v[4], v[5]}, .angle_rad = v[3]};
-  });
-  for_rows(trace, "projection", 6, [&](const Row& v) {
-    auto* c = cluster_at(rows.collinear, v[0], pieces);
-    if (c != nullptr && element(rows.pieces, v[1]) != nullptr)
-      c->projections.push_back({static_cast<std::size_t>(v[1]), {{v[2], v[3]}, {v[4], v[5]}}});
-  });
-  for_rows(trace, "merged", 5, [&](const Row& v) {
-    if (auto* c = cluster_at(rows.collinear, v[0], pieces)) c->merged.push_back({{v[1], v[2]}, {v[3], v[4]}});
-  });
-  for_rows(trace, "interval", 4, [&](const Row& v) { rows.map.push_back({{v[0], v[1]}, {v[2], v[3]}}); });
+  const auto cluster = [&](int index) { return cluster_at(rows.collinear, index, pieces); };
+  for (const auto& r : rows_of<Mode2Row>(trace, kMergeSlot))
+    if (auto* c = cluster(r.cluster)) c->mode = Vec2(r.x_m, r.y_m), c->theta_rad = r.theta_rad;
+  for (const auto& r : rows_of<Kernel2Row>(trace, kMergeSlot))
+    if (auto* c = cluster(r.cluster))
+      c->kernel = Ellipse{.center = {r.x_m, r.y_m}, .semi_axes = {r.sigma_x_m, r.sigma_y_m}, .angle_rad = r.axis_rad};
+  for (const auto& r : rows_of<ProjectionRow>(trace, kMergeSlot))
+    if (auto* c = cluster(r.cluster); c != nullptr && element(rows.pieces, r.piece) != nullptr)
+      c->projections.push_back({static_cast<std::size_t>(r.piece), {{r.x1_m, r.y1_m}, {r.x2_m, r.y2_m}}});
+  for (const auto& r : rows_of<MergedRow>(trace, kMergeSlot))
+    if (auto* c = cluster(r.cluster)) c->merged.push_back({{r.x1_m, r.y1_m}, {r.x2_m, r.y2_m}});
+  for (const auto& r : rows_of<IntervalRow>(trace, kMergeSlot))
+    rows.map.push_back({{r.x1_m, r.y1_m}, {r.x2_m, r.y2_m}});
   return rows;
 }
 
@@ -95,16 +84,10 @@ ClusteredSegments MeanShiftRows::by_collinearity() const {
   return clustered(*this, &MergePiece::cluster2);
 }
 
-std::vector<std::string> rows_of_mean_shift(std::initializer_list<std::string> names) {
-  std::vector<std::string> all{"merge.counts"};
-  for (const std::string& name : names) all.push_back("merge." + name);
-  return all;
-}
-
 std::optional<MeanShiftRows> find_mean_shift(const FigureInput& input, const std::string& pipeline) {
   for (const NamedResult& named : input.results) {
     if (named.trace == nullptr || !shows(pipeline, named.pipeline)) continue;
-    if (named.trace->contains("merge.counts")) return parsed(named.pipeline, *named.trace);
+    if (named.trace->contains(key_of<mean_shift::CountsRow>(kMergeSlot))) return parsed(named.pipeline, *named.trace);
   }
   return std::nullopt;
 }

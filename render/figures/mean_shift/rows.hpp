@@ -3,14 +3,15 @@
 #pragma once
 
 #include <array>
-#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/mean_shift_trace.hpp"
+#include "render/charts/view3.hpp"
 #include "render/figure.hpp"
 #include "render/figures/parts/clusters.hpp"
-#include "render/charts/view3.hpp"
 
 namespace scanbench::render {
 
@@ -52,8 +53,13 @@ struct MeanShiftRows {
   ClusteredSegments by_collinearity() const;  ///< phase 2
 };
 
-/// For Figure::trace_rows(): these rows and the one that tells mean_shift from others.
-std::vector<std::string> rows_of_mean_shift(std::initializer_list<std::string> names);
+inline constexpr std::string_view kMergeSlot = "merge";
+
+/// For Figure::trace_rows(): the keys of these rows, and of the row by which mean_shift is recognised.
+template <TraceRowType... Rows>
+std::vector<std::string> keys_of_mean_shift() {
+  return {key_of<mean_shift::CountsRow>(kMergeSlot), key_of<Rows>(kMergeSlot)...};
+}
 
 /// Of the pipeline with this name, of the first one that has such rows if it is empty. Nothing: none has. Rows that
 /// were not kept leave their parts empty.

@@ -51,7 +51,8 @@ class Trajectories : public Figure {
 
   std::vector<std::string> trace_rows(std::string_view pipeline) const override {
     if (!shows(params_.pipeline, pipeline)) return {};
-    return rows_of_mean_shift({"kernel1", "joint_space", "trajectory1", "mode1"});
+    return keys_of_mean_shift<mean_shift::Kernel1Row, mean_shift::JointSpaceRow, mean_shift::TrajectoryRow<1>,
+                              mean_shift::Mode1Row>();
   }
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {

@@ -51,12 +51,12 @@ TEST(Pipeline, TimesEveryStageOfEveryFrameInOrder) {
       run_slots({{"extract", "test_line"}, {"align", "test_shift"}, {"merge", "test_merge"}}).result.times;
   ASSERT_EQ(times.size(), 2u * 6u + 2u);
   for (std::size_t k = 0; k < 6; ++k) {
-    EXPECT_EQ(times[2 * k].stage, "pre");
-    EXPECT_EQ(times[2 * k + 1].stage, "segment");
+    EXPECT_EQ(times[2 * k].label(), "pre");
+    EXPECT_EQ(times[2 * k + 1].label(), "segment");
     EXPECT_EQ(times[2 * k].frame, static_cast<int>(k));
   }
-  EXPECT_EQ(times[12].stage, "align");  // a module that names no stage has one
-  EXPECT_EQ(times[13].stage, "merge.cluster");
+  EXPECT_EQ(times[12].label(), "align");  // a module that names no stage has one
+  EXPECT_EQ(times[13].label(), "merge.phase1");
   EXPECT_EQ(times[13].frame, -1);
   for (const auto& time : times) EXPECT_GE(time.seconds, 0.0);
 }
@@ -65,15 +65,15 @@ TEST(Stopwatch, AddsUpAStageThatComesBackAndCountsOnlyTheTimeBetween) {
   Stopwatch watch;
   std::vector<StageTime> times;
   const double before = thread_cpu_seconds();
-  watch.start();
-  watch.stage("a");
-  watch.stage("b");
-  watch.stage("a");
-  watch.stop("whole", "x.", 3, times);
+  Trace trace = watch.start();
+  trace.stage(Stage::pre);
+  trace.stage(Stage::fit);
+  trace.stage(Stage::pre);
+  watch.stop("map", 3, times);
   const double elapsed = thread_cpu_seconds() - before;
   ASSERT_EQ(times.size(), 2u);
-  EXPECT_EQ(times[0].stage, "x.a");
-  EXPECT_EQ(times[1].stage, "x.b");
+  EXPECT_EQ(times[0].label(), "map.pre");
+  EXPECT_EQ(times[1].label(), "map.fit");
   EXPECT_EQ(times[0].frame, 3);
   EXPECT_GT(times[0].seconds + times[1].seconds, 0.0);
   EXPECT_LE(times[0].seconds + times[1].seconds, elapsed);
@@ -147,7 +147,7 @@ TEST(Pipeline, BeginsBehindExtractWhereLinesAreGiven) {
   EXPECT_EQ(result.map.lines[0].members, 3);
   ASSERT_EQ(result.merge_labels.size(), 3u);
   EXPECT_EQ(result.merge_labels[2].frame, 1);
-  EXPECT_THAT(journal.csv(), HasSubstr("merge,-1,cluster,points,0"));
+  EXPECT_THAT(journal.csv(), HasSubstr("merge,-1,phase1,points,0"));
 
   pipeline.slots.insert(pipeline.slots.begin(), {"extract", "test_line", {}});
   EXPECT_THROW(run_pipeline(pipeline, lines), ConfigError);

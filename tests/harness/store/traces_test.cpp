@@ -17,6 +17,29 @@
 namespace scanbench::harness {
 namespace {
 
+struct ModeRow {
+  static constexpr std::string_view kName = "mode";
+  double a = 0.0;
+  double b = 0.0;
+  double c = 0.0;
+  double d = 0.0;
+  static constexpr auto columns() {
+    return std::tuple{column("a", &ModeRow::a), column("b", &ModeRow::b), column("c", &ModeRow::c),
+                      column("d", &ModeRow::d)};
+  }
+};
+
+struct LineRow {
+  static constexpr std::string_view kName = "line";
+  int points = 0;
+  static constexpr auto columns() { return std::tuple{column("points", &LineRow::points)}; }
+};
+
+struct EmptyRow {
+  static constexpr std::string_view kName = "empty";
+  static constexpr auto columns() { return std::tuple<>{}; }
+};
+
 TEST(TraceChoice, WantsTheNamedRowsOfASlotAndTellsChoicesApart) {
   const TraceChoice none, all{.all = true}, some{.names = {"merge.mode", "merge.line"}};
   EXPECT_TRUE(none.nothing());
@@ -36,19 +59,19 @@ TEST(Trace, ComesBackFromItsFileWithEveryBit) {
   const testing::TemporaryFolder folder;
   const double inf = std::numeric_limits<double>::infinity();
   Journal journal;
-  journal.begin("merge", -1);
-  journal.stage("phase1");
-  journal.row("mode", {1.0 / 3.0, -1e-300, inf, -inf});
-  journal.row("mode", {});
-  journal.begin("extract", 4);
-  journal.row("line", {7.0});
+  Trace merge = journal.begin("merge", -1);
+  merge.stage(Stage::phase1);
+  merge.row(ModeRow{1.0 / 3.0, -1e-300, inf, -inf});
+  merge.row(EmptyRow{});
+  Trace extract = journal.begin("extract", 4);
+  extract.row(LineRow{7});
   write_file_atomically(folder.path() / "trace.csv", journal.csv());
   const TraceRows rows = load_trace(folder.path(), {.all = true});
-  ASSERT_EQ(rows.size(), 2u);
-  ASSERT_EQ(rows.at("merge.mode").size(), 2u);
+  ASSERT_EQ(rows.size(), 3u);
+  ASSERT_EQ(rows.at("merge.mode").size(), 1u);
   EXPECT_EQ(rows.at("merge.mode")[0].values, (std::vector<double>{1.0 / 3.0, -1e-300, inf, -inf}));
   EXPECT_EQ(rows.at("merge.mode")[0].frame, -1);
-  EXPECT_TRUE(rows.at("merge.mode")[1].values.empty());
+  EXPECT_TRUE(rows.at("merge.empty")[0].values.empty());
   EXPECT_EQ(rows.at("extract.line")[0].frame, 4);
   EXPECT_EQ(load_trace(folder.path(), {.names = {"extract.line"}}).size(), 1u);
   EXPECT_TRUE(load_trace(folder.path(), {}).empty());
@@ -70,14 +93,14 @@ TEST(Trace, ADamagedFileIsRefusedWithItsLine) {
 
 TEST(Journal, KeepsTheChosenRowsAndListensToNoOtherSlot) {
   Journal journal({.names = {"merge.mode"}});
-  journal.begin("extract", 0);
-  EXPECT_FALSE(journal.recording());
-  journal.row("mode", {1.0});
-  journal.begin("merge", -1);
-  EXPECT_TRUE(journal.recording());
-  journal.row("mode", {2.0});
-  journal.row("other", {3.0});
-  EXPECT_EQ(journal.csv(), "slot,frame,stage,name,values\nmerge,-1,,mode,2\n");
+  Trace extract = journal.begin("extract", 0);
+  EXPECT_FALSE(extract.recording());
+  extract.row(ModeRow{1, 1, 1, 1});
+  Trace merge = journal.begin("merge", -1);
+  EXPECT_TRUE(merge.recording());
+  merge.row(ModeRow{2, 3, 4, 5});
+  merge.row(LineRow{3});
+  EXPECT_EQ(journal.csv(), "slot,frame,stage,name,values\nmerge,-1,,mode,2 3 4 5\n");
 }
 
 TEST(Runner, KeepsTheRowsThatTheFiguresDrawFromForTheFirstSeed) {

@@ -7,7 +7,9 @@
 #include <fstream>
 #include <set>
 
+#include "core/mean_shift_trace.hpp"
 #include "core/registry.hpp"
+#include "core/trace_rows.hpp"
 #include "merged.hpp"
 #include "render/figure.hpp"
 #include "render/figures/parts/clusters.hpp"
@@ -164,8 +166,8 @@ TEST(Trajectories, NeverCrossTheBoxWhereADirectionPassesTheSeam) {
 
 TEST(DirectionClusters, NumberEveryClusterOfTheSpiral) {
   const test::Merged spiral = test::merged_by_mean_shift(testing::spiral());
-  std::set<double> clusters;
-  for (const TraceRow& row : spiral.trace.at("merge.cluster")) clusters.insert(row.values[1]);
+  std::set<int> clusters;
+  for (const auto& row : rows_of<mean_shift::ClusterRow>(spiral.trace, "merge")) clusters.insert(row.cluster1);
   const NamedScene figure = drawn("direction_clusters", spiral, "spiral");
   EXPECT_EQ(items<Text>(figure.scene.panels.at(0)).size(), clusters.size());
 }

@@ -4,26 +4,17 @@
 
 #include "core/modules.hpp"
 #include "core/registry.hpp"
-#include "core/trace.hpp"
+#include "tests/support/trace_recorder.hpp"
 
 namespace scanbench::render::test {
 namespace {
 
-class Recorder final : public Trace {
- public:
-  bool recording() const override { return true; }
-  void write(std::string_view name, std::span<const double> values) override {
-    rows["merge." + std::string(name)].push_back({-1, {values.begin(), values.end()}});
-  }
-  TraceRows rows;
-};
-
 Merged merged(std::span<const MapLine> lines, std::span<const Vec2> points, const ParamSet& params) {
-  Recorder recorder;
+  testing::TraceRecorder recorder("merge");
   Merged made;
   made.result.has_map = true;
-  made.result.map = Registry<SegmentMerger>::make("mean_shift", params)->merge({lines, points}, recorder).map;
-  made.trace = std::move(recorder.rows);
+  made.result.map = Registry<SegmentMerger>::make("mean_shift", params)->merge({lines, points}, recorder.trace).map;
+  made.trace = std::move(recorder.all_rows);
   return made;
 }
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/rng.hpp"
-#include "render/paper/font.hpp"
 #include "render/backends/tessellate.hpp"
+#include "render/paper/font.hpp"
 
 namespace scanbench::render {
 namespace {
