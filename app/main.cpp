@@ -6,13 +6,15 @@
 #include <new>
 #include <system_error>
 
-#include "app/commands.hpp"
+#include "app/inspection.hpp"
 #include "app/progress.hpp"
+#include "app/recordings.hpp"
+#include "app/results.hpp"
+#include "app/run.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_folder.hpp"
-#include "harness/yaml/reader.hpp"
 
 namespace {
 

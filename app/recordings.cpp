@@ -1,9 +1,11 @@
 // simulate: recordings without pipelines. export: recordings as logs that other programs read, lines as polygons.
+#include "app/recordings.hpp"
+
 #include <fmt/format.h>
 
 #include <thread>
 
-#include "app/commands.hpp"
+#include "app/inputs.hpp"
 #include "app/progress.hpp"
 #include "harness/exchange/export.hpp"
 #include "harness/exchange/polygon_files.hpp"
@@ -14,6 +16,7 @@
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
+#include "harness/store/run_target.hpp"
 
 namespace scanbench::app {
 namespace {

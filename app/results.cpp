@@ -1,9 +1,11 @@
 // score, figures, report, compare: work on run folders that stand there already.
+#include "app/results.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "app/commands.hpp"
+#include "app/inputs.hpp"
 #include "app/progress.hpp"
 #include "core/number_text.hpp"
 #include "harness/analysis/compare.hpp"

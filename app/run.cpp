@@ -1,11 +1,13 @@
 // run: scenarios and suites to a run folder with tables, figures and a report.
+#include "app/run.hpp"
+
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
-#include "app/commands.hpp"
+#include "app/inputs.hpp"
 #include "app/progress.hpp"
 #include "harness/report/page_input.hpp"
 #include "harness/report/run_report.hpp"

@@ -21,6 +21,9 @@ enum class Stage {
   phase2,      ///< merge: pieces are clustered by collinearity
   one_by_one,  ///< align: each scan is registered against the scans before it
   joint,       ///< align: all poses are improved together
+  resample,    ///< align: lines become equidistant points
+  simulate,    ///< align: the scans move in the field of forces
+  judge,       ///< align: the result is checked, its status decided
 };
 
 /// Names in the order of the enumerators; each is the enumerator's own.

@@ -12,9 +12,9 @@
 #include "core/geometry.hpp"
 #include "harness/report/html_page.hpp"
 #include "harness/report/ranking_table.hpp"
-#include "harness/run/make_recording.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/modules.hpp"
+#include "harness/scenario/simulation_input.hpp"
 #include "harness/store/summary.hpp"
 
 namespace scanbench::harness {

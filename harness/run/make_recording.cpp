@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/registry.hpp"
 #include "harness/exchange/line_set.hpp"
 #include "harness/exchange/log.hpp"
 #include "harness/files/text_file.hpp"
@@ -47,19 +46,6 @@ sim::SimulationInput input_within_memory(const Scenario& scenario, std::uint64_t
 }
 
 }  // namespace
-
-sim::SimulationInput simulation_input(const Scenario& scenario, std::uint64_t seed) {
-  const auto* simulated = std::get_if<SimulatedInput>(&scenario.input);
-  SCANBENCH_ASSERT(simulated != nullptr);
-  const auto& [kind, name, params] = simulated->trajectory;
-  return {.world = simulated->world,
-          .sensor = simulated->sensor,
-          .trajectory = Registry<sim::TrajectoryKind>::make(name, params)->generate(simulated->sensor.scan_period_s),
-          .odometry = simulated->odometry,
-          .tilt = simulated->tilt,
-          .sweep = simulated->sweep,
-          .seed = seed};
-}
 
 void check_scenario(const Scenario& scenario) {
   if (!std::holds_alternative<SimulatedInput>(scenario.input)) return;

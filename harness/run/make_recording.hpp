@@ -6,12 +6,9 @@
 
 #include "core/recording.hpp"
 #include "harness/scenario/scenario.hpp"
-#include "sim/simulate.hpp"
+#include "harness/scenario/simulation_input.hpp"
 
 namespace scanbench::harness {
-
-/// What simulate() gets; its trajectory has the waypoints that figures show. Only for scenarios with a simulated world.
-sim::SimulationInput simulation_input(const Scenario& scenario, std::uint64_t seed);
 
 /// Checks what loading leaves until a run: that the path is clear of walls, and that the memory suffices. Throws
 /// ConfigError.

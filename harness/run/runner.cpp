@@ -20,6 +20,7 @@
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_files.hpp"
+#include "harness/store/run_target.hpp"
 #include "harness/store/summary.hpp"
 
 namespace scanbench::harness {

@@ -9,6 +9,7 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/files/npy.hpp"
+#include "harness/files/text_file.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;

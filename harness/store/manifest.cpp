@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
 #include "scanbench_version.hpp"  // included here and nowhere else: it changes with every commit
 

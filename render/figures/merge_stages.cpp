@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "core/registry.hpp"
+#include "render/figures/mean_shift/rows.hpp"
 #include "render/figures/parts/before_after.hpp"
 #include "render/figures/parts/clusters.hpp"
 

@@ -40,9 +40,9 @@ struct Pointers {
 };
 
 struct Constants {
-  float exponent;   ///< -log2(e) / (2 sigma^2)
+  float exponent;  ///< -log2(e) / (2 sigma^2)
   float squared_cut;
-  float stiffest;   ///< largest 1 / d in stiffness
+  float stiffest;  ///< largest 1 / d in stiffness
 };
 
 [[gnu::always_inline]] inline Float8 all(float v) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/force_field_trace.hpp"
 #include "core/registry.hpp"
 
 namespace scanbench::align::ffs {
@@ -46,14 +47,12 @@ double moved(const Hypothesis& from, const Hypothesis& to) {
 }
 
 void write(const Hypothesis& h, Fate fate, const CurrentMap& map, Trace& trace) {
-  std::vector<double> row{static_cast<double>(map.iteration), static_cast<double>(h.shape),
-                          static_cast<double>(h.id), static_cast<double>(fate), h.certainty};
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vec2 p = map.world_from_map * h.corners[std::min(k, h.corners.size() - 1)];
-    row.push_back(p.x());
-    row.push_back(p.y());
-  }
-  trace.write("hypothesis", row);
+  const auto corner = [&](std::size_t k) -> Vec2 {
+    return map.world_from_map * h.corners[std::min(k, h.corners.size() - 1)];
+  };
+  const Vec2 a = corner(0), b = corner(1), c = corner(2), d = corner(3);
+  trace.row(force_field::HypothesisRow{map.iteration, static_cast<int>(h.shape), h.id, static_cast<int>(fate),
+                                       h.certainty, a.x(), a.y(), b.x(), b.y(), c.x(), c.y(), d.x(), d.y()});
 }
 
 }  // namespace

@@ -121,7 +121,8 @@ std::vector<Rectangle> rectangles_of(std::span<const Segment> segments, const Re
                    [](const Rectangle& a, const Rectangle& b) { return a.certainty > b.certainty; });
   std::vector<Rectangle> kept;
   for (const Rectangle& c : candidates)
-    if (std::ranges::none_of(kept, [&](const Rectangle& k) { return (k.centre() - c.centre()).norm() < rules.apart_m; }))
+    if (std::ranges::none_of(kept,
+                             [&](const Rectangle& k) { return (k.centre() - c.centre()).norm() < rules.apart_m; }))
       kept.push_back(c);
   return kept;
 }

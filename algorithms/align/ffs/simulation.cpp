@@ -6,12 +6,13 @@
 
 #include "algorithms/align/ffs/meeting.hpp"
 #include "algorithms/align/ffs/rigid_step.hpp"
+#include "core/force_field_trace.hpp"
 #include "core/number_text.hpp"
 
 namespace scanbench::align::ffs {
 namespace {
 
-constexpr double kSettled = 1e-3;  // of sigma_end_m
+constexpr double kSettled = 1e-3;     // of sigma_end_m
 constexpr double kLongestStep = 1.0;  // of sigma: a longer one would leave the field that asked for it
 constexpr double kMeetingSigmas = 2.0;
 
@@ -86,8 +87,8 @@ class Simulation {
     if (step_before > 0 && step > step_before) step = step_before;
     largest_move_ = move(bodies_, drives, step, kLongestStep * field.sigma, poses_);
     if (trace.recording())
-      trace.row("iteration", {static_cast<double>(t), field.sigma, step, potential(all, field), largest_move_,
-                              static_cast<double>(virtual_scan_.points.size())});
+      trace.row(force_field::IterationRow{t, field.sigma, step, potential(all, field), largest_move_,
+                                          static_cast<int>(virtual_scan_.points.size())});
     iterations_ = t + 1;
     return step;
   }
@@ -96,7 +97,7 @@ class Simulation {
     if (!trace.recording()) return;
     for (std::size_t b = 0; b < poses_.size(); ++b) {
       const Pose2 pose = world_from_map_ * poses_[b];
-      trace.row("pose", {static_cast<double>(t), static_cast<double>(b), pose.x(), pose.y(), pose.yaw()});
+      trace.row(force_field::PoseRow{t, static_cast<int>(b), pose.x(), pose.y(), pose.yaw()});
     }
   }
 
@@ -137,9 +138,8 @@ double Schedule::step_at(int iteration) const {
 
 void Schedule::check() const {
   const auto refuse = [](const std::string& name, double value, const std::string& limit, double bound) {
-    throw ParamError(name,
-                     name + " = " + number_text(value) + " is beyond " + limit + " = " + number_text(bound) +
-                         "; allowed: up to " + limit);
+    throw ParamError(name, name + " = " + number_text(value) + " is beyond " + limit + " = " + number_text(bound) +
+                               "; allowed: up to " + limit);
   };
   if (sigma_end_m > sigma_start_m) refuse("sigma_end_m", sigma_end_m, "sigma_start_m", sigma_start_m);
   if (step_end > step_start) refuse("step_end", step_end, "step_start", step_start);
@@ -155,11 +155,11 @@ Alignment simulate(std::span<const Observation> scans, std::span<const Pose2> in
   if (!result.message.empty()) result.status = Status::degenerate;
   if (scans.size() < 2 || !result.message.empty()) return result;
 
-  trace.stage("resample");
+  trace.stage(Stage::resample);
   Simulation simulation(scans, initial, schedule);
-  trace.stage("simulate");
+  trace.stage(Stage::simulate);
   const bool converged = simulation.run(hypothesize, trace);
-  trace.stage("judge");
+  trace.stage(Stage::judge);
   const Meeting meeting = simulation.meeting();
   add_sentence(meeting.groups.complaint(), result.message);
   add_sentence(sliding_text(meeting.sliding), result.message);

@@ -17,6 +17,7 @@
 #include "harness/run/score.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
+#include "harness/store/run_target.hpp"
 #include "tests/harness/run_support.hpp"
 
 namespace scanbench::harness {

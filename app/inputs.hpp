@@ -1,45 +1,14 @@
-// The verbs of the program. Each adds its options to the command line and returns what is to be done, with an exit
-// code.
+// The scenarios and seeds that the command line names.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <cstdint>
-#include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "harness/analysis/benchmark.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/scenario.hpp"
 
 namespace scanbench::app {
-
-enum ExitCode {
-  kGood = 0,
-  kGateFailed = 1,
-  kBadInput = 2,
-  kCellsFailed = 3,
-  kIncomplete = 4,
-  kOurBug = 70,
-  kInterrupted = 130
-};
-
-/// Set by the verb that the user chose.
-using Action = std::function<int()>;
-
-struct Context {
-  CLI::App& app;
-  Action& action;
-  std::vector<std::string> argv;
-  std::filesystem::path program;  ///< argv[0]
-};
-
-void add_run(Context& context);         ///< run
-void add_inspection(Context& context);  ///< check, list, describe
-void add_recordings(Context& context);  ///< simulate, export
-void add_results(Context& context);     ///< score, compare, figures, report
 
 /// Scenarios of scenario and suite files, in order; `name` receives the first file's name without ending, `benchmark`
 /// what a suite that stands alone ranks.

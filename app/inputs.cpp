@@ -1,0 +1,55 @@
+// Loads scenario and suite files; reads --seed.
+#include "app/inputs.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "harness/scenario/scenario_file.hpp"
+#include "harness/scenario/suite.hpp"
+
+namespace scanbench::app {
+
+namespace fs = std::filesystem;
+
+std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
+                                           std::string* name, std::optional<harness::BenchmarkSpec>* benchmark) {
+  std::vector<harness::Scenario> scenarios;
+  for (const auto& file : files) {
+    if (name != nullptr && name->empty()) *name = fs::path(file).stem().string();
+    if (harness::is_suite(file)) {
+      harness::Suite suite = harness::load_suite(file, sets);
+      for (auto& scenario : suite.scenarios) scenarios.push_back(std::move(scenario));
+      if (benchmark != nullptr && files.size() == 1) *benchmark = suite.benchmark;
+    } else {
+      scenarios.push_back(harness::load_scenario(file, sets));
+      if (name != nullptr && files.size() == 1) *name = scenarios.back().name;
+    }
+  }
+  for (std::size_t i = 0; i < scenarios.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (scenarios[i].name == scenarios[j].name)
+        throw ConfigError("two scenarios are called '" + scenarios[i].name + "': " + scenarios[j].path.string() +
+                          " and " + scenarios[i].path.string() + "; their results would fall into one folder");
+  return scenarios;
+}
+
+void give_seeds(std::vector<harness::Scenario>& scenarios, const std::vector<std::string>& texts) {
+  std::vector<std::uint64_t> seeds;
+  for (const auto& text : texts) {
+    std::uint64_t seed = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, seed);
+    if (text.empty() || error != std::errc() || stop != end || seed > harness::kLargestSeed)
+      throw ConfigError("--seed: '" + text + "' is no seed; allowed: whole numbers 0 .. " +
+                        std::to_string(harness::kLargestSeed) + ", separated by commas");
+    if (std::ranges::count(seeds, seed) > 0) throw ConfigError("--seed: " + text + " is given twice");
+    seeds.push_back(seed);
+  }
+  if (seeds.empty()) return;
+  for (auto& scenario : scenarios) scenario.seeds = seeds;
+}
+
+}  // namespace scanbench::app

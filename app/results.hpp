@@ -1,0 +1,10 @@
+// The verbs score, compare, figures, report.
+#pragma once
+
+#include "app/context.hpp"
+
+namespace scanbench::app {
+
+void add_results(Context& context);
+
+}  // namespace scanbench::app
