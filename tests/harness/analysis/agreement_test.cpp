@@ -13,7 +13,7 @@
 #include "harness/report/paper_tables.hpp"
 #include "harness/report/scenario_tables.hpp"
 #include "harness/store/summary.hpp"
-#include "tests/harness/run_support.hpp"
+#include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -14,7 +14,7 @@
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/store/summary.hpp"
-#include "tests/harness/inputs_support.hpp"
+#include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {
 namespace {

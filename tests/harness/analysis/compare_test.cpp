@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
-#include "tests/harness/run_support.hpp"
+#include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
 namespace {

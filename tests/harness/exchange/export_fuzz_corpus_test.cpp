@@ -3,7 +3,7 @@
 
 #include "fuzz/inputs.hpp"
 #include "harness/files/text_file.hpp"
-#include "tests/harness/inputs_support.hpp"
+#include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {
 namespace {

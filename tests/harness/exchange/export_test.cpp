@@ -10,7 +10,7 @@
 #include "harness/exchange/log.hpp"
 #include "harness/exchange/polygon_files.hpp"
 #include "sim/sensors.hpp"
-#include "tests/harness/inputs_support.hpp"
+#include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -11,7 +11,7 @@
 #include "harness/scenario/scenario.hpp"
 #include "harness/scenario/scenario_file.hpp"
 #include "sim/sensors.hpp"
-#include "tests/harness/inputs_support.hpp"
+#include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/run/worker.hpp"
-#include "tests/harness/run_support.hpp"
+#include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "tests/harness/run_support.hpp"
+#include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -12,7 +12,7 @@
 #include "harness/run/cell_address.hpp"
 #include "harness/run/pipeline.hpp"
 #include "harness/store/cell_status.hpp"
-#include "tests/harness/run_support.hpp"
+#include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
 namespace {

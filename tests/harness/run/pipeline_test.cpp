@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/run/stopwatch.hpp"
-#include "tests/harness/run_support.hpp"
+#include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
 namespace {

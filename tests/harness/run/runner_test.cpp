@@ -18,7 +18,7 @@
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_target.hpp"
-#include "tests/harness/run_support.hpp"
+#include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
 namespace {

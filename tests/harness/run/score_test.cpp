@@ -8,7 +8,7 @@
 #include "harness/run/pipeline.hpp"
 #include "harness/run/run_options.hpp"
 #include "harness/store/summary.hpp"
-#include "tests/harness/run_support.hpp"
+#include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
 namespace {

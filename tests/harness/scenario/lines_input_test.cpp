@@ -9,7 +9,7 @@
 #include "harness/scenario/scenario.hpp"
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/scenario/suite.hpp"
-#include "tests/harness/inputs_support.hpp"
+#include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -13,7 +13,7 @@
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/scenario/suite.hpp"
 #include "harness/yaml/reader.hpp"
-#include "tests/harness/inputs_support.hpp"
+#include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {
 namespace {

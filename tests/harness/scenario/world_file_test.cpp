@@ -7,7 +7,7 @@
 #include "harness/files/text_file.hpp"
 #include "harness/scenario/world_file.hpp"
 #include "harness/yaml/writer.hpp"
-#include "tests/harness/inputs_support.hpp"
+#include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {
 namespace {

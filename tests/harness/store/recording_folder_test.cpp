@@ -11,7 +11,7 @@
 #include "harness/files/npy.hpp"
 #include "harness/store/run_folder.hpp"
 #include "sim/line_copies.hpp"
-#include "tests/harness/run_support.hpp"
+#include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
 namespace {

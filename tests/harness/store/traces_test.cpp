@@ -12,7 +12,7 @@
 #include "harness/run/run_options.hpp"
 #include "harness/scenario/figure_pipelines.hpp"
 #include "harness/scenario/trace_choice.hpp"
-#include "tests/harness/run_support.hpp"
+#include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
 namespace {

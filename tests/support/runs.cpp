@@ -1,5 +1,5 @@
 // Fake modules and helpers of the tests of runs.
-#include "tests/harness/run_support.hpp"
+#include "tests/support/runs.hpp"
 
 #include <algorithm>
 #include <bit>
