@@ -11,6 +11,8 @@
 #include "harness/recording_folder.hpp"
 #include "harness/run_folder.hpp"
 #include "harness/scenario_modules.hpp"
+#include "render/backends/cairo.hpp"
+#include "render/backends/gl.hpp"
 #include "render/figure.hpp"
 
 namespace scanbench::harness {

@@ -1,11 +1,12 @@
+// Parallel projection, and the walls and axes of the box.
 #include "render/charts/view3.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "render/paper/font.hpp"
-#include "render/palette.hpp"
 #include "render/layout/ticks.hpp"
+#include "render/palette.hpp"
+#include "render/paper/font.hpp"
 
 namespace scanbench::render {
 namespace {

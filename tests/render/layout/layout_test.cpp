@@ -6,8 +6,9 @@
 #include <limits>
 
 #include "core/rng.hpp"
+#include "render/layout/labels.hpp"
+#include "render/paper/fill_triangles.hpp"
 #include "render/paper/font.hpp"
-#include "render/backends/tessellate.hpp"
 
 namespace scanbench::render {
 namespace {
