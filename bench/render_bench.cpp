@@ -5,9 +5,11 @@
 
 #include "core/index.hpp"
 #include "core/rng.hpp"
+#include "render/backends/cairo.hpp"
+#include "render/backends/gl.hpp"
+#include "render/backends/tessellate.hpp"
 #include "render/layout/layout.hpp"
 #include "render/palette.hpp"
-#include "render/backends/tessellate.hpp"
 
 namespace scanbench::render {
 namespace {

@@ -153,10 +153,4 @@ struct Scene {
   bool scale_bar = false;  ///< a bar of a round length in metres beside the legend
 };
 
-/// The whole scene as bytes of a file. The same scene gives the same bytes in every thread and process.
-/// Throws ConfigError if the font (DejaVu Sans) is not installed, InternalError if a library fails.
-std::string to_svg(const Scene& scene);
-std::string to_pdf(const Scene& scene);
-std::string to_png(const Scene& scene, double dpi = 200.0);
-
 }  // namespace scanbench::render

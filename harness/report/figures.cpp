@@ -16,6 +16,8 @@
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/traces.hpp"
+#include "render/backends/cairo.hpp"
+#include "render/backends/gl.hpp"
 #include "render/figure.hpp"
 
 namespace scanbench::harness {

@@ -1,5 +1,7 @@
-// Scene -> SVG and PDF through Cairo. Text: one symbol per glyph in SVG, an embedded subset in PDF, so that a file
+// SVG and PDF backend through Cairo. Text: one symbol per glyph in SVG, an embedded subset in PDF, so that a file
 // looks the same where the font is not installed.
+#include "render/backends/cairo.hpp"
+
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <cairo.h>

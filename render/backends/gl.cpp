@@ -1,5 +1,7 @@
-// Scene -> PNG through OSMesa, software OpenGL without a display. Anti-aliased by drawing each tile kOversample times
-// larger and averaging: smoothed GL lines differ between thread counts, plain triangles do not.
+// PNG backend through OSMesa, software OpenGL without a display. Edges are smoothed by drawing each tile kOversample
+// times larger and averaging: smoothed GL lines differ between thread counts, plain triangles do not.
+#include "render/backends/gl.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +15,7 @@
 #include "render/backends/osmesa.hpp"
 #include "render/backends/png.hpp"
 #include "render/backends/tessellate.hpp"
+#include "render/layout/layout.hpp"
 
 namespace scanbench::render {
 namespace {

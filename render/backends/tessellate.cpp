@@ -1,9 +1,10 @@
-// Thick lines as quads with round joins, discs as polygons, letters and polygons cut into trapezoids.
+// Tessellator: thick lines become quads with round joins, discs polygons, letters and polygons trapezoids.
 #include "render/backends/tessellate.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "render/paper/fill_triangles.hpp"
 #include "render/paper/font.hpp"
 #include "render/paper/stroke_style.hpp"
 
@@ -59,7 +60,7 @@ class Tessellator {
   void path(const std::vector<Vec2>& points, bool closed, double width, bool round) {
     const double half = 0.5 * width;
     const std::size_t n = points.size(), edges = closed ? n : n - 1;
-    // Below four pixels of the oversampled raster a round end cannot be told from one that is a little longer.
+    // Below four pixels of the oversampled raster a round end looks like one that is a little longer.
     const bool tiny = half * px_per_pt_ < 4.0;
     const double longer = !round && !closed ? 0.0 : round ? (tiny ? 0.6 * half : 0.0) : half;  // closed: square corners
     for (std::size_t i = 0; i < edges; ++i) {
@@ -121,6 +122,7 @@ class Tessellator {
     }
   }
 
+  /// Of a convex polygon.
   void fan(const Vec2* points, std::size_t count) {
     for (std::size_t i = 1; i + 1 < count; ++i) triangle(points[0], points[i], points[i + 1]);
   }
@@ -133,7 +135,7 @@ class Tessellator {
       const Vec2* points = s.points.data() + s.starts[k];
       const std::size_t n = s.starts[k + 1] - s.starts[k];
       if (s.convex)
-        for (std::size_t i = 1; i + 1 < n; ++i) triangle(points[0], points[i], points[i + 1]);
+        fan(points, n);
       else
         contours.emplace_back(points, points + n);
     }
@@ -185,44 +187,6 @@ class Tessellator {
 };
 
 }  // namespace
-
-std::vector<Vec2> fill_triangles(const std::vector<std::vector<Vec2>>& contours, bool even_odd) {
-  struct Edge {
-    Vec2 low, high;  // by y
-    int winding;
-    double x_at(double y) const { return low.x() + (high.x() - low.x()) * ((y - low.y()) / (high.y() - low.y())); }
-  };
-  std::vector<Edge> edges;
-  std::vector<double> levels;
-  for (const auto& contour : contours)
-    for (std::size_t i = 0; i < contour.size(); ++i) {
-      const Vec2 &a = contour[i], &b = contour[(i + 1) % contour.size()];
-      levels.push_back(a.y());
-      if (a.y() < b.y()) edges.push_back({a, b, 1});
-      if (a.y() > b.y()) edges.push_back({b, a, -1});
-    }
-  std::sort(levels.begin(), levels.end());
-  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-  std::vector<Vec2> triangles;
-  std::vector<const Edge*> band;
-  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
-    const double y0 = levels[k], y1 = levels[k + 1], middle = 0.5 * (y0 + y1);
-    band.clear();
-    for (const Edge& e : edges)
-      if (e.low.y() <= y0 && e.high.y() >= y1) band.push_back(&e);
-    std::sort(band.begin(), band.end(),
-              [&](const Edge* a, const Edge* b) { return a->x_at(middle) < b->x_at(middle); });
-    int winding = 0;
-    for (std::size_t i = 0; i + 1 < band.size(); ++i) {
-      winding += even_odd ? 1 : band[i]->winding;
-      if (even_odd ? winding % 2 == 0 : winding == 0) continue;
-      const Edge &l = *band[i], &r = *band[i + 1];
-      const Vec2 a(l.x_at(y0), y0), b(r.x_at(y0), y0), c(l.x_at(y1), y1), d(r.x_at(y1), y1);
-      triangles.insert(triangles.end(), {a, b, c, c, b, d});
-    }
-  }
-  return triangles;
-}
 
 std::vector<TriangleBatch> tessellate(const std::vector<Shape>& shapes, double px_per_pt) {
   return Tessellator(px_per_pt).run(shapes);

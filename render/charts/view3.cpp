@@ -1,3 +1,4 @@
+// Parallel projection, and the walls and axes of the box.
 #include "render/charts/view3.hpp"
 
 #include <algorithm>

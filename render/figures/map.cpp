@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include "core/registry.hpp"
-#include "render/figures/parts/common.hpp"
+#include "render/figures/parts/frames.hpp"
+#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {
 namespace {

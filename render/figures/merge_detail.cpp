@@ -7,6 +7,9 @@
 #include "core/registry.hpp"
 #include "render/figures/parts/before_after.hpp"
 #include "render/figures/parts/clusters.hpp"
+#include "render/figures/parts/frames.hpp"
+#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {
 namespace {

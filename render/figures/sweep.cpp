@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/registry.hpp"
-#include "render/figures/parts/common.hpp"
+#include "render/figures/parts/looks.hpp"
 
 namespace scanbench::render {
 namespace {

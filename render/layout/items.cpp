@@ -1,53 +1,19 @@
-// Items of a panel as shapes on paper.
+// Shapes of each kind of item.
+#include "render/layout/items.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "render/layout/layout.hpp"
-#include "render/palette.hpp"
+#include "render/layout/labels.hpp"
+#include "render/layout/markers.hpp"
 #include "render/paper/font.hpp"
 
 namespace scanbench::render {
 namespace {
 
-template <class... Fs>
-struct Overloaded : Fs... {
-  using Fs::operator()...;
-};
-template <class... Fs>
-Overloaded(Fs...) -> Overloaded<Fs...>;
-
-/// Coordinates beyond this are as good as infinite: their differences would overflow on the way to paper.
-constexpr double kHuge = 1e9;
-
-bool drawable(const Vec2& p) {
-  return std::abs(p.x()) < kHuge && std::abs(p.y()) < kHuge;  // false for NaN
-}
-
 /// To a grid too fine to see (1/32 pt = 0.01 mm): shorter numbers in SVG and PDF.
 Vec2 snap(const Vec2& p, double steps_per_pt = 32.0) {
   return {std::round(p.x() * steps_per_pt) / steps_per_pt, std::round(p.y() * steps_per_pt) / steps_per_pt};
-}
-
-/// Cuts p-q at the rectangle (Liang-Barsky); false if nothing is left.
-bool cut(Vec2& p, Vec2& q, const Rect& r) {
-  double t0 = 0, t1 = 1;
-  const Vec2 d = q - p;
-  const auto side = [&](double slope, double room) {
-    if (slope == 0) return room >= 0;
-    const double t = room / slope;
-    if (slope < 0)
-      t0 = std::max(t0, t);
-    else
-      t1 = std::min(t1, t);
-    return t0 <= t1;
-  };
-  if (!side(-d.x(), p.x() - r.x0) || !side(d.x(), r.x1 - p.x()) || !side(-d.y(), p.y() - r.y0) ||
-      !side(d.y(), r.y1 - p.y()))
-    return false;
-  const Vec2 start = p;
-  if (t1 < 1) q = start + t1 * d;
-  if (t0 > 0) p = start + t0 * d;
-  return true;
 }
 
 class ItemDrawer {
@@ -101,7 +67,7 @@ class ItemDrawer {
     if (points.size() >= 3) {
       FillShape shape{.color = item.fill, .convex = false};
       for (const Vec2& p : points) shape.points.push_back(near_box(place_.to_device(p)));
-      shape.starts.push_back(shape.points.size());
+      shape.end_contour();
       shapes_.push_back({std::move(shape), index_});
     }
     if (item.outline) draw(Polyline{points, *item.outline, true});
@@ -152,7 +118,7 @@ class ItemDrawer {
       if (!drawable(a) || !drawable(b)) continue;
       const Vec2 p = near_box(a), q = near_box(b);
       shape.points.insert(shape.points.end(), {p, Vec2(q.x(), p.y()), q, Vec2(p.x(), q.y())});
-      shape.starts.push_back(shape.points.size());
+      shape.end_contour();
     }
     if (!shape.points.empty()) shapes_.push_back({std::move(shape), index_});
   }
@@ -179,8 +145,8 @@ class ItemDrawer {
       const Vec2 at = labels_[i].at;
       const Vec2 nearest(std::clamp(at.x(), r.x0, r.x1), std::clamp(at.y(), r.y0, r.y1));
       if (text.movable && (nearest - at).norm() > 1.9 * std::max(text.offset_pt.norm(), 3.0)) {
-        StrokeShape leader{.points = {snap(at), snap(nearest)}, .stroke = {kGrey, 0.35, Dash::solid}};
-        leader.end_path();
+        StrokeShape leader{.stroke = {kGrey, 0.35, Dash::solid}};
+        leader.add_segment(snap(at), snap(nearest));
         shapes_.push_back({std::move(leader), index_});
       }
       const double size = font_pt_ * text.scale;
@@ -201,7 +167,7 @@ class ItemDrawer {
   void push_segment(Vec2 a, Vec2 b, StrokeShape& shape) {
     if (!drawable(a) || !drawable(b)) return;
     const double margin = shape.stroke.width_pt;  // so that a cut end's cap lies outside the clip
-    if (!cut(a, b, {box_.x0 - margin, box_.y0 - margin, box_.x1 + margin, box_.y1 + margin})) return;
+    if (!cut(a, b, box_.grown(margin))) return;
     a = snap(a), b = snap(b);
     segments_.insert(segments_.end(), {a, b});
     const bool continues = shape.points.size() > shape.starts.back() && shape.points.back() == a;
@@ -246,51 +212,6 @@ class ItemDrawer {
 };
 
 }  // namespace
-
-void StrokeShape::end_path() {
-  if (points.size() == starts.back() + 1) points.pop_back();
-  if (points.size() > starts.back()) starts.push_back(points.size());
-}
-
-Vec2 PanelLayout::to_device(const Vec2& data) const {
-  const auto share = [](double v, double low, double high, bool log) {
-    return log ? std::log(v / low) / std::log(high / low) : (v - low) / (high - low);
-  };
-  return {box.x0 + share(data.x(), x_min, x_max, x_log) * box.width(),
-          box.y1 - share(data.y(), y_min, y_max, y_log) * box.height()};
-}
-
-Rect data_bounds(const Panel& panel) {
-  Rect r{INFINITY, INFINITY, -INFINITY, -INFINITY};
-  const auto add = [&](const Vec2& p) {
-    if (!drawable(p) || (panel.x.log && !(p.x() > 0)) || (panel.y.log && !(p.y() > 0))) return;
-    r = {std::min(r.x0, p.x()), std::min(r.y0, p.y()), std::max(r.x1, p.x()), std::max(r.y1, p.y())};
-  };
-  const auto add_all = [&](const std::vector<Vec2>& points) { std::for_each(points.begin(), points.end(), add); };
-  for (const Item& item : panel.items)
-    std::visit(Overloaded{[&](const Lines& i) {
-                            for (const Segment& s : i.segments)
-                              if (drawable(s.a) && drawable(s.b)) add(s.a), add(s.b);
-                          },
-                          [&](const Polyline& i) { add_all(i.points); }, [&](const Points& i) { add_all(i.points); },
-                          [&](const Polygon& i) { add_all(i.points); },
-                          [&](const Ellipse& i) {
-                            const double m = i.semi_axes.cwiseAbs().maxCoeff();
-                            add(i.center + Vec2(m, m)), add(i.center - Vec2(m, m));
-                          },
-                          [&](const Text& i) { add(i.at); }, [&](const Arrow& i) { add(i.pose.translation()); },
-                          [&](const Bars& i) {
-                            for (const Vec2& t : i.tops) {
-                              add(t - Vec2(0.5 * i.width, 0)), add(t + Vec2(0.5 * i.width, 0));
-                              add({t.x(), i.base});
-                            }
-                          },
-                          [&](const ErrorBars& i) {
-                            for (const auto& [x, low, high] : i.intervals) add({x, low}), add({x, high});
-                          }},
-               item);
-  return r;
-}
 
 void add_items(const Panel& panel, int index, const PanelLayout& place, double font_pt, std::vector<Shape>& shapes) {
   ItemDrawer drawer(index, place, font_pt, shapes);

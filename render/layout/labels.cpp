@@ -1,12 +1,12 @@
 // Label placement: greedy choice among fixed positions around the point, after Christensen, Marks & Shieber, "An
 // empirical study of algorithms for point-feature label placement", ACM ToG 14(3), 1995, section 2 (without annealing:
 // figures here have tens of labels, not thousands).
+#include "render/layout/labels.hpp"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
-#include "render/layout/layout.hpp"
 #include "render/paper/font.hpp"
 
 namespace scanbench::render {
@@ -18,23 +18,8 @@ double overlap(const Rect& a, const Rect& b) {
   return w > 0 && h > 0 ? w * h : 0.0;
 }
 
-/// Length of the part of p-q inside r (Liang-Barsky).
-double length_inside(const Vec2& p, const Vec2& q, const Rect& r) {
-  double t0 = 0, t1 = 1;
-  const Vec2 d = q - p;
-  const auto cut = [&](double slope, double room) {  // slope * t <= room
-    if (slope == 0) return room >= 0;
-    const double t = room / slope;
-    if (slope < 0)
-      t0 = std::max(t0, t);
-    else
-      t1 = std::min(t1, t);
-    return t0 < t1;
-  };
-  if (!cut(-d.x(), p.x() - r.x0) || !cut(d.x(), r.x1 - p.x()) || !cut(-d.y(), p.y() - r.y0) ||
-      !cut(d.y(), r.y1 - p.y()))
-    return 0.0;
-  return (t1 - t0) * d.norm();
+double length_inside(Vec2 p, Vec2 q, const Rect& r) {
+  return cut(p, q, r) ? (q - p).norm() : 0.0;
 }
 
 /// The rectangle of size 2 half whose nearest edge is `offset` from p.
@@ -78,7 +63,7 @@ std::vector<Rect> place_labels(const std::vector<Label>& labels, double font_pt,
         const double a = heading + radians(turn);
         const Rect wanted = rect_beside(label.at, far * reach * Vec2(std::cos(a), std::sin(a)), half);
         const Rect r = inside(wanted, room);
-        const Rect grown{r.x0 - 1, r.y0 - 1, r.x1 + 1, r.y1 + 1};
+        const Rect grown = r.grown(1);
         // Weights: a label on a label cannot be read; one on a line can, thanks to its halo, but hides the line.
         double cost = 4.0 * (far - 1.0) + 0.02 * std::abs(turn);
         cost += 4.0 * (std::abs(r.x0 - wanted.x0) + std::abs(r.y0 - wanted.y0));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/layout/items.hpp"
+#include "render/layout/legend.hpp"
 #include "render/paper/font.hpp"
 
 namespace scanbench::render {
@@ -253,14 +255,12 @@ class Composer {
 
   void grid(const Panel& panel, const PanelLayout& p) {
     StrokeShape lines{.stroke = {kGridLine, 0.4, Dash::solid}, .round = false};
-    const auto add = [&](const Vec2& a, const Vec2& b) {
-      lines.points.insert(lines.points.end(), {a, b});
-      lines.end_path();
-    };
     for (const Tick& t : p.x_ticks)
-      if (const double x = p.to_device({t.value, p.y_min}).x(); panel.x.grid) add({x, p.box.y0}, {x, p.box.y1});
+      if (const double x = p.to_device({t.value, p.y_min}).x(); panel.x.grid)
+        lines.add_segment({x, p.box.y0}, {x, p.box.y1});
     for (const Tick& t : p.y_ticks)
-      if (const double y = p.to_device({p.x_min, t.value}).y(); panel.y.grid) add({p.box.x0, y}, {p.box.x1, y});
+      if (const double y = p.to_device({p.x_min, t.value}).y(); panel.y.grid)
+        lines.add_segment({p.box.x0, y}, {p.box.x1, y});
     if (!lines.points.empty()) out_.shapes.push_back({std::move(lines)});
   }
 
@@ -276,8 +276,7 @@ class Composer {
     double widest = 0.0, last_end = -INFINITY;
     for (const Tick& t : p.x_ticks) {
       const double x = p.to_device({t.value, p.y_min}).x();
-      marks.points.insert(marks.points.end(), {Vec2(x, b.y1), Vec2(x, b.y1 + kTickLength)});
-      marks.end_path();
+      marks.add_segment({x, b.y1}, {x, b.y1 + kTickLength});
       const double half = 0.5 * width_em(t.label) * tick_size_;
       if (!bottom_axis(i) || x - half < last_end) continue;  // a label that would run into the one before is left out
       text(x, b.y1 + kTickLength + 2.0 + cap * tick_size_, 0.5, t.label, tick_size_, kBlack);
@@ -285,8 +284,7 @@ class Composer {
     }
     for (const Tick& t : p.y_ticks) {
       const double y = p.to_device({p.x_min, t.value}).y();
-      marks.points.insert(marks.points.end(), {Vec2(b.x0 - kTickLength, y), Vec2(b.x0, y)});
-      marks.end_path();
+      marks.add_segment({b.x0 - kTickLength, y}, {b.x0, y});
       if (left_axis(i)) text(b.x0 - kTickLength - 2.0, y + 0.5 * cap * tick_size_, 1.0, t.label, tick_size_, kBlack);
       widest = std::max(widest, width_em(t.label) * tick_size_);
     }

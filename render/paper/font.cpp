@@ -1,4 +1,5 @@
-// Outlines and widths through FreeType, unhinted, so that they scale: paper, screen and PNG have one layout.
+// Outlines and widths of letters through FreeType, without hinting, so that they scale: paper, screen and PNG have one
+// layout.
 #include "render/paper/font.hpp"
 
 #include <cairo-ft.h>
@@ -13,7 +14,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "render/backends/tessellate.hpp"
+#include "render/paper/fill_triangles.hpp"
 
 namespace scanbench::render {
 namespace {

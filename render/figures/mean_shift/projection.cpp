@@ -8,6 +8,7 @@
 
 #include "core/registry.hpp"
 #include "render/figures/mean_shift/rows.hpp"
+#include "render/figures/parts/looks.hpp"
 
 namespace scanbench::render {
 namespace {

@@ -8,6 +8,8 @@
 
 #include "core/registry.hpp"
 #include "render/figures/mean_shift/rows.hpp"
+#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {
 namespace {

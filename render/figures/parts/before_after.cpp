@@ -1,4 +1,6 @@
 #include "render/figures/parts/before_after.hpp"
+#include "render/figures/parts/frames.hpp"
+#include "render/figures/parts/looks.hpp"
 
 #include <algorithm>
 

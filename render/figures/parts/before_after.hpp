@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/figures/parts/common.hpp"
+#include "render/figure.hpp"
 
 namespace scanbench::render {
 

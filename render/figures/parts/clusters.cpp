@@ -1,8 +1,11 @@
+// Colours that differ between neighbours, and the segments and numbers of clusters in them.
 #include "render/figures/parts/clusters.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "render/figures/parts/looks.hpp"
 
 namespace scanbench::render {
 namespace {
@@ -89,60 +92,10 @@ bool ClusteredSegments::add_numbers(Panel& panel) const {
   return true;
 }
 
-void Window::set_ranges(Panel& panel) const {
-  panel.x.range = {center.x() - 0.5 * side, center.x() + 0.5 * side};
-  panel.y.range = {center.y() - 0.5 * side, center.y() + 0.5 * side};
-}
-
-Polyline Window::outline() const {
-  const double h = 0.5 * side;
-  return {.points = {center + Vec2(-h, -h), center + Vec2(h, -h), center + Vec2(h, h), center + Vec2(-h, h)},
-          .stroke = {kGrey, 0.6, Dash::dashed},
-          .closed = true};
-}
-
-std::optional<Window> fullest_window(std::span<const Vec2> places, double side) {
-  std::optional<Window> best;
-  std::ptrdiff_t most = 0;
-  for (const Vec2& place : places) {
-    const Window window{place, side};
-    const auto held = std::ranges::count_if(places, [&](const Vec2& p) { return window.contains(p); });
-    if (held > most) best = window, most = held;
-  }
-  if (!best) return best;
-  Vec2 low = best->center, high = best->center;
-  for (const Vec2& p : places)
-    if (best->contains(p)) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  best->center = 0.5 * (low + high);
-  return best;
-}
-
 std::vector<Segment> thinned(std::span<const Segment> segments, std::size_t most) {
   std::vector<Segment> some;
   for (std::size_t i = 0; i < segments.size(); i += stride_for(segments.size(), most)) some.push_back(segments[i]);
   return some;
-}
-
-void add_note(const std::string& text, Panel& panel) {
-  if (!panel.x.range) panel.x.range = {0.0, 1.0};
-  if (!panel.y.range) panel.y.range = {0.0, 1.0};
-  const Vec2 middle(0.5 * (panel.x.range->first + panel.x.range->second),
-                    0.5 * (panel.y.range->first + panel.y.range->second));
-  panel.items.emplace_back(Text{.at = middle, .text = text, .offset_pt = {0, 0}, .color = kGrey, .movable = false});
-}
-
-std::optional<Window> square_around(std::span<const Segment> segments) {
-  Vec2 low(INFINITY, INFINITY), high = -low;
-  for (const Segment& s : segments)
-    for (const Vec2& p : {s.a, s.b})
-      if (p.allFinite()) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  if (!(low.x() <= high.x())) return std::nullopt;
-  return Window{0.5 * (low + high), std::max(1.1 * (high - low).maxCoeff(), 1e-3)};
-}
-
-double extent_of(std::span<const Segment> segments) {
-  const auto square = square_around(segments);
-  return square ? square->side / 1.1 : 0.0;
 }
 
 }  // namespace scanbench::render

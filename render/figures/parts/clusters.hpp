@@ -1,15 +1,15 @@
-// Clusters of segments that can be told apart although there are more of them than colours.
+// Clusters of segments in a few colours, so that neighbours differ.
 #pragma once
 
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "render/figures/parts/common.hpp"
+#include "render/scene.hpp"
 
 namespace scanbench::render {
 
-/// Colours for clusters at these places: of seven, each takes the one that stands farthest away. The same places give
+/// Colours for clusters at these places: of seven, each takes the one that is used farthest away. The same places give
 /// the same colours.
 std::vector<Color> cluster_colors(std::span<const Vec2> places);
 
@@ -38,27 +38,7 @@ class ClusteredSegments {
   std::vector<Color> colors_;
 };
 
-/// A square part of a map.
-struct Window {
-  Vec2 center = Vec2::Zero();
-  double side = 1.0;
-  bool contains(const Vec2& p) const { return ((p - center).cwiseAbs().array() <= 0.5 * side).all(); }
-  void set_ranges(Panel& panel) const;
-  /// Its outline, on a panel that shows more.
-  Polyline outline() const;
-};
-/// The smallest square that holds the segments, with a margin; none without finite ones.
-std::optional<Window> square_around(std::span<const Segment> segments);
-/// The one of this side that holds the most places around one of them, centred on those it holds; the first of equals.
-std::optional<Window> fullest_window(std::span<const Vec2> places, double side);
-
 /// At most `most` segments, evenly taken.
 std::vector<Segment> thinned(std::span<const Segment> segments, std::size_t most);
-
-/// An empty panel says why it is empty.
-void add_note(const std::string& text, Panel& panel);
-
-/// Larger side of the bounding box; 0 without finite ends.
-double extent_of(std::span<const Segment> segments);
 
 }  // namespace scanbench::render

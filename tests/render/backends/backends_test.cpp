@@ -11,6 +11,8 @@
 
 #include "core/error.hpp"
 #include "decoded_png.hpp"
+#include "render/backends/cairo.hpp"
+#include "render/backends/gl.hpp"
 #include "render/layout/layout.hpp"
 #include "render/palette.hpp"
 

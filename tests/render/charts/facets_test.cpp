@@ -1,5 +1,6 @@
 // Facet charts: what stands in which panel.
 #include "render/charts/facets.hpp"
+#include "render/backends/cairo.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,6 +12,8 @@
 #include "abcdef.hpp"
 #include "core/registry.hpp"
 #include "merged.hpp"
+#include "render/backends/cairo.hpp"
+#include "render/backends/gl.hpp"
 #include "render/figure.hpp"
 #include "render/palette.hpp"
 

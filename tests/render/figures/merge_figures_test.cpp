@@ -11,8 +11,11 @@
 #include "core/registry.hpp"
 #include "core/trace_rows.hpp"
 #include "merged.hpp"
+#include "render/backends/cairo.hpp"
+#include "render/backends/gl.hpp"
 #include "render/figure.hpp"
 #include "render/figures/parts/clusters.hpp"
+#include "render/figures/parts/view_box.hpp"
 #include "tests/algorithms/merge_spiral.hpp"
 
 namespace scanbench::render {

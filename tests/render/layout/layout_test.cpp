@@ -6,7 +6,8 @@
 #include <limits>
 
 #include "core/rng.hpp"
-#include "render/backends/tessellate.hpp"
+#include "render/layout/labels.hpp"
+#include "render/paper/fill_triangles.hpp"
 #include "render/paper/font.hpp"
 
 namespace scanbench::render {

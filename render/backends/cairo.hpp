@@ -1,0 +1,15 @@
+// Scenes as SVG and PDF.
+#pragma once
+
+#include <string>
+
+#include "render/scene.hpp"
+
+namespace scanbench::render {
+
+/// The whole scene as the bytes of a file. The same scene gives the same bytes in every thread and process.
+/// Throws ConfigError if the font (DejaVu Sans) is not installed, InternalError if Cairo fails.
+std::string to_svg(const Scene& scene);
+std::string to_pdf(const Scene& scene);
+
+}  // namespace scanbench::render

@@ -1,0 +1,65 @@
+// Path, legend and words that figures share.
+#include "render/figures/parts/looks.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace scanbench::render {
+
+void add_path(const FigureInput& input, std::span<const Pose2> poses, const Stroke& stroke, Panel& panel) {
+  std::vector<Vec2> places;
+  for (const Pose2& pose : poses) places.push_back(pose.translation());
+  if (input.continuous)
+    panel.items.emplace_back(Polyline{.points = std::move(places), .stroke = stroke});
+  else
+    panel.items.emplace_back(Points{.points = std::move(places), .color = stroke.color, .size_pt = kPlaceSizePt});
+}
+
+LegendEntry path_legend(const FigureInput& input, const Stroke& stroke) {
+  if (input.continuous) return {.text = "path of the sensor", .stroke = stroke};
+  return {.text = "places of the sensor",
+          .marker = Marker::dot,
+          .marker_color = stroke.color,
+          .marker_size_pt = kPlaceSizePt};
+}
+
+Color method_color(const std::vector<NamedResult>& results, std::size_t i) {
+  return method_style(results.size() > kColoredMethods ? 0 : i).color;
+}
+
+void add_method_legend(const std::vector<NamedResult>& results, double width_pt, Scene& scene) {
+  if (results.size() > kColoredMethods) {
+    scene.legend.push_back({.text = "lines found", .stroke = Stroke{method_color(results, 0), width_pt, Dash::solid}});
+    return;
+  }
+  for (std::size_t i = 0; i < results.size(); ++i)
+    scene.legend.push_back(
+        {.text = results[i].pipeline, .stroke = Stroke{method_color(results, i), width_pt, Dash::solid}});
+}
+
+Scene small_multiples(std::size_t panels) {
+  Scene scene;
+  scene.columns = panels <= 3   ? static_cast<int>(std::max<std::size_t>(1, panels))
+                  : panels == 4 ? 2
+                  : panels <= 9 ? 3
+                                : 4;
+  scene.width_in = scene.columns == 1 ? kSingleColumnIn : kDoubleColumnIn;
+  scene.share_axes = true;
+  scene.scale_bar = true;
+  return scene;
+}
+
+void add_note(const std::string& text, Panel& panel) {
+  if (!panel.x.range) panel.x.range = {0.0, 1.0};
+  if (!panel.y.range) panel.y.range = {0.0, 1.0};
+  const Vec2 middle(0.5 * (panel.x.range->first + panel.x.range->second),
+                    0.5 * (panel.y.range->first + panel.y.range->second));
+  panel.items.emplace_back(Text{.at = middle, .text = text, .offset_pt = {0, 0}, .color = kGrey, .movable = false});
+}
+
+std::string counted(std::size_t n, const std::string& noun) {
+  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
+}  // namespace scanbench::render

@@ -1,0 +1,38 @@
+// The part of the plane that a panel shows.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/scene.hpp"
+
+namespace scanbench::render {
+
+/// Axis ranges of the bulk of the points: a few far outliers do not shrink the rest. Absent if the points are few or
+/// have no outliers.
+void set_robust_ranges(Panel& panel, const std::vector<Vec2>& points);
+
+/// Ranges that hold the points with a margin, where set_robust_ranges() set none. Without finite points: none.
+void set_ranges_to_hold(Panel& panel, const std::vector<Vec2>& points);
+
+/// A square part of a map.
+struct Window {
+  Vec2 center = Vec2::Zero();
+  double side = 1.0;
+  bool contains(const Vec2& p) const { return ((p - center).cwiseAbs().array() <= 0.5 * side).all(); }
+  void set_ranges(Panel& panel) const;
+  /// Its outline, on a panel that shows more.
+  Polyline outline() const;
+};
+
+/// The smallest square that holds the segments, with a margin; none without finite ones.
+std::optional<Window> square_around(std::span<const Segment> segments);
+
+/// The one of this side that holds the most places around one of them, centred on those it holds; the first of equals.
+std::optional<Window> fullest_window(std::span<const Vec2> places, double side);
+
+/// Larger side of the bounding box; 0 without finite ends.
+double extent_of(std::span<const Segment> segments);
+
+}  // namespace scanbench::render

@@ -1,0 +1,28 @@
+// The place of a panel's data on paper.
+#pragma once
+
+#include <vector>
+
+#include "render/layout/ticks.hpp"
+#include "render/paper/shapes.hpp"
+
+namespace scanbench::render {
+
+struct PanelLayout {
+  Rect box{};
+  double x_min = 0, x_max = 1, y_min = 0, y_max = 1;  ///< of the data at the box's sides
+  bool x_log = false, y_log = false;
+  std::vector<Tick> x_ticks{}, y_ticks{};
+
+  /// Data to paper. Not finite for a coordinate that is not, or is <= 0 on a log axis.
+  Vec2 to_device(const Vec2& data) const;
+};
+
+/// Is the point near enough to be drawn? Coordinates beyond 1e9 are treated as infinite: their differences would
+/// overflow between here and paper.
+bool drawable(const Vec2& p);
+
+/// Bounding box of the items' drawable coordinates; x0 > x1 if there are none. On log axes of the positive ones.
+Rect data_bounds(const Panel& panel);
+
+}  // namespace scanbench::render
