@@ -12,6 +12,10 @@ double Segment::direction_angle() const {
   return direction_mod_pi(portable::atan2(b.y() - a.y(), b.x() - a.x()));
 }
 
+Segment seen_from_origin(const Vec2& p, const Vec2& q) {
+  return cross(p, q) < 0 ? Segment{q, p} : Segment{p, q};
+}
+
 double angle_between(const Segment& a, const Segment& b) {
   const Vec2 u = a.direction();
   const Vec2 v = b.direction();

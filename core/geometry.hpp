@@ -38,6 +38,10 @@ struct Segment {
   bool operator==(const Segment&) const = default;
 };
 
+/// The segment between two points with the origin of their frame, the sensor, on its left. Points in line with the
+/// origin keep their order.
+Segment seen_from_origin(const Vec2& p, const Vec2& q);
+
 /// Angle between the undirected directions of two segments, in [0, pi/2].
 double angle_between(const Segment& a, const Segment& b);
 

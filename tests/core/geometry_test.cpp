@@ -95,5 +95,11 @@ TEST(SegmentDirection, OfASegmentWithoutLengthIsZero) {
   EXPECT_EQ(Segment{}.direction().norm(), 0.0);
 }
 
+TEST(SeenFromOrigin, HasTheOriginOnItsLeftInEitherOrder) {
+  for (const auto& [p, q] : {std::pair(Vec2(2, -1), Vec2(2, 1)), std::pair(Vec2(-3, 0.5), Vec2(1, 2))})
+    for (const Segment& s : {seen_from_origin(p, q), seen_from_origin(q, p)})
+      EXPECT_GT(cross(s.b - s.a, Vec2(-s.a)), 0.0);
+}
+
 }  // namespace
 }  // namespace scanbench
