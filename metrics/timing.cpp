@@ -2,10 +2,10 @@
 //
 // The median over the scans: a machine that is busy with something else lengthens a few of them. Each stage is closed
 // by a reading of the clock, a fraction of a microsecond, which is part of the time.
-#include <algorithm>
 #include <map>
 #include <vector>
 
+#include "core/median.hpp"
 #include "core/registry.hpp"
 #include "metrics/rows.hpp"
 
@@ -19,13 +19,6 @@ std::vector<double> seconds_per_scan(const std::vector<StageTime>& times) {
   std::vector<double> seconds;
   for (const auto& [frame, s] : per_frame) seconds.push_back(s);
   return seconds;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return kUndefined;
-  std::ranges::sort(values);
-  const std::size_t n = values.size();
-  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
 class Timing : public MetricFamily {

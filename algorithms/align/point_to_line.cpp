@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algorithms/align/joint_step.hpp"
-#include "algorithms/align/register_scan.hpp"
+#include "algorithms/align/point_to_line/joint_step.hpp"
+#include "algorithms/align/point_to_line/register_scan.hpp"
 #include "core/modules.hpp"
 #include "core/number_text.hpp"
 #include "core/registry.hpp"

@@ -13,7 +13,7 @@
 #include "merged.hpp"
 #include "render/figure.hpp"
 #include "render/figures/clusters.hpp"
-#include "tests/algorithms/merge_spiral.hpp"
+#include "tests/support/spiral.hpp"
 
 namespace scanbench::render {
 namespace {
