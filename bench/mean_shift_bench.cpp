@@ -12,7 +12,7 @@
 #include <nanoflann.hpp>
 #include <vector>
 
-#include "algorithms/merge/mean_shift_modes.hpp"
+#include "algorithms/merge/mean_shift/modes.hpp"
 #include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"

@@ -16,7 +16,7 @@
 
 #include <fmt/format.h>
 
-#include "algorithms/extract/optimal_line.hpp"
+#include "algorithms/extract/parts/beam_line.hpp"
 #include "bench/accuracy/scenes.hpp"
 #include "core/index.hpp"
 #include "core/modules.hpp"

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "core/median.hpp"
 #include "core/registry.hpp"
 #include "metrics/rows.hpp"
 
@@ -19,13 +20,6 @@ std::vector<double> seconds_per_scan(const std::vector<StageTime>& times) {
   std::vector<double> seconds;
   for (const auto& [frame, s] : per_frame) seconds.push_back(s);
   return seconds;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return kUndefined;
-  std::ranges::sort(values);
-  const std::size_t n = values.size();
-  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
 class Timing : public MetricFamily {

@@ -8,10 +8,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "algorithms/extract/breakpoints.hpp"
-#include "algorithms/extract/chord.hpp"
-#include "algorithms/extract/covariance.hpp"
-#include "algorithms/extract/noise_scale.hpp"
+#include "algorithms/extract/parts/breakpoints.hpp"
+#include "algorithms/extract/parts/chord.hpp"
+#include "algorithms/extract/parts/covariance.hpp"
+#include "algorithms/extract/parts/noise_scale.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/portable_math.hpp"
 #include "core/registry.hpp"
@@ -107,7 +108,7 @@ class Em final : public LineExtractor {
       merge(sigma, components);
       owner.assign(points.size(), -1);
       for (std::size_t k = 0; k < components.size(); ++k)
-        for (const int i : components[k].own) owner[static_cast<std::size_t>(i)] = static_cast<int>(k);
+        for (const int i : components[k].own) owner[as_index(i)] = static_cast<int>(k);
       trace.row(EmRow{round, anneal, static_cast<int>(components.size())});
       if (cold && owner == before) break;
     }
@@ -132,7 +133,7 @@ class Em final : public LineExtractor {
     c.along = perpendicular(line.normal);
     const double ux = c.along.x(), uy = c.along.y();
     const auto place = [&](int i) {
-      const Vec2& p = points[static_cast<std::size_t>(i)];
+      const Vec2& p = points[as_index(i)];
       return ux * p.x() + uy * p.y();
     };
     std::stable_sort(c.own.begin(), c.own.end(), [&](int a, int b) { return place(a) < place(b); });
@@ -157,7 +158,7 @@ class Em final : public LineExtractor {
         }
       }
       if (run.size() < static_cast<int>(kFewest)) continue;
-      std::vector<int> own(static_cast<std::size_t>(run.size()));
+      std::vector<int> own(as_index(run.size()));
       std::iota(own.begin(), own.end(), run.first);
       components.push_back(from_points(points.points, std::move(own)));
     }
@@ -225,13 +226,13 @@ class Em final : public LineExtractor {
 
   // The number of points before the cut; 0: none is needed.
   std::size_t place_of_cut(std::span<const Vec2> points, std::span<const double> s, const Component& c) const {
-    const auto point = [&](std::size_t k) -> const Vec2& { return points[static_cast<std::size_t>(c.own[k])]; };
+    const auto point = [&](std::size_t k) -> const Vec2& { return points[as_index(c.own[k])]; };
     for (std::size_t k = 1; k < c.own.size(); ++k)
       if (c.along.dot(point(k) - point(k - 1)) > params_.split_gap_m) return k;
     if (c.own.size() < 2 * kFewest) return 0;
     double sum = 0.0;  // of |residual| / s over the window that ends at k
     const auto misfit = [&](std::size_t k) {
-      return std::fabs(c.line.normal.dot(point(k)) - c.line.offset) / s[static_cast<std::size_t>(c.own[k])];
+      return std::fabs(c.line.normal.dot(point(k)) - c.line.offset) / s[as_index(c.own[k])];
     };
     bool bad = false;
     for (std::size_t k = 0; k < c.own.size() && !bad; ++k) {
@@ -242,7 +243,7 @@ class Em final : public LineExtractor {
     if (!bad) return 0;
     std::vector<Vec2> sorted;
     for (std::size_t k = 0; k < c.own.size(); ++k) sorted.push_back(point(k));
-    return static_cast<std::size_t>(farthest_from_chord(sorted, {0, static_cast<int>(sorted.size()) - 1}).index);
+    return as_index(farthest_from_chord(sorted, {0, static_cast<int>(sorted.size()) - 1}).index);
   }
 
   // Pairs of nearly one direction, overlapping or with a small gap, that one line fits as well as the sensor allows.
@@ -273,7 +274,7 @@ class Em final : public LineExtractor {
     both.add(b.moments);
     double s = 0.0;
     for (const Component* c : {&a, &b})
-      for (const int i : c->own) s += sigma[static_cast<std::size_t>(i)] / both.weight();
+      for (const int i : c->own) s += sigma[as_index(i)] / both.weight();
     return fit_line(both).rms() <= 1.2 * s;
   }
 

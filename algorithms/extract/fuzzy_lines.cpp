@@ -1,18 +1,10 @@
-// Fuzzy clustering of lines, Borges & Aldon 2000, section 2.3, equations (1) to (10), and its use with a fixed number
-// of lines as an extractor of its own.
-//
-// Departures from the printed text. Eq. (8) needs the two-argument arctangent: the condition it solves has two
-// solutions 90 degrees apart, and the plain arctangent returns the worst line for every wall whose normal is more than
-// 45 degrees from the x axis. Points on a centre make eq. (6) a division of zero by zero: they belong to that prototype
-// (the limit of the equation).
-#include "algorithms/extract/fuzzy_lines.hpp"
-
+// fuzzy_lines: fuzzy clustering of all points into a given number of lines, Borges & Aldon, "A split-and-merge
+// segmentation algorithm for line extraction in 2-D range images", ICPR 2000, section 2.3.
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
-#include "algorithms/extract/groups.hpp"
-#include "core/least_squares.hpp"
+#include "algorithms/extract/parts/fuzzy_clustering.hpp"
+#include "algorithms/extract/parts/groups.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 
@@ -25,114 +17,6 @@ struct CostRow {
   double cost_m2 = 0.0;
   static constexpr auto columns() { return std::tuple{column("cost_m2", &CostRow::cost_m2)}; }
 };
-
-constexpr double kZeroDistance2 = 1e-18;  // [m^2] a point this near to a prototype belongs to it
-
-// Eq. (4), f and g.
-double squared_distance(const FuzzyLine& line, const Vec2& p, bool penalty) {
-  const double f = line.rho - line.normal.dot(p);
-  return f * f + (penalty ? (p - line.centre).squaredNorm() : 0.0);  // eq. (10)
-}
-
-// Eq. (6) for one point from its squared distances to all prototypes. Ratios to the smallest one cannot overflow, even
-// for a fuzzifier near 1.
-void memberships_of(std::span<const double> d2, double fuzzifier, std::span<double> u) {
-  const double nearest = *std::min_element(d2.begin(), d2.end());
-  double sum = 0.0;
-  for (std::size_t i = 0; i < d2.size(); ++i) {
-    if (nearest <= kZeroDistance2)
-      u[i] = d2[i] <= kZeroDistance2 ? 1.0 : 0.0;
-    else
-      u[i] = fuzzifier == 2.0 ? nearest / d2[i] : std::pow(nearest / d2[i], 1.0 / (fuzzifier - 1.0));
-    sum += u[i];
-  }
-  for (double& v : u) v /= sum;
-}
-
-double power(double u, double fuzzifier) {
-  return fuzzifier == 2.0 ? u * u : std::pow(u, fuzzifier);
-}
-
-// Eqs. (7) to (9). A cluster without weight stays where it is, one without direction keeps its angle.
-FuzzyLine updated(const FuzzyLine& before, const PointMoments& moments) {
-  if (!(moments.weight() > std::numeric_limits<double>::min())) return before;
-  FuzzyLine line = before;
-  const LineFit fit = fit_line(moments);
-  line.centre = fit.centroid;                     // eq. (9)
-  if (!fit.degenerate) line.normal = fit.normal;  // eq. (8)
-  line.rho = line.normal.dot(line.centre);        // eq. (7)
-  return line;
-}
-
-// The share of one prototype in J, eq. (1), from its moments: both parts are measured from the centre.
-double cost_of(const FuzzyLine& line, const PointMoments& m, bool penalty) {
-  const Vec2& n = line.normal;
-  const double across = n.x() * n.x() * m.sxx() + 2.0 * n.x() * n.y() * m.sxy() + n.y() * n.y() * m.syy();
-  return std::max(across, 0.0) + (penalty ? m.sxx() + m.syy() : 0.0);
-}
-
-// Step 4. The paper thresholds the changes of rho and alpha; rho is measured about the new centre here, because about
-// the sensor a turn by alpha_tolerance alone changes it by as much as the wall is long and far, and the number of
-// iterations would depend on the frame.
-bool changed(const FuzzyLine& before, const FuzzyLine& after, const FuzzyOptions& options) {
-  return std::fabs(before.normal.dot(after.centre) - before.rho) > options.rho_tolerance_m ||
-         std::fabs(cross(before.normal, after.normal)) > std::sin(options.alpha_tolerance_rad);
-}
-
-}  // namespace
-
-FuzzyLines fuzzy_lines(std::span<const Vec2> points, std::span<const FuzzyLine> initial, const FuzzyOptions& options) {
-  if (!(options.fuzzifier > 1.0)) throw ParamError("fuzzifier", "the fuzzifier must be above 1");
-  const std::size_t lines = initial.size();
-  FuzzyLines result;
-  result.lines.assign(initial.begin(), initial.end());
-  result.memberships.assign(lines * points.size(), 0.0);
-  if (lines == 0 || points.empty()) {
-    result.converged = true;
-    return result;
-  }
-  std::vector<double> d2(lines);
-  std::vector<double> u(lines);
-  std::vector<PointMoments> moments(lines);
-  while (!result.converged && result.iterations < options.max_iterations) {
-    // Step 2: memberships. The centres are those of the last step 3, so that with the memberships fixed eqs. (7) to
-    // (9) are the exact minimiser of J, and with the prototypes fixed eq. (6) is: J cannot increase.
-    double cost = 0.0;
-    std::fill(moments.begin(), moments.end(), PointMoments{});
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      for (std::size_t i = 0; i < lines; ++i) d2[i] = squared_distance(result.lines[i], points[j], options.penalty);
-      memberships_of(d2, options.fuzzifier, u);
-      for (std::size_t i = 0; i < lines; ++i) {
-        const double w = power(u[i], options.fuzzifier);
-        result.memberships[i * points.size() + j] = u[i];
-        moments[i].add(points[j], w);
-        cost += w * d2[i];
-      }
-    }
-    result.costs.push_back(cost);
-
-    // Steps 3 and 4: prototypes, and whether one of them still moves.
-    result.converged = true;
-    cost = 0.0;
-    for (std::size_t i = 0; i < lines; ++i) {
-      const FuzzyLine next = updated(result.lines[i], moments[i]);
-      if (changed(result.lines[i], next, options)) result.converged = false;
-      result.lines[i] = next;
-      cost += cost_of(next, moments[i], options.penalty);
-    }
-    result.costs.push_back(cost);
-    ++result.iterations;
-  }
-  return result;
-}
-
-FuzzyLine prototype_of(std::span<const Vec2> points, const Vec2& normal_if_undefined) {
-  const LineFit fit = fit_line(points);
-  const Vec2 normal = fit.degenerate ? normal_if_undefined : fit.normal;
-  return {normal, normal.dot(fit.centroid), fit.centroid};
-}
-
-namespace {
 
 class FuzzyLinesModule final : public LineExtractor {
  public:
@@ -170,7 +54,7 @@ class FuzzyLinesModule final : public LineExtractor {
     trace.stage(Stage::segment);
     // Initial prototypes: equal runs of points in scan order, as SMF halves its lines.
     const std::span<const Vec2> points(in.points);
-    const std::size_t count = std::min(static_cast<std::size_t>(lines_), points.size());
+    const std::size_t count = std::min(as_index(lines_), points.size());
     std::vector<FuzzyLine> initial;
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t begin = i * points.size() / count;

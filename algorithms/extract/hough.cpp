@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algorithms/extract/consensus.hpp"
-#include "algorithms/extract/covariance.hpp"
+#include "algorithms/extract/parts/consensus.hpp"
+#include "algorithms/extract/parts/covariance.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/portable_math.hpp"
 #include "core/registry.hpp"
@@ -31,14 +32,14 @@ class Accumulator {
       const auto [s, c] = portable::sincos(k * kPi / angles);
       normals_.emplace_back(c, s);
     }
-    votes_.assign(normals_.size() * static_cast<std::size_t>(across_), 0);
+    votes_.assign(normals_.size() * as_index(across_), 0);
   }
 
   void vote(const Vec2& p, int weight) {
     for (std::size_t k = 0; k < normals_.size(); ++k) {
       const double rho = normals_[k].x() * p.x() + normals_[k].y() * p.y();
       const int cell = zero_ + static_cast<int>(std::floor(rho / step_m_ + 0.5));
-      votes_[k * static_cast<std::size_t>(across_) + static_cast<std::size_t>(cell)] += weight;
+      votes_[k * as_index(across_) + as_index(cell)] += weight;
     }
   }
 
@@ -51,7 +52,7 @@ class Accumulator {
   Peak peak() const {
     Peak best;
     for (std::size_t k = 0; k < normals_.size(); ++k) {
-      const int* row = votes_.data() + k * static_cast<std::size_t>(across_);
+      const int* row = votes_.data() + k * as_index(across_);
       for (int c = 1; c + 1 < across_; ++c) {
         const int twice = row[c - 1] + 2 * row[c] + row[c + 1];
         if (twice > best.twice_votes) best = {twice, normals_[k], (c - zero_) * step_m_};
@@ -122,7 +123,7 @@ class Hough final : public LineExtractor {
     for (std::size_t i = 0; i < wide.size(); ++i)
       wide[i] += votes.step_m() + points.points[i].norm() * kPi / (2 * params_.angles);
 
-    const auto needed = static_cast<std::size_t>(std::max(2, params_.min_points));
+    const auto needed = as_index(std::max(2, params_.min_points));
     int lines = 0;
     for (std::size_t rounds = 0; rounds < points.size() && lines < params_.max_lines; ++rounds) {
       const Accumulator::Peak peak = votes.peak();
@@ -139,8 +140,8 @@ class Hough final : public LineExtractor {
       const bool enough = support.size() >= needed;
       // A peak without enough support is spent too, or it would come up again for ever.
       for (const int i : enough ? support : rough) {
-        group[static_cast<std::size_t>(i)] = enough ? lines : kSpent;
-        votes.vote(points.points[static_cast<std::size_t>(i)], -1);
+        group[as_index(i)] = enough ? lines : kSpent;
+        votes.vote(points.points[as_index(i)], -1);
       }
       if (enough) ++lines;
     }

@@ -3,8 +3,9 @@
 //
 // The break point belongs to both halves (p' and p'' of Borges & Aldon): both chords and both fitted lines use it. As
 // support it counts for the second half only, so that supports partition the points.
-#include "algorithms/extract/breakpoints.hpp"
-#include "algorithms/extract/chord.hpp"
+#include "algorithms/extract/parts/breakpoints.hpp"
+#include "algorithms/extract/parts/chord.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 
@@ -63,7 +64,7 @@ class Iepf final : public LineExtractor {
       pending.pop_back();
       if (run.last - run.first >= 2) {
         const Farthest far = farthest_from_chord(points.points, run);
-        if (far.exceeds(threshold_.at(scan, points.beams[static_cast<std::size_t>(far.index)]))) {
+        if (far.exceeds(threshold_.at(scan, points.beams[as_index(far.index)]))) {
           pending.push_back({far.index, run.last});
           pending.push_back({run.first, far.index});  // on top: lines come out in scan order
           continue;

@@ -4,7 +4,8 @@
 //
 // Straight is: the point itself within `sigmas` standard deviations of the refitted line, and the residuals of all
 // within one and a half (their root mean square over at least 5 points): both cost O(1) per point.
-#include "algorithms/extract/contour_extractor.hpp"
+#include "algorithms/extract/parts/contour_extractor.hpp"
+#include "core/index.hpp"
 #include "core/registry.hpp"
 
 namespace scanbench {
@@ -22,7 +23,7 @@ class Incremental final : public ContourExtractor {
     int first = contour.first;
     PointMoments line;
     for (int i = first; i <= contour.last; ++i) {
-      const auto k = static_cast<std::size_t>(i);
+      const auto k = as_index(i);
       PointMoments with = line;
       with.add(points[k]);
       if (i - first >= 2 && !straight(fit_line(with), points[k], tolerance[k], i - first + 1)) {

@@ -2,8 +2,8 @@
 // pulling its end in to the point farthest from the chord. P. Kovesi, MATLAB and Octave functions for computer vision,
 // lineseg and maxlinedev; used on scans by Lakaemper 2009, section V. Contours end at adaptive breakpoints (Borges &
 // Aldon 2004); each piece is refitted by total least squares.
-#include "algorithms/extract/breakpoints.hpp"
-#include "algorithms/extract/chord.hpp"
+#include "algorithms/extract/parts/breakpoints.hpp"
+#include "algorithms/extract/parts/chord.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 

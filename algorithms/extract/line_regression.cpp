@@ -4,7 +4,8 @@
 // algorithm "Line-Regression". Collinear neighbours are merged.
 #include <tuple>
 
-#include "algorithms/extract/contour_extractor.hpp"
+#include "algorithms/extract/parts/contour_extractor.hpp"
+#include "core/index.hpp"
 #include "core/portable_math.hpp"
 #include "core/registry.hpp"
 
@@ -69,9 +70,7 @@ class LineRegression final : public ContourExtractor {
   void cut(std::span<const Vec2> points, std::span<const double> tolerance, const PointRun& contour,
            std::vector<PointRun>& runs) const override {
     const int half = window_ / 2 + 1;  // of a window about a point, the point in both halves
-    const auto window = [&](int first) {
-      return points.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(half));
-    };
+    const auto window = [&](int first) { return points.subspan(as_index(first), as_index(half)); };
     // Peaks of disagreement above the threshold are the corners; the highest of each stretch is the break.
     int first = contour.first;
     int peak = -1;
@@ -80,7 +79,7 @@ class LineRegression final : public ContourExtractor {
       const PointMoments a = PointMoments::of(window(i - half + 1));
       const PointMoments b = PointMoments::of(window(i));
       const LineFit left = fit_line(a), right = fit_line(b);
-      const auto k = static_cast<std::size_t>(i);
+      const auto k = as_index(i);
       const double sigma = tolerance[k] / sigmas_;
       const double d = left.degenerate || right.degenerate ? 0.0 : disagreement(left, a, right, b, points[k], sigma);
       if (d > highest) {

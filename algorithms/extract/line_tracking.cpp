@@ -6,7 +6,8 @@
 // and max_missing_beams can make it).
 #include <cmath>
 
-#include "algorithms/extract/breakpoints.hpp"
+#include "algorithms/extract/parts/breakpoints.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 
@@ -104,13 +105,13 @@ class LineTracking final : public LineExtractor {
   void track(const Scan& scan, const ScanPoints& points, const PointRun& whole, std::vector<PointRun>& runs) const {
     int i = whole.first;
     while (i <= whole.last) {
-      const auto first = static_cast<std::size_t>(i);
+      const auto first = as_index(i);
       TrackedLine line(points.points[first]);
       line.add(points.points[first]);
       if (i < whole.last) line.add(points.points[first + 1]);
       int j = i + 2;
       for (; j <= whole.last; ++j) {
-        const auto k = static_cast<std::size_t>(j);
+        const auto k = as_index(j);
         if (line.farther(points.points[k], threshold_.at(scan, points.beams[k]))) break;
         line.add(points.points[k]);
       }

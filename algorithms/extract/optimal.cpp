@@ -3,15 +3,16 @@
 // and results in docs/algorithms/optimal.md.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "algorithms/extract/groups.hpp"
-#include "algorithms/extract/line_ends.hpp"
-#include "algorithms/extract/optimal_line.hpp"
-#include "algorithms/extract/optimal_segmentation.hpp"
-#include "algorithms/extract/scan_model.hpp"
+#include "algorithms/extract/optimal/line_ends.hpp"
+#include "algorithms/extract/optimal/segmentation.hpp"
+#include "algorithms/extract/parts/beam_line.hpp"
+#include "algorithms/extract/parts/groups.hpp"
+#include "algorithms/extract/parts/scan_model.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench::extract {
 namespace {
@@ -23,12 +24,7 @@ struct DescriptionRow {
   static constexpr auto columns() { return std::tuple{column("length_nats", &DescriptionRow::length_nats)}; }
 };
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kFewestReadings = 3;  // of a line: two always lie on one
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 struct Line {
   PointRun run;
@@ -76,7 +72,7 @@ class Extraction {
   }
 
   std::span<const BeamReading> readings(const PointRun& run) const {
-    return std::span(readings_).subspan(at(run.first), at(run.size()));
+    return std::span(readings_).subspan(as_index(run.first), as_index(run.size()));
   }
 
   std::optional<BeamLine> fit(const PointRun& run, const std::optional<Vec2>& start = {}) const {
@@ -92,19 +88,19 @@ class Extraction {
     for (const Line& line : lines_) {
       if (!line.fit) continue;
       for (int i = line.run.first; i <= line.run.last; ++i) {
-        const Vec2 d = model_.direction(at(i));
+        const Vec2 d = model_.direction(as_index(i));
         const double r = line.fit->range(d);
-        walls_[at(i)] = {r, r * r * cross(line.fit->theta, d)};
+        walls_[as_index(i)] = {r, r * r * cross(line.fit->theta, d)};
       }
     }
   }
 
   double squared_error(const BeamLine& line, int i) const {
-    const Vec2 d = model_.direction(at(i));
+    const Vec2 d = model_.direction(as_index(i));
     const double u = line.theta.dot(d);
-    if (!(u > 0)) return kInfinity;
+    if (!(u > 0)) return kInf;
     const double r = 1.0 / u;
-    const double e = (model_.ranges()[at(i)] - r) / reading_sigma(noise_, r, r * r * cross(line.theta, d));
+    const double e = (model_.ranges()[as_index(i)] - r) / reading_sigma(noise_, r, r * r * cross(line.theta, d));
     return e * e;
   }
 
@@ -121,7 +117,9 @@ class Extraction {
 
   bool place_corner(Line& a, Line& b) {
     if (a.run.last + 1 != b.run.first || !a.fit || !b.fit) return false;
-    const auto a_is_nearer = [&](int i) { return (a.fit->theta - b.fit->theta).dot(model_.direction(at(i))) > 0; };
+    const auto a_is_nearer = [&](int i) {
+      return (a.fit->theta - b.fit->theta).dot(model_.direction(as_index(i))) > 0;
+    };
     const bool before = a_is_nearer(a.run.first);
     if (a_is_nearer(b.run.last) == before) return false;  // a step, not a corner
     int cut = b.run.first;                                // first point of b
@@ -146,10 +144,10 @@ class Extraction {
     const int own = last ? run.last : run.first;
     const int next = own + (last ? 1 : -1);
     if (next < 0 || next >= static_cast<int>(model_.size())) return std::nullopt;
-    if (std::abs(model_.points().beams[at(next)] - model_.points().beams[at(own)]) > 1) return std::nullopt;
+    if (std::abs(model_.points().beams[as_index(next)] - model_.points().beams[as_index(own)]) > 1) return std::nullopt;
     const std::size_t other = last ? k + 1 : k - 1;
     if (other >= lines_.size() || next < lines_[other].run.first || next > lines_[other].run.last)
-      return Beyond{.line = {}, .readings = {}, .range_m = model_.ranges()[at(next)]};
+      return Beyond{.line = {}, .readings = {}, .range_m = model_.ranges()[as_index(next)]};
     if (!lines_[other].fit) return std::nullopt;
     return Beyond{.line = lines_[other].fit, .readings = readings(lines_[other].run), .range_m = 0.0};
   }
@@ -183,10 +181,10 @@ class Extraction {
   ScanLines result(SupportRules rules) {
     std::vector<PointRun> runs;
     std::vector<LineFit> fits;
-    std::vector<int> line_of_first_beam(at(scan_.beams()), -1);
+    std::vector<int> line_of_first_beam(as_index(scan_.beams()), -1);
     for (std::size_t k = 0; k < lines_.size(); ++k) {
       const PointRun& run = lines_[k].run;
-      const std::span support = std::span(model_.points().points).subspan(at(run.first), at(run.size()));
+      const std::span support = std::span(model_.points().points).subspan(as_index(run.first), as_index(run.size()));
       LineFit line = fit_group(support, Fit::tls);
       if (const auto& beam_line = lines_[k].fit) {
         line.normal = beam_line->normal();
@@ -197,11 +195,11 @@ class Extraction {
       }
       runs.push_back(run);
       fits.push_back(line);
-      line_of_first_beam[at(model_.points().beams[at(run.first)])] = static_cast<int>(k);
+      line_of_first_beam[as_index(model_.points().beams[as_index(run.first)])] = static_cast<int>(k);
     }
     ScanLines out = lines_of_runs(scan_, model_.points(), runs, fits, rules);
     for (LineFeature& line : out.lines) {
-      const auto& fitted = lines_[at(line_of_first_beam[at(line.first_beam)])].fit;
+      const auto& fitted = lines_[as_index(line_of_first_beam[as_index(line.first_beam)])].fit;
       if (fitted) line.covariance = line_covariance(*fitted, line.segment.midpoint());
     }
     return out;

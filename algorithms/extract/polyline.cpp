@@ -5,17 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Core>
 
-#include "algorithms/extract/groups.hpp"
-#include "algorithms/extract/optimal_line.hpp"
-#include "algorithms/extract/polyline_chain.hpp"
-#include "algorithms/extract/polyline_search.hpp"
-#include "algorithms/extract/scan_model.hpp"
+#include "algorithms/extract/parts/beam_line.hpp"
+#include "algorithms/extract/parts/groups.hpp"
+#include "algorithms/extract/parts/scan_model.hpp"
+#include "algorithms/extract/polyline/chain.hpp"
+#include "algorithms/extract/polyline/search.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench::extract {
 namespace {
@@ -32,10 +33,6 @@ constexpr int kMostVertices = 64;  // where the description decides how many
 constexpr int kMostPlaces = 400;   // where vertices may stand before they are refined
 constexpr int kSearches = 2;
 constexpr int kClosedSearches = 4;  // from different vertices of the best chain so far
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 // A chain and the returns that it explains: `points` in the order of its bearings.
 struct FittedChain {
@@ -100,8 +97,8 @@ class Extraction {
       count += static_cast<double>(c.points.size());
       for (const int i : c.points) {
         const Chain& chain = c.fit.chain;
-        const double bearing = within(chain, readings_[at(i)].bearing_rad);
-        ranges[at(i)] = 1.0 / chain.inverse_range(chain.wall_at(bearing), bearing);
+        const double bearing = within(chain, readings_[as_index(i)].bearing_rad);
+        ranges[as_index(i)] = 1.0 / chain.inverse_range(chain.wall_at(bearing), bearing);
       }
     }
     const double misfit = std::max(std::sqrt(squares / count), 1.0);  // in standard deviations
@@ -116,7 +113,7 @@ class Extraction {
     for (const SegmentationPoint& p : points_) cost += p.clutter_cost;
     for (const FittedChain& chain : chains) {
       cost += chain.cost + vertex_cost_ * static_cast<double>(chain.fit.chain.vertices.size());
-      for (const int i : chain.points) cost -= points_[at(i)].clutter_cost;
+      for (const int i : chain.points) cost -= points_[as_index(i)].clutter_cost;
     }
     return cost;
   }
@@ -141,7 +138,7 @@ class Extraction {
 
   bool goes_all_around() const {
     const auto& g = scan_.sensor.geometry;
-    return model_.size() == at(g.beams()) && std::fabs(g.angle_step()) * g.beams() > kTwoPi - 1e-6;
+    return model_.size() == as_index(g.beams()) && std::fabs(g.angle_step()) * g.beams() > kTwoPi - 1e-6;
   }
 
   // A scan that goes all around may be one chain without ends: as many vertices then make one wall more. Where it
@@ -187,7 +184,7 @@ class Extraction {
     Chain start{.vertices = {}, .closed = closed};
     for (const GridVertex& v : grid)
       start.vertices.push_back(
-          {readings_[at(v.point % n)].bearing_rad + (v.point >= n ? kTwoPi : 0.0), v.inverse_range});
+          {readings_[as_index(v.point % n)].bearing_rad + (v.point >= n ? kTwoPi : 0.0), v.inverse_range});
     const int first = closed ? 0 : grid.front().point;
     const int last = closed ? n - 1 : grid.back().point;
     for (int i = first; i <= last; ++i) result.points.push_back(i);
@@ -224,8 +221,8 @@ class Extraction {
       const std::array<Vec2, 2> moves = {turn / v.inverse_range, -u / (v.inverse_range * v.inverse_range)};
       for (int k = 0; k < 2; ++k) {
         const bool is_b = s.b.isApprox(place(v));
-        jacobian(0, 2 * end + k) = 0.5 * normal.dot(moves[at(k)]);
-        jacobian(1, 2 * end + k) = (is_b ? 1.0 : -1.0) * cross(along, moves[at(k)]) / s.length();
+        jacobian(0, 2 * end + k) = 0.5 * normal.dot(moves[as_index(k)]);
+        jacobian(1, 2 * end + k) = (is_b ? 1.0 : -1.0) * cross(along, moves[as_index(k)]) / s.length();
       }
     }
     Eigen::Matrix4d c;
@@ -244,13 +241,14 @@ class Extraction {
       const int before = static_cast<int>(walls.size());
       for (int k = 0; k < chain.fit.chain.walls(); ++k) walls.emplace_back(&chain.fit, k);
       for (const int i : chain.points)
-        group[at(i)] = before + chain.fit.chain.wall_at(within(chain.fit.chain, readings_[at(i)].bearing_rad));
+        group[as_index(i)] =
+            before + chain.fit.chain.wall_at(within(chain.fit.chain, readings_[as_index(i)].bearing_rad));
     }
     ScanLines out = lines_of_groups(scan_, model_.points(), group, static_cast<int>(walls.size()), Fit::tls, rules);
-    std::vector<int> group_of_beam(at(scan_.beams()), -1);
-    for (std::size_t i = 0; i < model_.size(); ++i) group_of_beam[at(model_.points().beams[i])] = group[i];
+    std::vector<int> group_of_beam(as_index(scan_.beams()), -1);
+    for (std::size_t i = 0; i < model_.size(); ++i) group_of_beam[as_index(model_.points().beams[i])] = group[i];
     for (LineFeature& line : out.lines) {
-      const auto& [fit, wall] = walls[at(group_of_beam[at(line.first_beam)])];
+      const auto& [fit, wall] = walls[as_index(group_of_beam[as_index(line.first_beam)])];
       line.segment = {place(fit->chain.vertex(wall)), place(fit->chain.vertex(wall + 1))};
       if (mirror_ < 0) std::swap(line.segment.a, line.segment.b);
       line.line = line_through(line.segment.a, line.segment.b);
@@ -258,8 +256,9 @@ class Extraction {
     }
     std::vector<double> squares(out.lines.size(), 0.0);
     for (std::size_t i = 0; i < model_.size(); ++i) {
-      const int k = out.labels[at(model_.points().beams[i])];
-      if (k >= 0) squares[at(k)] += std::pow(out.lines[at(k)].line.signed_distance(model_.points().points[i]), 2);
+      const int k = out.labels[as_index(model_.points().beams[i])];
+      if (k >= 0)
+        squares[as_index(k)] += std::pow(out.lines[as_index(k)].line.signed_distance(model_.points().points[i]), 2);
     }
     for (std::size_t k = 0; k < out.lines.size(); ++k) out.lines[k].rms_m = std::sqrt(squares[k] / out.lines[k].points);
     return out;
@@ -274,7 +273,7 @@ class Extraction {
   std::vector<SegmentationPoint> points_;  // mirrored
   std::vector<BearingReading> readings_;
   std::vector<FittedChain> chains_;
-  double cost_ = std::numeric_limits<double>::infinity();
+  double cost_ = kInf;
   double vertex_cost_ = 0.0;
   int stride_ = 1;
 };

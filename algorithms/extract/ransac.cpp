@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algorithms/extract/consensus.hpp"
-#include "algorithms/extract/covariance.hpp"
+#include "algorithms/extract/parts/consensus.hpp"
+#include "algorithms/extract/parts/covariance.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
@@ -48,13 +49,13 @@ class Ransac final : public LineExtractor {
     const std::vector<double> tolerance = tolerances(scan, points, {params_.sigmas, params_.floor_m});
     trace.stage(Stage::segment);
     std::vector<int> group(points.size(), -1);
-    const auto needed = static_cast<std::size_t>(std::max(2, params_.min_points));
+    const auto needed = as_index(std::max(2, params_.min_points));
     int lines = 0;
     for (; lines < params_.max_lines; ++lines) {
       std::vector<int> best = best_of_trials(points, tolerance, group, lines);
       if (best.size() < needed) break;
       best = refined_support(points.points, tolerance, group, std::move(best), params_.max_gap_m);
-      for (const int i : best) group[static_cast<std::size_t>(i)] = lines;
+      for (const int i : best) group[as_index(i)] = lines;
     }
     trace.stage(Stage::post);
     ScanLines result =
@@ -78,8 +79,8 @@ class Ransac final : public LineExtractor {
     for (int trial = 0; trial < params_.trials; ++trial) {
       const int first = below(n);
       const int second = (first + 1 + below(reach)) % n;
-      const Vec2& a = points.points[static_cast<std::size_t>(free[static_cast<std::size_t>(first)])];
-      const Vec2 d = points.points[static_cast<std::size_t>(free[static_cast<std::size_t>(second)])] - a;
+      const Vec2& a = points.points[as_index(free[as_index(first)])];
+      const Vec2 d = points.points[as_index(free[as_index(second)])] - a;
       const double length = d.norm();
       if (!(length > 0)) continue;
       const Vec2 normal = perpendicular(d / length);

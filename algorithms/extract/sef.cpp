@@ -3,7 +3,8 @@
 // points); Borges & Aldon 2004, section 3.1 (the adaptive threshold).
 #include <cmath>
 
-#include "algorithms/extract/breakpoints.hpp"
+#include "algorithms/extract/parts/breakpoints.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/portable_math.hpp"
 #include "core/registry.hpp"
@@ -89,14 +90,12 @@ class Sef final : public LineExtractor {
   template <class EndsAfter>
   static void cut(const Scan& scan, const ScanPoints& points, const PointRun& whole, std::vector<PointRun>& runs,
                   EndsAfter&& ends_after) {
-    const auto range = [&](int i) {
-      return scan.ranges[static_cast<std::size_t>(points.beams[static_cast<std::size_t>(i)])];
-    };
+    const auto range = [&](int i) { return scan.ranges[as_index(points.beams[as_index(i)])]; };
     int first = whole.first;
     double r = range(first);
     for (int i = whole.first; i < whole.last; ++i) {
       const double r_next = range(i + 1);
-      if (ends_after(static_cast<std::size_t>(i), r, r_next)) {
+      if (ends_after(as_index(i), r, r_next)) {
         runs.push_back({first, i});
         first = i + 1;
       }

@@ -4,8 +4,8 @@
 //
 // Whether a piece is straight is asked of its least-squares line, where to cut it of its chord: at a corner the
 // least-squares line is as far from the ends as from the vertex, the chord is not.
-#include "algorithms/extract/chord.hpp"
-#include "algorithms/extract/contour_extractor.hpp"
+#include "algorithms/extract/parts/chord.hpp"
+#include "algorithms/extract/parts/contour_extractor.hpp"
 #include "core/registry.hpp"
 
 namespace scanbench {

@@ -4,8 +4,9 @@
 //
 // Unusable lines (not finite, without length, beyond 1e9 m) are dropped; if none is left the status is degenerate. The
 // map does not depend on the order of the lines or of their ends.
-#include "algorithms/merge/components.hpp"
-#include "algorithms/merge/line_match.hpp"
+#include "algorithms/merge/parts/line_match.hpp"
+#include "core/disjoint_sets.hpp"
+#include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 
@@ -21,14 +22,14 @@ class AmigoniChain final : public SegmentMerger {
     static auto fields() { return merge::match_fields<Params>(); }
   };
 
-  explicit AmigoniChain(const Params& p) : rules_(merge::match_rules(p)) {}
+  explicit AmigoniChain(const Params& p) : rules_(merge::match_tolerance(p)) {}
 
   MergeResult merge(const MergeInput& input, Trace& trace) const override {
     trace.stage(Stage::match);
     const merge::DistinctLines distinct = merge::distinct_lines(input.lines);
     const auto& lines = distinct.representatives;
     const merge::NearSegments near(lines, rules_);
-    merge::DisjointSets chains(lines.size());
+    DisjointSets chains(lines.size());
     for (std::size_t i = 0; i < lines.size(); ++i)
       near.for_each_after(i, [&](std::size_t j) {
         if (chains.find(i) != chains.find(j) && merge::match_cost(lines[i], lines[j], rules_)) chains.unite(i, j);
@@ -38,7 +39,7 @@ class AmigoniChain final : public SegmentMerger {
     const std::vector<int> chain = chains.labels();
     std::vector<merge::Representative> merged;
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      const auto c = static_cast<std::size_t>(chain[i]);
+      const auto c = as_index(chain[i]);
       if (c == merged.size())
         merged.push_back(lines[i]);
       else
@@ -48,7 +49,7 @@ class AmigoniChain final : public SegmentMerger {
   }
 
  private:
-  merge::MatchRules rules_;
+  merge::MatchTolerance rules_;
 };
 
 [[maybe_unused]] const bool registered = Registry<SegmentMerger>::add<AmigoniChain>(

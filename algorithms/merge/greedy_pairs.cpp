@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <queue>
 
-#include "algorithms/merge/components.hpp"
-#include "algorithms/merge/line_match.hpp"
+#include "algorithms/merge/parts/line_match.hpp"
 #include "core/modules.hpp"
 #include "core/number_text.hpp"
 #include "core/registry.hpp"
@@ -27,20 +26,20 @@ class GreedyPairs final : public SegmentMerger {
     static auto fields() { return merge::match_fields<Params>(); }
   };
 
-  explicit GreedyPairs(const Params& p) : rules_(merge::match_rules(p)) {}
+  explicit GreedyPairs(const Params& p) : rules_(merge::match_tolerance(p)) {}
 
   MergeResult merge(const MergeInput& input, Trace& trace) const override;
 
  private:
   std::vector<std::vector<std::size_t>> neighbours(const std::vector<merge::Representative>& lines) const;
 
-  merge::MatchRules rules_;
+  merge::MatchTolerance rules_;
 };
 
 /// Both ways, each once. Twice the tolerances, because a segment moves and grows when it merges; what is farther is not
 /// compared again.
 std::vector<std::vector<std::size_t>> GreedyPairs::neighbours(const std::vector<merge::Representative>& lines) const {
-  const merge::MatchRules wide{2 * rules_.angle_rad, 2 * rules_.distance_m, 2 * rules_.gap_m + rules_.distance_m};
+  const merge::MatchTolerance wide{2 * rules_.angle_rad, 2 * rules_.distance_m, 2 * rules_.gap_m + rules_.distance_m};
   const merge::NearSegments near(lines, wide);
   std::vector<std::vector<std::size_t>> result(lines.size());
   std::vector<std::size_t> after;

@@ -11,12 +11,14 @@
 #include <array>
 #include <cmath>
 
-#include "algorithms/merge/interval_merge.hpp"
-#include "algorithms/merge/joint_space.hpp"
-#include "algorithms/merge/map_cleanup.hpp"
-#include "algorithms/merge/mean_shift_modes.hpp"
-#include "algorithms/merge/mean_shift_phases.hpp"
-#include "algorithms/merge/mean_shift_trace.hpp"
+#include "algorithms/merge/mean_shift/interval_merge.hpp"
+#include "algorithms/merge/mean_shift/map_cleanup.hpp"
+#include "algorithms/merge/mean_shift/modes.hpp"
+#include "algorithms/merge/mean_shift/phases.hpp"
+#include "algorithms/merge/mean_shift/single_phase.hpp"
+#include "algorithms/merge/mean_shift/trace.hpp"
+#include "algorithms/merge/parts/joint_space.hpp"
+#include "core/index.hpp"
 #include "core/mean_shift_trace.hpp"
 #include "core/modules.hpp"
 #include "core/number_text.hpp"
@@ -157,9 +159,9 @@ Kernels MeanShift::kernels_of(const Params& p) {
 
 /// Per cluster the mean direction of where its members converged (section IV.C).
 std::vector<double> cluster_directions_of(const Clustering& clustering) {
-  std::vector<std::vector<double>> of_members(static_cast<std::size_t>(clustering.clusters));
+  std::vector<std::vector<double>> of_members(as_index(clustering.clusters));
   for (std::size_t i = 0; i < clustering.cluster.size(); ++i)
-    of_members[static_cast<std::size_t>(clustering.cluster[i])].push_back(clustering.end[i].z());
+    of_members[as_index(clustering.cluster[i])].push_back(clustering.end[i].z());
   std::vector<double> result;
   result.reserve(of_members.size());
   for (const auto& directions : of_members) result.push_back(merge::mean_direction(directions));
@@ -173,16 +175,16 @@ std::vector<DraftLine> MeanShift::merge_clusters(std::span<const Piece> pieces, 
   for (std::size_t c = 0; c < members.size(); ++c) {
     std::vector<Segment> segments;
     Vec2 mean = Vec2::Zero();  // the mode M, relative to the first member's end
-    const Vec2 origin = last.end[static_cast<std::size_t>(members[c].front())].head<2>();
+    const Vec2 origin = last.end[as_index(members[c].front())].head<2>();
     for (const int k : members[c]) {
-      segments.push_back(pieces[static_cast<std::size_t>(k)].segment);
-      mean += last.end[static_cast<std::size_t>(k)].head<2>() - origin;
+      segments.push_back(pieces[as_index(k)].segment);
+      mean += last.end[as_index(k)].head<2>() - origin;
     }
     const Vec2 mode = origin + mean / static_cast<double>(members[c].size());
     const double theta = directions[c];
     for (merge::MergedSegment& merged : merge::merge_on_line(segments, mode, theta, p_.merge_gap_m)) {
       DraftLine draft{merged.segment, {}, static_cast<int>(c)};
-      for (const int k : merged.contributors) draft.pieces.push_back(members[c][static_cast<std::size_t>(k)]);
+      for (const int k : merged.contributors) draft.pieces.push_back(members[c][as_index(k)]);
       drafts.push_back(std::move(draft));
     }
     merge::trace_collinear_cluster(static_cast<int>(c), mode, theta, members[c], pieces, kernels_, trace);
@@ -275,7 +277,7 @@ MergeResult MeanShift::merge(const MergeInput& input, Trace& trace) const {
 
   std::vector<int> map_line_of(pieces.size(), -1);
   for (std::size_t d = 0; d < drafts.size(); ++d)
-    for (const int k : drafts[d].pieces) map_line_of[static_cast<std::size_t>(k)] = static_cast<int>(d);
+    for (const int k : drafts[d].pieces) map_line_of[as_index(k)] = static_cast<int>(d);
   LargestShare labels(n);
   LargestShare clusters1(n);
   LargestShare clusters2(n);
@@ -297,7 +299,7 @@ MergeResult MeanShift::merge(const MergeInput& input, Trace& trace) const {
     double points = 0.0;
     std::vector<std::size_t> sources;
     for (const int k : draft.pieces) {
-      const Piece& piece = pieces[static_cast<std::size_t>(k)];
+      const Piece& piece = pieces[as_index(k)];
       const MapLine& source = input.lines[piece.line];
       points += source.points * piece.segment.length() / source.segment.length();
       sources.push_back(piece.line);

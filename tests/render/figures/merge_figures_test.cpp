@@ -16,7 +16,7 @@
 #include "render/figure.hpp"
 #include "render/figures/parts/clusters.hpp"
 #include "render/figures/parts/view_box.hpp"
-#include "tests/algorithms/merge_spiral.hpp"
+#include "tests/support/spiral.hpp"
 
 namespace scanbench::render {
 namespace {

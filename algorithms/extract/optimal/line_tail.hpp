@@ -1,0 +1,42 @@
+// Readings at the ends of a line, and the line without them, by removal from the normal equations.
+// docs/algorithms/optimal.md, section 5.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "algorithms/extract/parts/beam_line.hpp"
+
+namespace scanbench::extract {
+
+/// The last readings of an end, and what they take with them when they are not the line's.
+struct Tail {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Vec2 pull = Vec2::Zero();  ///< of the readings on theta: sum of g e / s^2 in the linear model
+  double half_squares = 0.0;
+};
+
+inline constexpr int kLongestTail = 6;
+using Tails = std::array<Tail, kLongestTail + 1>;  ///< by number of readings
+
+enum class End { first, last };
+
+/// Reading k of an end, the outermost first.
+const BeamReading& from_end(std::span<const BeamReading> readings, End end, std::size_t k);
+
+/// The tails of up to `longest` readings; longer ones stay empty.
+Tails tails_of(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise, End end,
+               int longest);
+
+/// A line fitted without its tail.
+struct Shortened {
+  Vec2 theta = Vec2::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of theta
+  double gain = 0.0;                                     ///< by how much half its sum of squared errors falls
+  bool valid = false;                                    ///< false: what is left determines no line
+};
+
+Shortened without(const BeamLine& fit, const Tail& tail);
+Tail operator+(const Tail& a, const Tail& b);
+
+}  // namespace scanbench::extract

@@ -1,0 +1,56 @@
+// First-order propagation through the total-least-squares fit.
+#include "algorithms/extract/parts/covariance.hpp"
+
+#include "core/index.hpp"
+
+namespace scanbench::extract {
+
+std::optional<Eigen::Matrix2d> tls_covariance(const Scan& scan, const ScanPoints& points, std::span<const int> support,
+                                              const PolarLine& line, const Vec2& at) {
+  const Vec2 normal = line.normal();
+  const Vec2 along = perpendicular(normal);
+  const PointMoments moments = moments_of(points.points, support);
+  const double n = moments.weight();
+  const SensorNoise& noise = scan.sensor.noise;
+  double spread = 0.0;                                          // sum of tau^2
+  double sum_var = 0.0, sum_tau_var = 0.0, sum_tau2_var = 0.0;  // of var h, tau var h, tau^2 var h
+  for (const int i : support) {
+    const auto k = as_index(i);
+    const Vec2& p = points.points[k];
+    const double range = scan.ranges[as_index(points.beams[k])];
+    const Vec2& beam = scan.sensor.geometry.direction(points.beams[k]);
+    const double by_range = noise.range_sigma(range) * normal.dot(beam);
+    const double by_bearing = noise.bearing_sigma_rad * range * along.dot(beam);
+    const double var = by_range * by_range + by_bearing * by_bearing;
+    const double tau = along.dot(p - moments.centroid());
+    spread += tau * tau;
+    sum_var += var;
+    sum_tau_var += tau * var;
+    sum_tau2_var += tau * tau * var;
+  }
+  if (!(sum_var > 0) || !(spread > 10.0 * sum_var)) return std::nullopt;
+  // About the centroid; then moved along the line by t: an angle e moves the line there by -t e.
+  const double var_offset = sum_var / (n * n);
+  const double covariance = -sum_tau_var / (n * spread);
+  const double var_angle = sum_tau2_var / (spread * spread);
+  const double t = along.dot(at - moments.centroid());
+  Eigen::Matrix2d result;
+  result(0, 0) = var_offset - 2.0 * t * covariance + t * t * var_angle;
+  result(0, 1) = result(1, 0) = covariance - t * var_angle;
+  result(1, 1) = var_angle;
+  return result;
+}
+
+void add_covariances(const Scan& scan, const ScanPoints& points, ScanLines& lines) {
+  std::vector<std::vector<int>> supports(lines.lines.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const int line = lines.labels[as_index(points.beams[k])];
+    if (line >= 0) supports[as_index(line)].push_back(static_cast<int>(k));
+  }
+  for (std::size_t k = 0; k < supports.size(); ++k) {
+    LineFeature& f = lines.lines[k];
+    f.covariance = tls_covariance(scan, points, supports[k], f.line, f.segment.midpoint());
+  }
+}
+
+}  // namespace scanbench::extract

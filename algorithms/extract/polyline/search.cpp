@@ -1,0 +1,294 @@
+// docs/algorithms/polyline.md, section 2.
+#include "algorithms/extract/polyline/search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/index.hpp"
+#include "core/special_values.hpp"
+
+namespace scanbench::extract {
+namespace {
+
+constexpr double kNever = 1e6;  // [nats], finite, since differences of sums are formed
+// A wall spans less than half a turn. The bearings of its ends are farther apart than rounding.
+constexpr double kLeastSine = 1e-9;
+constexpr double kLeastCosine = -0.99;
+
+// Sums over points of w (d d', d v, v v), and of what they cost on a wall apart from misfit.
+struct Sums {
+  double xx = 0, xy = 0, yy = 0, xv = 0, yv = 0, vv = 0, fixed = 0;
+
+  Sums operator-(const Sums& o) const {
+    return {xx - o.xx, xy - o.xy, yy - o.yy, xv - o.xv, yv - o.yv, vv - o.vv, fixed - o.fixed};
+  }
+};
+
+std::vector<Sums> running_sums(std::span<const SegmentationPoint> points) {
+  std::vector<Sums> sums(points.size() + 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SegmentationPoint& p = points[i];
+    Sums s = sums[i];
+    const double w = p.weight, x = p.direction.x(), y = p.direction.y(), v = p.inverse_range;
+    s.xx += w * x * x;
+    s.xy += w * x * y;
+    s.yy += w * y * y;
+    s.xv += w * x * v;
+    s.yv += w * y * v;
+    s.vv += w * v * v;
+    s.fixed += p.line_cost + (p.gap_cost < kInf ? p.gap_cost : 0.0);
+    sums[i + 1] = s;
+  }
+  return sums;
+}
+
+// What the points behind one vertex up to the next cost, as a quadratic form of the two inverse ranges.
+class Wall {
+ public:
+  Wall(const Vec2& p, const Vec2& q, const Sums& s) {
+    // theta = u_p f + u_q g is the wall: theta . p = u_p, theta . q = u_q.
+    const double sine = cross(p, q);
+    const Vec2 f = -perpendicular(q) / sine, g = perpendicular(p) / sine;
+    const auto form = [&](const Vec2& a, const Vec2& b) {
+      return a.x() * (s.xx * b.x() + s.xy * b.y()) + a.y() * (s.xy * b.x() + s.yy * b.y());
+    };
+    pp_ = 0.5 * form(f, f);
+    pq_ = form(f, g);
+    qq_ = 0.5 * form(g, g);
+    p_ = -(f.x() * s.xv + f.y() * s.yv);
+    q_ = -(g.x() * s.xv + g.y() * s.yv);
+    one_ = 0.5 * s.vv;
+    fixed_ = s.fixed;
+  }
+  double cost(double u_p, double u_q) const {
+    const double half_misfit = u_p * (pp_ * u_p + pq_ * u_q + p_) + u_q * (qq_ * u_q + q_) + one_;
+    return fixed_ + std::max(half_misfit, 0.0);
+  }
+
+ private:
+  double pp_, pq_, qq_, p_, q_, one_, fixed_;
+};
+
+// One programme. States: (place, choice), the place one of the points where vertices may stand, with m vertices used.
+class Programme {
+ public:
+  Programme(std::span<const SegmentationPoint> points, const VertexChoices& choices, int max_vertices, int stride)
+      : points_(points), choices_(choices), levels_(as_index(max_vertices) + 1), sums_(running_sums(points)) {
+    const int n = static_cast<int>(points.size());
+    for (int i = 0; i < n; ++i) {
+      const bool gap_before = i > 0 && points[as_index(i)].gap_cost == kInf;
+      const bool gap_behind = i + 1 < n && points[as_index(i + 1)].gap_cost == kInf;
+      if (i % stride == 0 || i == n - 1 || gap_before || gap_behind) places_.push_back(i);
+      blocks_.push_back((blocks_.empty() ? 0 : blocks_.back()) + (gap_before ? 1 : 0));
+    }
+    width_ = choices.empty() ? 0 : choices.front().size();
+    open_.assign(places_.size() * width_ * levels_, kInf);
+    done_.assign((places_.size() + 1) * levels_, kInf);
+    clutter_.assign(as_index(n) + 1, 0.0);
+    for (int i = 0; i < n; ++i) clutter_[as_index(i) + 1] = clutter_[as_index(i)] + points[as_index(i)].clutter_cost;
+  }
+
+  // Chains anywhere, clutter between them.
+  GridChains run(double vertex_cost) {
+    for (std::size_t m = 0; m < levels_; ++m) done_[m] = 0.0;
+    for (std::size_t p = 0; p < places_.size(); ++p) {
+      close(p);  // before a chain begins here: a vertex alone is none
+      for (std::size_t a = 0; a < width_; ++a)
+        for (std::size_t m = 1; m < levels_; ++m) relax(open(p, a, m), done_[p * levels_ + m - 1] + begin_cost(p, a));
+      extend(p);
+    }
+    std::size_t best = 0;
+    const auto cost = [&](std::size_t m) {
+      return done_[places_.size() * levels_ + m] + static_cast<double>(m) * vertex_cost;
+    };
+    for (std::size_t m = 1; m < levels_; ++m)
+      if (cost(m) < cost(best)) best = m;
+    return trace_back(best);
+  }
+
+  // One chain from the first place to the last, both with the same inverse range, choice `a` there.
+  GridChains run_closed(std::size_t a) {
+    open(0, a, 1) = begin_cost(0, a);
+    for (std::size_t p = 0; p + 1 < places_.size(); ++p) extend(p);
+    return trace_back_closed(a);
+  }
+
+ private:
+  GridChains trace_back(std::size_t m) const {
+    GridChains result;
+    result.cost = done_[places_.size() * levels_ + m];
+    for (std::size_t p = places_.size(); p > 0;) {
+      Extension best;
+      std::size_t choice_of_best = 0;
+      for (std::size_t a = 0; a < width_; ++a)
+        if (const Extension e = extension(p - 1, a, m); e.cost < best.cost) best = e, choice_of_best = a;
+      // A comparison of the two ways here, not with the stored cost: sums in another order differ in the last bits.
+      if (done_[(p - 1) * levels_ + m] + clutter_to(p - 1) <= best.cost + clutter_behind(p - 1)) {
+        --p;
+        continue;
+      }
+      result.chains.push_back(trace_chain(p - 1, choice_of_best, m));
+      p = place_of(result.chains.back().front().point);
+      m -= result.chains.back().size();
+    }
+    std::ranges::reverse(result.chains);
+    return result;
+  }
+
+  GridChains trace_back_closed(std::size_t a) const {
+    GridChains result;
+    result.cost = open(places_.size() - 1, a, levels_ - 1);
+    if (result.cost < kInf) result.chains.push_back(trace_chain(places_.size() - 1, a, levels_ - 1));
+    return result;
+  }
+
+  std::size_t place_of(int point) const { return as_index(std::ranges::lower_bound(places_, point) - places_.begin()); }
+
+  static void relax(double& cost, double candidate) { cost = std::min(cost, candidate); }
+
+  const SegmentationPoint& point(std::size_t p) const { return points_[as_index(places_[p])]; }
+  double choice(std::size_t p, std::size_t a) const { return choices_[as_index(places_[p])][a]; }
+  double& open(std::size_t p, std::size_t a, std::size_t m) { return open_[(p * width_ + a) * levels_ + m]; }
+  double open(std::size_t p, std::size_t a, std::size_t m) const { return open_[(p * width_ + a) * levels_ + m]; }
+
+  // A vertex that begins a chain pays its own point, the others that and those since the vertex before.
+  double begin_cost(std::size_t p, std::size_t a) const {
+    const double e = point(p).inverse_range - choice(p, a);
+    return point(p).line_cost + 0.5 * point(p).weight * e * e;
+  }
+
+  // Clutter from this place up to the next, which may be the end.
+  double clutter_to(std::size_t p) const {
+    const int next = p + 1 < places_.size() ? places_[p + 1] : static_cast<int>(points_.size());
+    return clutter_[as_index(next)] - clutter_[as_index(places_[p])];
+  }
+
+  // The same without the point at this place.
+  double clutter_behind(std::size_t p) const {
+    const int next = p + 1 < places_.size() ? places_[p + 1] : static_cast<int>(points_.size());
+    return clutter_[as_index(next)] - clutter_[as_index(places_[p]) + 1];
+  }
+
+  // done(p): all points before place p described, no chain open.
+  void close(std::size_t p) {
+    const double rest = clutter_behind(p);
+    for (std::size_t m = 0; m < levels_; ++m) {
+      double& done = done_[(p + 1) * levels_ + m];
+      relax(done, done_[p * levels_ + m] + clutter_to(p));
+      for (std::size_t a = 0; a < width_; ++a) relax(done, open(p, a, m) + rest);
+    }
+  }
+
+  bool wall_between(std::size_t p, std::size_t q) const {
+    return blocks_[as_index(places_[p])] == blocks_[as_index(places_[q])] &&
+           cross(point(p).direction, point(q).direction) > kLeastSine &&
+           point(p).direction.dot(point(q).direction) > kLeastCosine;
+  }
+  Wall wall(std::size_t p, std::size_t q) const {
+    Sums sums = sums_[as_index(places_[q]) + 1] - sums_[as_index(places_[p]) + 1];
+    if (places_[q] == places_[p] + 1) sums.fixed += kBareWall;
+    return {point(p).direction, point(q).direction, sums};
+  }
+
+  void extend(std::size_t p) {
+    bool any = false;
+    for (std::size_t q = p + 1; q < places_.size(); ++q) {
+      if (!wall_between(p, q)) {
+        if (any) break;
+        continue;
+      }
+      any = true;
+      const Wall w = wall(p, q);
+      // A wall dearer than clutter between p and q is never needed: the chain ends at p, or p is clutter too if it
+      // began there; a chain begins at q, or q is clutter too if it would end there.
+      const double apart = clutter_[as_index(places_[q])] - clutter_[as_index(places_[p]) + 1];
+      for (std::size_t b = 0; b < width_; ++b) {
+        const double limit = apart + std::max(begin_cost(q, b), point(q).clutter_cost);
+        double* to = &open(q, b, 0);
+        for (std::size_t a = 0; a < width_; ++a) {
+          const double cost = w.cost(choice(p, a), choice(q, b));
+          if (!(cost <= limit + std::max(0.0, point(p).clutter_cost - begin_cost(p, a)))) continue;
+          const double* from = &open(p, a, 0);
+          for (std::size_t m = 1; m < levels_; ++m) to[m] = std::min(to[m], from[m - 1] + cost);
+        }
+      }
+    }
+  }
+
+  // The best wall that ends at (p, a), the m-th vertex.
+  struct Extension {
+    double cost = kInf;
+    std::size_t place = 0;
+    std::size_t choice = 0;
+  };
+  Extension extension(std::size_t p, std::size_t a, std::size_t m) const {
+    Extension best;
+    if (m == 0) return best;
+    for (std::size_t s = 0; s < p; ++s) {
+      if (!wall_between(s, p)) continue;
+      const Wall w = wall(s, p);
+      for (std::size_t c = 0; c < width_; ++c) {
+        const double cost = open(s, c, m - 1) + w.cost(choice(s, c), choice(p, a));
+        if (cost < best.cost) best = {cost, s, c};
+      }
+    }
+    return best;
+  }
+
+  // The chain that ends at (p, a) with m vertices used, of two or more.
+  std::vector<GridVertex> trace_chain(std::size_t p, std::size_t a, std::size_t m) const {
+    std::vector<GridVertex> chain;
+    for (;; --m) {
+      const Extension before = extension(p, a, m);
+      const bool begins = !chain.empty() && !(before.cost < done_[p * levels_ + m - 1] + begin_cost(p, a));
+      chain.push_back({places_[p], choice(p, a)});
+      if (begins || !(before.cost < kInf)) break;
+      p = before.place;
+      a = before.choice;
+    }
+    std::ranges::reverse(chain);
+    return chain;
+  }
+
+  std::span<const SegmentationPoint> points_;
+  const VertexChoices& choices_;
+  std::size_t levels_, width_ = 0;
+  std::vector<Sums> sums_;
+  std::vector<int> places_;
+  std::vector<int> blocks_;  // per point: how many gaps that no chain crosses lie before it
+  std::vector<double> open_, done_, clutter_;
+};
+
+}  // namespace
+
+GridChains best_chains(std::span<const SegmentationPoint> points, const VertexChoices& choices, int max_vertices,
+                       double vertex_cost, int stride) {
+  if (points.empty()) return {};
+  Programme programme(points, choices, max_vertices, stride);
+  return programme.run(vertex_cost);
+}
+
+GridChains best_closed_chain(std::span<const SegmentationPoint> points, const VertexChoices& choices, int vertices,
+                             int stride, const GridVertex& fixed) {
+  // The same scan from the fixed vertex to itself, a turn later.
+  const int n = static_cast<int>(points.size());
+  std::vector<SegmentationPoint> turned;
+  VertexChoices turned_choices;
+  for (int i = 0; i <= n; ++i) {
+    const auto k = as_index((fixed.point + i) % n);
+    turned.push_back(points[k]);
+    turned.back().clutter_cost = kNever;
+    turned_choices.push_back(choices[k]);
+  }
+  turned.back().weight = 0.0;  // the fixed vertex has paid its point
+  turned.back().line_cost = 0.0;
+  turned_choices.front().front() = turned_choices.back().front() = fixed.inverse_range;
+  Programme programme(turned, turned_choices, vertices + 1, stride);
+  GridChains result = programme.run_closed(0);
+  for (auto& chain : result.chains)
+    for (GridVertex& v : chain) v.point += fixed.point;
+  return result;
+}
+
+}  // namespace scanbench::extract

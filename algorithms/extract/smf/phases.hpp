@@ -1,0 +1,46 @@
+// Split-and-merge fuzzy (SMF) line extraction: Borges & Aldon, "A split-and-merge segmentation algorithm for line
+// extraction in 2-D range images", ICPR 2000, section 3. The two phases, for tests and for use on any ordered points.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algorithms/extract/parts/fuzzy_clustering.hpp"
+#include "core/least_squares.hpp"
+#include "core/trace.hpp"
+
+namespace scanbench::extract {
+
+/// How the support points of a line are halved before the fuzzy clustering with C = 2; the paper does not say.
+enum class SmfInitialisation {
+  scan_order,      ///< first and second half of the points
+  principal_axis,  ///< first and second half along the line
+  farthest,        ///< at the point farthest from the chord
+};
+
+struct SmfOptions {
+  double sigma_max_m = 0.05;
+  FuzzyOptions fuzzy{};
+  bool penalty_in_dispersion = false;  ///< d of eq. (11) with the term g; see docs/algorithms/smf.md for what it breaks
+  SmfInitialisation initialisation = SmfInitialisation::scan_order;
+  double max_gap_m = 0.0;  ///< no fusion across a longer gap along the fused line; 0: any
+};
+
+/// A line of the list: its support points, ascending indices, and their moments.
+struct SmfLine {
+  std::vector<int> support;
+  PointMoments moments;
+};
+
+/// sigma_k, eq. (11) [m]: 0 for up to two points, unless the penalty is counted.
+double smf_dispersion(const PointMoments& moments, const SmfOptions& options);
+
+/// Split phase. The supports partition the indices of `points` (scan order, metres, finite); every line has a
+/// dispersion of at most sigma_max_m or at most two points. No points give no line.
+std::vector<SmfLine> smf_split(std::span<const Vec2> points, const SmfOptions& options, Trace& trace);
+
+/// Merge phase. Ends when no line can be fused with either of the two whose centres are nearest to its own.
+std::vector<SmfLine> smf_merge(std::span<const Vec2> points, std::vector<SmfLine> lines, const SmfOptions& options,
+                               Trace& trace);
+
+}  // namespace scanbench::extract

@@ -1,0 +1,91 @@
+// The pairwise relation behind the baselines of segment merging: two segments match when they are nearly parallel, lie
+// near each other across and overlap along (after Amigoni & Gasparini, "Analysis of methods for reducing line segments
+// in maps", IROS 2008, as Lakaemper 2009, section II, describes it).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "algorithms/merge/parts/joint_space.hpp"
+#include "algorithms/merge/parts/point_grid.hpp"
+#include "core/modules.hpp"
+#include "core/params.hpp"
+
+namespace scanbench::merge {
+
+struct MatchTolerance {
+  double angle_rad;   ///< largest difference of direction
+  double distance_m;  ///< largest distance of the midpoints across the common direction
+  double gap_m;       ///< largest gap along it; 0: they must touch
+};
+
+/// Fields for Params with the members max_angle_deg, max_distance_m and max_gap_m.
+template <class P>
+auto match_fields() {
+  return std::tuple{field("max_angle_deg", &P::max_angle_deg, between(0, 90), "deg",
+                          "largest difference of direction of two matching segments"),
+                    field("max_distance_m", &P::max_distance_m, at_least(0), "m",
+                          "largest distance of their midpoints across their common direction"),
+                    field("max_gap_m", &P::max_gap_m, at_least(0), "m",
+                          "largest gap between their projections; 0: they must overlap")};
+}
+
+/// The rules that such Params state.
+template <class P>
+MatchTolerance match_tolerance(const P& p) {
+  return {.angle_rad = radians(p.max_angle_deg), .distance_m = p.max_distance_m, .gap_m = p.max_gap_m};
+}
+
+/// A segment that stands for others: the sums that its line is made of, and its extent.
+struct Representative {
+  Segment segment;
+  double weight = 0.0;          ///< summed length
+  Vec2 doubled = Vec2::Zero();  ///< summed length * (cos 2 theta, sin 2 theta)
+  Vec2 middle = Vec2::Zero();   ///< mean midpoint, weighted with length
+};
+
+Representative representative_of(const Segment& segment, double multiplicity);
+
+/// Direction: length-weighted mean of undirected directions. Place: length-weighted mean of midpoints. Extent: of the
+/// projections of both.
+Representative united(const Representative& a, const Representative& b);
+
+/// How badly the two match, 0 (collinear) .. 2; nothing if they do not. Symmetric.
+std::optional<double> match_cost(const Representative& a, const Representative& b, const MatchTolerance& rules);
+
+/// Lines that may be compared, equal ones collapsed, in an order that does not depend on the order given.
+struct DistinctLines {
+  std::vector<Representative> representatives;
+  std::vector<int> of_line;  ///< per input line its representative, -1: unusable
+};
+DistinctLines distinct_lines(std::span<const MapLine> lines);
+
+/// Which segments may match which: a grid over points along them.
+class NearSegments {
+ public:
+  NearSegments(std::span<const Representative> segments, const MatchTolerance& rules);
+
+  /// Calls visit(j) for every j > i that may match i under the rules; the same j possibly several times.
+  template <class Visit>
+  void for_each_after(std::size_t i, Visit&& visit) const {
+    for (std::size_t k = first_[i]; k < first_[i + 1]; ++k)
+      grid_->for_each_near(points_[k], Vec3::Zero(), reach_, [&](std::size_t other, const Vec3&) {
+        if (owner_[other] > i) visit(owner_[other]);
+      });
+  }
+
+ private:
+  std::vector<Vec3> points_;
+  std::vector<std::size_t> owner_;
+  std::vector<std::size_t> first_;
+  double reach_ = 0.0;
+  std::optional<PointGrid> grid_;
+};
+
+/// The map and the labels when representative r went into group[r] (numbered from 0) and groups[g] stands for it.
+MergeResult result_of(std::span<const MapLine> lines, const DistinctLines& distinct, const std::vector<int>& group,
+                      const std::vector<Representative>& groups);
+
+}  // namespace scanbench::merge

@@ -1,0 +1,166 @@
+// Lines whose ends are uncertain: what follows from Bayes' rule when the readings are drawn as the model says.
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+#include "algorithms/extract/optimal/line_ends.hpp"
+#include "core/rng.hpp"
+
+namespace scanbench::extract {
+namespace {
+
+constexpr double kSigma = 0.02;
+constexpr int kReadings = 40;
+
+// A wall x = 2 m whose last readings, j with probability proportional to 2^-j, lie anywhere between it and x = 2.15 m.
+std::vector<BeamReading> wall_with_a_tail(std::uint32_t seed, bool tail) {
+  CounterRng rng(seed, RngStream::range);
+  int foreign = 0;
+  if (tail) {
+    double u = rng.uniform() * (2.0 - std::pow(0.5, 6));
+    for (double share = 1.0; u > share; share *= 0.5, ++foreign) u -= share;
+  }
+  std::vector<BeamReading> readings;
+  for (int i = 0; i < kReadings; ++i) {
+    const double phi = -0.3 + 0.02 * i;
+    const double x = i >= kReadings - foreign ? 2.0 + 0.15 * rng.uniform() : 2.0;
+    readings.push_back({{std::cos(phi), std::sin(phi)}, x / std::cos(phi) + kSigma * rng.normal()});
+  }
+  return readings;
+}
+
+SensorNoise noise() {
+  SensorNoise n;
+  n.sigma_m = kSigma;
+  return n;
+}
+
+UncertainLine averaged_line(const BeamLine& line, std::span<const BeamReading> readings,
+                            const std::array<std::optional<Beyond>, 2>& beyond, int min_readings = 3) {
+  return UncertainEnds(line, readings, noise(), beyond, min_readings).average(0.5);
+}
+
+double squared_error(const BeamLine& line) {
+  const Vec2 e = line.theta - Vec2(0.5, 0.0);
+  return e.dot(line.information * e);
+}
+
+TEST(LineEnds, NothingBeyondChangesNothing) {
+  const auto readings = wall_with_a_tail(1, false);
+  const auto line = fit_beam_line(readings, noise());
+  ASSERT_TRUE(line);
+  const UncertainLine same = averaged_line(*line, readings, {});
+  EXPECT_EQ(same.line.theta, line->theta);
+  EXPECT_EQ(same.line.information, line->information);
+  EXPECT_EQ(same.foreign, (std::array{0, 0}));
+}
+
+TEST(LineEnds, ErrorsAreAsLargeAsTheWholeCovarianceSays) {
+  // E[e e' | readings] = C when the truth is drawn from what C is averaged over, so e' C^-1 e has the mean 2.
+  const int trials = 4000;
+  double averaged = 0.0, plain = 0.0;
+  for (std::uint32_t seed = 0; seed < trials; ++seed) {
+    const auto readings = wall_with_a_tail(seed, true);
+    const auto line = fit_beam_line(readings, noise());
+    ASSERT_TRUE(line);
+    const Beyond range{.line = {}, .readings = {}, .range_m = 2.15 / std::cos(0.5)};
+    averaged += squared_error(averaged_line(*line, readings, {std::nullopt, range}).line) / trials;
+    plain += squared_error(*line) / trials;
+  }
+  EXPECT_NEAR(averaged, 2.0, 4 * 2.0 / std::sqrt(trials));
+  EXPECT_GT(plain, 2.5);  // the same readings taken for the wall's
+}
+
+// Two walls, x = 2 m and x = 2.15 m, with a straight side between them in every other scan. The cut between the lines
+// stays where it is: the side takes i readings before it and j behind it, all pairs from 0 to 6 but (0, 0) being
+// equally probable. It begins and ends anywhere between two beams.
+struct Step {
+  std::vector<BeamReading> first, second;
+  std::array<int, 2> foreign{};
+  bool side = false;
+};
+
+Step step_with_a_side(std::uint32_t seed, double side_probability) {
+  CounterRng rng(seed, RngStream::range);
+  const double step = 0.02;
+  Step out;
+  out.side = rng.uniform() < side_probability;
+  if (out.side) {
+    const int pair = 1 + static_cast<int>(48.0 * rng.uniform());
+    out.foreign = {pair / 7, pair % 7};
+  }
+  const double begin = (-out.foreign[0] - 1 + rng.uniform()) * step;
+  const double end = (out.foreign[1] - 1 + rng.uniform()) * step;
+  const auto on = [](double x, double phi) { return Vec2(x, x * std::tan(phi)); };
+  const Vec2 p = on(2.0, begin), q = on(2.15, end);
+  for (int i = 0; i < 2 * kReadings; ++i) {
+    const double phi = (i - kReadings) * step;
+    const Vec2 d(std::cos(phi), std::sin(phi));
+    double r = (i < kReadings ? 2.0 : 2.15) / d.x();
+    if (i >= kReadings - out.foreign[0] && i < kReadings + out.foreign[1]) r = cross(p, q - p) / cross(d, q - p);
+    (i < kReadings ? out.first : out.second).push_back({d, r + kSigma * rng.normal()});
+  }
+  return out;
+}
+
+TEST(LineEnds, SideBetweenTwoLinesIsToldFromThem) {
+  const int trials = 3000;
+  double averaged = 0.0, plain = 0.0, sides = 0.0, true_sides = 0.0;
+  for (std::uint32_t seed = 0; seed < trials; ++seed) {
+    const Step step = step_with_a_side(seed, 0.5);
+    const auto line = fit_beam_line(step.first, noise()), next = fit_beam_line(step.second, noise());
+    ASSERT_TRUE(line && next);
+    const Beyond beyond{.line = next, .readings = step.second, .range_m = 0.0};
+    const UncertainLine found = averaged_line(*line, step.first, {std::nullopt, beyond});
+    averaged += squared_error(found.line) / trials;
+    plain += squared_error(*line) / trials;
+    sides += found.side[1] / trials;
+    true_sides += step.side ? 1.0 / trials : 0.0;
+  }
+  // The variance of a place between two beams stands for its distribution, and the next line's parameters are those of
+  // greatest likelihood: 2 is not exact.
+  EXPECT_NEAR(averaged, 2.0, 0.15);
+  EXPECT_GT(plain, 4.0);
+  // A probability of 1/2 before makes for the same after, on average: sd of a mean of 3000 below 0.01.
+  EXPECT_NEAR(sides, true_sides, 0.03);
+}
+
+TEST(LineEnds, FirstEndIsTheMirrorImageOfTheLast) {
+  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+    const Step step = step_with_a_side(seed, 1.0);
+    const auto mirrored = [](std::vector<BeamReading> readings) {
+      std::ranges::reverse(readings);
+      for (BeamReading& b : readings) b.direction.y() = -b.direction.y();
+      return readings;
+    };
+    const auto first = mirrored(step.first), second = mirrored(step.second);
+    const auto line = fit_beam_line(step.first, noise()), next = fit_beam_line(step.second, noise());
+    const auto image = fit_beam_line(first, noise()), next_image = fit_beam_line(second, noise());
+    ASSERT_TRUE(line && next && image && next_image);
+    const Beyond last{.line = next, .readings = step.second, .range_m = 0.0};
+    const Beyond before{.line = next_image, .readings = second, .range_m = 0.0};
+    const UncertainLine a = averaged_line(*line, step.first, {std::nullopt, last});
+    const UncertainLine b = averaged_line(*image, first, {before, std::nullopt});
+    EXPECT_EQ(a.foreign[1], b.foreign[0]);
+    EXPECT_NEAR(a.side[1], b.side[0], 1e-9);
+    EXPECT_NEAR((a.line.theta - Vec2(b.line.theta.x(), -b.line.theta.y())).norm(), 0.0, 1e-9);
+  }
+}
+
+TEST(LineEnds, FarReadingsAreForeignAndFewRemain) {
+  auto readings = wall_with_a_tail(3, false);
+  for (std::size_t i = kReadings - 3; i < kReadings; ++i) readings[i].range_m += 0.12;
+  const auto line = fit_beam_line(readings, noise());
+  ASSERT_TRUE(line);
+  const std::array<std::optional<Beyond>, 2> beyond = {
+      std::nullopt, Beyond{.line = {}, .readings = {}, .range_m = 2.3 / std::cos(0.5)}};
+  EXPECT_EQ(averaged_line(*line, readings, beyond).foreign[1], 3);
+  EXPECT_EQ(averaged_line(*line, readings, beyond, kReadings).foreign[1], 0);
+}
+
+}  // namespace
+}  // namespace scanbench::extract

@@ -1,0 +1,135 @@
+// Covariances of total-least-squares lines: against brute-force propagation, and against errors over many scans.
+#include "algorithms/extract/parts/covariance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numeric>
+
+#include "tests/support/extraction.hpp"
+
+namespace scanbench {
+namespace {
+
+using extract::tls_covariance;
+using testing::cast;
+using testing::fan_sensor;
+using testing::OwnedScan;
+using testing::with_noise;
+
+// A slanted wall all over the view of a 90-degree fan, nearest 1.5 m, met at up to 75 degrees from its normal.
+const Segment kWall{{3, -8}, {1, 8}};
+
+SensorModel sensor_of(double sigma_m, double sigma_relative, double quantum_m, double bearing_sigma_rad) {
+  SensorModel sensor = fan_sensor(61, radians(90));
+  sensor.noise.sigma_m = sigma_m;
+  sensor.noise.sigma_relative = sigma_relative;
+  sensor.noise.quantum_m = quantum_m;
+  sensor.noise.bearing_sigma_rad = bearing_sigma_rad;
+  return sensor;
+}
+
+std::vector<int> all_of(std::size_t n) {
+  std::vector<int> indices(n);
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
+}
+
+// Offset of a line at a point along the normal of `reference`, and its angle against it.
+Eigen::Vector2d difference(const LineFit& line, const PolarLine& reference, const Vec2& at) {
+  const Vec2 m = reference.normal();
+  const double side = line.normal.dot(m) < 0 ? -1.0 : 1.0;
+  const Vec2 n = side * line.normal;
+  return {side * line.offset - n.dot(at), std::atan2(cross(m, n), m.dot(n))};
+}
+
+TEST(TlsCovariance, IsWhatRefitsToReadingsMovedOneByOneGive) {
+  const double step = 1e-6;
+  for (const auto& sensor : {sensor_of(0.02, 0, 0, 0), sensor_of(0.01, 0.01, 0.01, 0), sensor_of(0.005, 0, 0, 0.003)}) {
+    const OwnedScan scan = cast(sensor, {kWall});
+    const ScanPoints points = valid_points(scan.view());
+    ASSERT_EQ(points.size(), 61U);
+    const PolarLine line = fit_line(points.points).polar();
+    const Vec2 at = kWall.a + 0.3 * (kWall.b - kWall.a);
+    const auto found = tls_covariance(scan.view(), points, all_of(61), line, at);
+    ASSERT_TRUE(found);
+    Eigen::Matrix2d expected = Eigen::Matrix2d::Zero();
+    for (std::size_t i = 0; i < 61; ++i) {
+      const double r = scan.ranges[i];
+      const Vec2 u = sensor.geometry.direction(static_cast<int>(i));
+      const auto derivative = [&](const Vec2& by) {
+        const auto moved = [&](double amount) {
+          std::vector<Vec2> p = points.points;
+          p[i] += amount * by;
+          return difference(fit_line(p), line, at);
+        };
+        return Eigen::Vector2d((moved(step) - moved(-step)) / (2 * step));
+      };
+      const Eigen::Vector2d along = derivative(u), across = derivative(r * perpendicular(u));
+      expected += std::pow(sensor.noise.range_sigma(r), 2) * along * along.transpose() +
+                  std::pow(sensor.noise.bearing_sigma_rad, 2) * across * across.transpose();
+    }
+    EXPECT_LT((*found - expected).norm(), 1e-6 * expected.norm()) << *found << "\n\n" << expected;
+  }
+}
+
+TEST(TlsCovariance, IsAbsentWithoutStatedNoiseAndWhereTheNoiseHidesTheDirection) {
+  const auto of_run = [](double sigma_m, int first, int last) {
+    const OwnedScan scan = cast(sensor_of(sigma_m, 0, 0, 0), {kWall});
+    const ScanPoints points = valid_points(scan.view());
+    std::vector<int> support;
+    for (int i = first; i <= last; ++i) support.push_back(i);
+    return tls_covariance(scan.view(), points, support, line_through(kWall.a, kWall.b), kWall.midpoint());
+  };
+  EXPECT_TRUE(of_run(0.01, 0, 60));
+  EXPECT_FALSE(of_run(0.0, 0, 60));
+  EXPECT_FALSE(of_run(0.5, 28, 32));  // 0.2 m of wall, half a metre of noise
+  EXPECT_FALSE(of_run(0.01, 30, 30));
+  EXPECT_FALSE(of_run(0.01, 30, 29));
+}
+
+// Which extractors state covariances: those that admit points by the sensor's noise.
+const std::vector<std::string> kSure = {"em", "hough", "incremental", "optimal", "ransac", "split_and_merge"};
+
+class SureExtractor : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, SureExtractor, ::testing::ValuesIn(kSure), [](const auto& test) { return test.param; });
+
+// Normalised squared errors of N lines sum up to chi-square with 2 N degrees of freedom: mean 2 N, variance 4 N.
+TEST_P(SureExtractor, ErrorsOnASingleWallAreAsLargeAsItsCovarianceSays) {
+  constexpr int kScans = 400;
+  const PolarLine truth = line_through(kWall.a, kWall.b);
+  double sum = 0.0;
+  for (std::uint64_t seed = 1; seed <= kScans; ++seed) {
+    const OwnedScan scan = with_noise(cast(fan_sensor(181, radians(90)), {kWall}), 0.02, seed);
+    const ScanLines lines = testing::extract(GetParam(), scan);
+    ASSERT_EQ(lines.lines.size(), 1U) << "seed " << seed;
+    const LineFeature& f = lines.lines[0];
+    ASSERT_TRUE(f.covariance);
+    const LineFit found{.normal = f.line.normal(), .offset = f.line.rho};
+    const Vec2 at = f.segment.midpoint();
+    const Vec2 n = truth.normal();
+    const Eigen::Vector2d e(n.dot(at) - truth.rho, difference(found, truth, at)[1]);
+    sum += e.dot(f.covariance->inverse() * e);
+  }
+  EXPECT_NEAR(sum / kScans, 2.0, 1.96 * 2.0 / std::sqrt(kScans));
+}
+
+TEST(CovarianceOfExtractors, IsAbsentWherePointsAreNotHeldAgainstTheNoise) {
+  const OwnedScan scan = with_noise(cast(fan_sensor(181, radians(90)), {kWall}), 0.01, 1);
+  for (const std::string name : {"sef", "iepf", "line_tracking", "kovesi", "smf", "fuzzy_lines", "line_regression"})
+    for (const LineFeature& f : testing::extract(name, scan).lines) EXPECT_FALSE(f.covariance) << name;
+}
+
+TEST(CovarianceOfExtractors, IsAbsentForASensorWithoutStatedNoise) {
+  const OwnedScan scan = cast(fan_sensor(181, radians(90)), {kWall});
+  for (const std::string& name : kSure) {
+    if (name == "optimal") continue;  // assumes a least noise of its own
+    const ScanLines lines = testing::extract(name, scan);
+    ASSERT_FALSE(lines.lines.empty()) << name;
+    for (const LineFeature& f : lines.lines) EXPECT_FALSE(f.covariance) << name;
+  }
+}
+
+}  // namespace
+}  // namespace scanbench
