@@ -1,41 +1,35 @@
 // Iterations of segment-point registration.
-<<<<<<<<HEAD : algorithms / align / parts / register_scan.cpp
 #include "algorithms/align/parts/register_scan.hpp"
-        == == == ==
-#include "algorithms/align/parts/register_scan.hpp"
-        >>>>>>>> alg : algorithms /
-                       align / point_to_line /
-                       register_scan.cpp
 
-                       namespace scanbench::align {
-  namespace {
+namespace scanbench::align {
+namespace {
 
-  constexpr int kMostIterations = 20;
+constexpr int kMostIterations = 20;
 
-  }  // namespace
+}  // namespace
 
-  Pose2 register_scan(const ScanShape& scan, const LineGrid& lines, const Pose2& predicted, PartnerRules rules,
-                      const Gates& gates) {
-    Pose2 pose = predicted;
-    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
-      rules.gate_m = gates.at(iteration);
-      Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-      Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-      for (const Reading& reading : scan.readings) {
-        const Sighting seen = placed(reading, pose);
-        lines.for_each_nearest(seen, rules, [&](const PlacedLine& line, double distance) {
-          const Eigen::Vector3d row = row_of(perpendicular(line.direction), seen.point, seen.sensor, scan.lever_m);
-          const double weight = tukey_weight(distance, rules.gate_m);
-          matrix += weight * row * row.transpose();
-          gradient += weight * distance * row;
-        });
-      }
-      const Observable free = observable(matrix);
-      const Eigen::VectorXd along = (free.motions.transpose() * gradient).cwiseQuotient(free.eigenvalues);
-      const Move move = move_by(-(free.motions * along), scan.lever_m, pose);
-      if (gates.narrow(iteration) && move.small()) break;
+Pose2 register_scan(const ScanShape& scan, const LineGrid& lines, const Pose2& predicted, PartnerRules rules,
+                    const Gates& gates) {
+  Pose2 pose = predicted;
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    rules.gate_m = gates.at(iteration);
+    Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+    for (const Reading& reading : scan.readings) {
+      const Sighting seen = placed(reading, pose);
+      lines.for_each_nearest(seen, rules, [&](const PlacedLine& line, double distance) {
+        const Eigen::Vector3d row = row_of(perpendicular(line.direction), seen.point, seen.sensor, scan.lever_m);
+        const double weight = tukey_weight(distance, rules.gate_m);
+        matrix += weight * row * row.transpose();
+        gradient += weight * distance * row;
+      });
     }
-    return pose;
+    const Observable free = observable(matrix);
+    const Eigen::VectorXd along = (free.motions.transpose() * gradient).cwiseQuotient(free.eigenvalues);
+    const Move move = move_by(-(free.motions * along), scan.lever_m, pose);
+    if (gates.narrow(iteration) && move.small()) break;
   }
+  return pose;
+}
 
 }  // namespace scanbench::align
