@@ -8,12 +8,12 @@
 #include "core/error.hpp"
 #include "harness/exchange/export.hpp"
 #include "harness/exchange/log.hpp"
+#include "harness/scenario/effective.hpp"
 #include "harness/scenario/scenario.hpp"
+#include "harness/scenario/scenario_file.hpp"
 #include "harness/scenario/suite.hpp"
 #include "harness/scenario/world_file.hpp"
 #include "sim/sensors.hpp"
-#include "harness/scenario/scenario_file.hpp"
-#include "harness/scenario/effective.hpp"
 
 namespace scanbench::fuzz {
 

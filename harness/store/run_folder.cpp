@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <vector>
+
 #include "core/error.hpp"
 
 namespace scanbench::harness {

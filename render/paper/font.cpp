@@ -4,6 +4,7 @@
 
 #include <cairo-ft.h>
 #include <ft2build.h>
+#include <algorithm>
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
 

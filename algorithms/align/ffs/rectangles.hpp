@@ -1,5 +1,5 @@
-// Rectangles that pairs of parallel segments suggest, in the space of slope, length and distance (Lakaemper 2010, section
-// 4.2, after Lagunovsky & Ablameyko 1997). The rules below are ours: only the idea is public.
+// Rectangles that pairs of parallel segments suggest, in the space of slope, length and distance (Lakaemper 2010,
+// section 4.2, after Lagunovsky & Ablameyko 1997). The rules below are ours: only the idea is public.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ struct Rectangle {
 };
 
 /// Two pairs of near-parallel segments, nearly perpendicular to each other, each as long as the other pair is apart and
-/// about the same centre. By decreasing certainty; does not depend on the order of the segments or on the frame. Segments
-/// must be finite; those without length are left out.
+/// about the same centre. By decreasing certainty; does not depend on the order of the segments or on the frame.
+/// Segments must be finite; those without length are left out.
 std::vector<Rectangle> rectangles_of(std::span<const Segment> segments, const RectangleRules& rules);
 
 }  // namespace scanbench::align::ffs
