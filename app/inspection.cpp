@@ -24,6 +24,7 @@ int check(const std::vector<std::string>& files, const std::vector<std::string>&
     }
     fmt::print("{}: good: {} pipeline{} on {} seed{}\n", scenario.path.string(), scenario.pipelines.size(),
                scenario.pipelines.size() == 1 ? "" : "s", scenario.seeds.size(), scenario.seeds.size() == 1 ? "" : "s");
+    if (scenario.pipelines.empty()) fmt::print("  note: no pipelines: for `simulate` and for suites, not for `run`\n");
     for (const auto& note : scenario.notes) fmt::print("  note: {}\n", note);
   }
   return kGood;

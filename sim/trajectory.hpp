@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -44,7 +43,6 @@ Pose2 pose_during_scan(const Trajectory& trajectory, std::size_t frame, double t
 /// body, or a pose is not finite, is on a wall (closer than 1 mm), inside a round body (moving ones at the pose's
 /// stamp), or so far from everything that no beam can return within `range_max_m`. A world of a few walls in free air
 /// is fine.
-void check_clear(const World& world, const Trajectory& trajectory,
-                 double range_max_m = std::numeric_limits<double>::infinity());
+void check_clear(const World& world, const Trajectory& trajectory, double range_max_m);
 
 }  // namespace scanbench::sim

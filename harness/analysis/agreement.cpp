@@ -6,11 +6,12 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "core/registry.hpp"
-#include "harness/analysis/published.hpp"
 #include "harness/analysis/statistics.hpp"
+#include "harness/scenario/published.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -68,11 +69,15 @@ class OurValues {
 std::vector<std::string> subjects_of(const std::string& metric, const std::vector<PublishedValue>& published,
                                      const Scenario& scenario, const std::vector<SummaryRow>& rows) {
   std::vector<std::string> subjects;
+  std::set<std::string> seen;
+  const auto add = [&](const std::string& subject) {
+    if (seen.insert(subject).second) subjects.push_back(subject);
+  };
   for (const auto& value : published)
-    if (value.metric == metric) add_new(subjects, value.subject);
+    if (value.metric == metric) add(value.subject);
   if (subjects == std::vector<std::string>{"all"}) return subjects;
   for (const auto& row : rows)
-    if (row.scenario == scenario.name && row.metric == metric && row.subject != "all") add_new(subjects, row.subject);
+    if (row.scenario == scenario.name && row.metric == metric && row.subject != "all") add(row.subject);
   return subjects;
 }
 
@@ -113,7 +118,11 @@ std::vector<ComparedColumn> compare_with_paper(const Scenario& scenario, const s
   const auto methods = methods_of(scenario, published);
   const OurValues ours(scenario, rows);
   std::vector<std::string> names;
-  for (const auto& value : published) add_new(names, value.metric);
+  std::map<std::tuple<std::string, std::string, std::string>, const PublishedValue*> printed;
+  for (const auto& value : published) {
+    add_new(names, value.metric);
+    printed[{value.metric, value.subject, value.method}] = &value;
+  }
 
   std::vector<ComparedColumn> columns;
   for (const auto& name : names) {
@@ -127,8 +136,8 @@ std::vector<ComparedColumn> compare_with_paper(const Scenario& scenario, const s
     for (const auto& subject : column.subjects)
       for (const auto& method : methods) {
         ComparedCell cell{kNaN, "", ours.of(method.pipeline, name, subject)};
-        for (const auto& value : published) {
-          if (value.metric != name || value.subject != subject || value.method != method.published) continue;
+        if (const auto found = printed.find({name, subject, method.published}); found != printed.end()) {
+          const PublishedValue& value = *found->second;
           cell.paper = value.value;
           cell.printed = value.printed;
           column.printed_unit = value.unit;

@@ -1,4 +1,4 @@
-// Writing recordings in the formats of others.
+// Writers of the CARMEN, CSV and TUM formats.
 #include "harness/exchange/export.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ const Pose2& best_pose(const Recording& recording, std::size_t frame) {
                          : recording.observed.frames[frame].odom_from_sensor;
 }
 
-// Beams from -90 deg on, in the steps that readers assume of FLASER.
+// True if the beams begin at -90 deg and have the step that readers assume for FLASER.
 bool has_flaser_angles(const ScanGeometry& geometry) {
   const int n = geometry.beams();
   double step = 0.0;
@@ -32,7 +32,7 @@ bool has_flaser_angles(const ScanGeometry& geometry) {
          std::abs(geometry.angle_step() - radians(step)) < kTiny;
 }
 
-// The value that stands for +inf: above every reading.
+// The value written for +inf: greater than every reading.
 double no_return_value(const ScanSet& scans) {
   double greatest = 0.0;
   for (const auto& frame : scans.frames)

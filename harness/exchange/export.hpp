@@ -1,11 +1,11 @@
-// Recordings as files that other programs read.
+// Exports recordings in formats that other programs read.
 //
-// carmen  FLASER lines where the beams are as readers assume for it (harness/log.hpp), else ROBOTLASER1 lines, which
+// carmen  FLASER lines if the beams have the angles that readers assume for it (log.hpp), else ROBOTLASER1 lines, which
 //         state their angles. First pose triple: the true pose if there is one, else the odometry's; second: the
 //         odometry's. Nothing in range: the value that the file's first line names, which goes into `no_return_m` when
 //         it is read back; too close: half of the least range (0 if that is 0); no reading: 0.
-// csv     One row per scan, t_s, x_m, y_m, yaw_rad (odometry), then the ranges; inf, -inf, nan as such.
-// tum     Poses, "t x y z qx qy qz qw" (the RGB-D benchmark of TU Munich, 2012), the true ones if there are any.
+// csv     One row per scan, t_s, x_m, y_m, yaw_rad (odometry), then the ranges; inf, -inf and nan are written as words.
+// tum     Poses, "t x y z qx qy qz qw" (the RGB-D benchmark of TU Munich, 2012), the true ones if they are known.
 #pragma once
 
 #include <string>

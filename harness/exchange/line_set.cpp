@@ -1,4 +1,4 @@
-// Rows of end points.
+// Reads line sets: one segment per row.
 #include "harness/exchange/line_set.hpp"
 
 #include <fmt/format.h>
@@ -16,9 +16,9 @@ namespace scanbench::harness {
 namespace {
 
 constexpr std::array<std::string_view, 4> kEnds = {"x1_m", "y1_m", "x2_m", "y2_m"};
-constexpr std::array<std::string_view, 3> kPassedOver = {"line", "members", "points"};
+constexpr std::array<std::string_view, 3> kSkipped = {"line", "members", "points"};
 constexpr std::string_view kAllowed = "x1_m, y1_m, x2_m, y2_m, and frame, line, members, points";
-constexpr double kLargestCoordinate = 1e9;  // beyond it a metre is less than what a double tells apart by far
+constexpr double kLargestCoordinate = 1e9;  // far below the 9e15 at which doubles no longer distinguish metres
 
 struct Columns {
   std::size_t count = 0;
@@ -38,7 +38,7 @@ Columns read_header(const LogLines& lines, const std::vector<std::string_view>& 
     } else if (words[i] == "frame") {
       columns.frame = i;
       columns.has_frame = true;
-    } else if (std::ranges::find(kPassedOver, words[i]) == kPassedOver.end()) {
+    } else if (std::ranges::find(kSkipped, words[i]) == kSkipped.end()) {
       lines.refuse(words[i],
                    fmt::format("a column {}; allowed in the first row: {}", quoted_excerpt(words[i]), kAllowed));
     }
@@ -76,7 +76,7 @@ std::vector<std::vector<Segment>> parse_line_set(std::string_view text, const st
       }
       const Segment line{{ends[0], ends[1]}, {ends[2], ends[3]}};
       if (!(line.length() > 0))
-        lines.refuse(words[columns.ends[0]], "a line without length; allowed: two different ends");
+        lines.refuse(words[columns.ends[0]], "a line without length; allowed: two different end points");
       if (frames.empty()) frames.emplace_back();
       if (columns.has_frame) {
         const std::string_view word = words[columns.frame];
@@ -84,8 +84,9 @@ std::vector<std::vector<Segment>> parse_line_set(std::string_view text, const st
         const auto last = static_cast<long long>(frames.size()) - 1;
         const bool next = frame && *frame == last + 1 && !frames.back().empty();
         if (!frame || (*frame != last && !next))
-          lines.refuse(word, fmt::format("frame is {}; allowed: 0, 1, 2, ... in this order, each with a line at least",
-                                         quoted_excerpt(word)));
+          lines.refuse(word,
+                       fmt::format("frame is {}; allowed: 0, 1, 2, ... in this order, each with at least one line",
+                                   quoted_excerpt(word)));
         if (next) frames.emplace_back();
       }
       frames.back().push_back(line);

@@ -1,4 +1,4 @@
-// Which format is which, and DP-SLAM's, the smallest.
+// The table of log formats, and the reader of DP-SLAM logs.
 #include "harness/exchange/log.hpp"
 
 #include <fmt/format.h>
@@ -23,22 +23,47 @@ struct Format {
   std::string_view name;
   std::vector<std::string_view> options;
   Recording (*parse)(std::string_view, const LogOptions&, const SensorModel&);
+  void (*check)(const LogOptions&);
+  std::string_view summary;
+  std::vector<std::string_view> notes;
 };
+
+void nothing_to_check(const LogOptions&) {}
+
+constexpr std::string_view kAngleRule =
+    "beam angles: first_angle_deg and step_deg if step_deg is given; else -90 deg + i * 180/n for n = 180 and 360 "
+    "beams, -90 deg + i * 180/(n-1) for 181 and 361; other numbers of beams need step_deg";
+constexpr std::string_view kNoReturn = "no_return_m must be given: the log does not state it";
 
 const std::array<Format, 3>& formats() {
   static const std::array<Format, 3> all = {
       Format{"carmen",
              {"poses", "no_return_m", "range_min_m", "first_angle_deg", "step_deg", "every", "max_frames", "sensor_x_m",
               "sensor_y_m", "sensor_yaw_deg"},
-             parse_carmen},
+             parse_carmen,
+             nothing_to_check,
+             "CARMEN log: FLASER or ROBOTLASER1 lines",
+             {kNoReturn, kAngleRule, "ROBOTLASER1 states its angles; step_deg, if given, replaces them"}},
       Format{"csv",
              {"columns", "skip_lines", "beams", "unit_m", "no_return_m", "range_min_m", "first_angle_deg", "step_deg",
               "every", "max_frames", "sensor_x_m", "sensor_y_m", "sensor_yaw_deg"},
-             parse_csv_scans},
+             parse_csv_scans,
+             check_csv_options,
+             "one scan per row of numbers",
+             {"columns names the fields of a row, in their order; it must have `ranges` once, which takes all fields "
+              "that the others leave",
+              "t_s, t_ms, t_us: stamp; without one, scans are the sensor's scan_period_s apart",
+              "x_m, x_cm, x_mm, y_m, y_cm, y_mm, yaw_rad, yaw_deg: pose; what is missing is 0",
+              "skip: one field that is not read; skip:20: 20 of them",
+              "inf, -inf and nan are allowed among the ranges: nothing in range, too close, no reading",
+              "beam angles: first_angle_deg + i * step_deg; step_deg must be given unless beams is 1"}},
       Format{"dpslam",
              {"no_return_m", "range_min_m", "first_angle_deg", "step_deg", "every", "max_frames", "sensor_x_m",
               "sensor_y_m", "sensor_yaw_deg"},
-             parse_dpslam}};
+             parse_dpslam,
+             nothing_to_check,
+             "DP-SLAM log: Odometry and Laser lines alternate",
+             {kNoReturn, kAngleRule}}};
   return all;
 }
 
@@ -47,6 +72,43 @@ const Format& format_of(std::string_view name) {
   if (it == formats().end())
     throw ConfigError(fmt::format("format is {}; allowed: {}", quoted_excerpt(name), fmt::join(log_formats(), ", ")));
   return *it;
+}
+
+constexpr std::string_view kAllowedLog = "a log in text, plain or gzip";
+
+std::uint64_t byte_limit(double max_bytes) {
+  return static_cast<std::uint64_t>(std::clamp(max_bytes, 0.0, 1e18));
+}
+
+struct LogSize {
+  std::uint64_t bytes = 0;    ///< unpacked
+  std::uint64_t numbers = 0;  ///< at most: separators of words
+};
+
+/// Reads the log once without keeping it, so that a log that needs too much memory is refused before it takes any.
+LogSize measure_log(const std::filesystem::path& path, double max_bytes) {
+  constexpr std::size_t kMaxLineBytes = std::size_t{16} << 20;  // a scan of a million beams
+  LogSize size;
+  std::size_t line_bytes = 0;
+  const auto needed = [&] { return static_cast<double>(size.bytes) + 8.0 * static_cast<double>(size.numbers); };
+  for_each_text_block(path, byte_limit(max_bytes), kAllowedLog, [&](std::string_view block) {
+    size.bytes += block.size();
+    const auto is_separator = [](char c) { return c == ' ' || c == ',' || c == '\n' || c == '\t'; };
+    size.numbers += static_cast<std::uint64_t>(std::ranges::count_if(block, is_separator));
+    // A block is smaller than the longest line: looking at its last line break suffices.
+    const std::size_t last_break = block.rfind('\n');
+    line_bytes = last_break == std::string_view::npos ? line_bytes + block.size() : block.size() - last_break - 1;
+    if (line_bytes > kMaxLineBytes)
+      throw ConfigError(fmt::format("{}: a line longer than {}; allowed: {}", path.string(),
+                                    size_text(static_cast<double>(kMaxLineBytes)), kAllowedLog));
+  });
+  if (needed() > max_bytes)
+    throw ConfigError(
+        fmt::format("{}: needs about {} (text {} + {} numbers x 8 B); allowed: {}; take fewer scans, or raise "
+                    "limits.memory_mib",
+                    path.string(), size_text(needed()), size_text(static_cast<double>(size.bytes)), size.numbers,
+                    size_text(max_bytes)));
+  return size;
 }
 
 }  // namespace
@@ -63,6 +125,15 @@ std::vector<ParamSpec> log_param_specs(std::string_view format) {
   std::erase_if(specs,
                 [&](const ParamSpec& spec) { return std::ranges::find(f.options, spec.name) == f.options.end(); });
   return specs;
+}
+
+void check_log_params(std::string_view format, const ParamSet& params) {
+  format_of(format).check(make_params<LogOptions>(resolve(log_param_specs(format), params)));
+}
+
+LogFormatText log_format_text(std::string_view format) {
+  const Format& f = format_of(format);
+  return {std::string(f.summary), {f.notes.begin(), f.notes.end()}};
 }
 
 Recording parse_dpslam(std::string_view text, const LogOptions& options, const SensorModel& sensor) {
@@ -85,7 +156,8 @@ Recording parse_dpslam(std::string_view text, const LogOptions& options, const S
         lines.refuse(words[0], fmt::format("Laser states {} ranges and has {}; allowed: Laser n r1 .. rn",
                                            words.size() < 2 ? "no" : quoted_excerpt(words[1]), n));
       if (!odometry)
-        lines.refuse(words[0], "a Laser line without an Odometry line before it; allowed: the two in turns");
+        lines.refuse(words[0],
+                     "a Laser line without an Odometry line before it; allowed: Odometry and Laser lines alternate");
       lines.check_last_number(words);
       builder.check_beams(lines, n);
       builder.check_angles(lines, builder.angles_by_rule(lines, n));
@@ -113,23 +185,17 @@ Recording parse_log(std::string_view text, const std::string& file, std::string_
                     const SensorModel& sensor) {
   const Format& f = format_of(format);
   const auto options = make_params<LogOptions>(resolve(log_param_specs(format), params));
+  f.check(options);
   return in_file(file, {}, [&] { return f.parse(text, options, sensor); });
 }
 
 Recording read_log(const std::filesystem::path& path, std::string_view format, const ParamSet& params,
                    const SensorModel& sensor, double max_bytes) {
   format_of(format);
-  const std::string text = read_text_file(path, static_cast<std::uint64_t>(std::clamp(max_bytes, 0.0, 1e18)));
-  // A number takes at least two characters of the text; most scans are near that.
-  const auto separators = static_cast<double>(
-      std::ranges::count_if(text, [](char c) { return c == ' ' || c == ',' || c == '\n' || c == '\t'; }));
-  const double needed = static_cast<double>(text.size()) + 8.0 * separators;
-  if (needed > max_bytes)
-    throw ConfigError(
-        fmt::format("{}: needs about {} (text {} + {:.0f} numbers x 8 B); allowed: {}; take fewer scans, or raise "
-                    "limits.memory_mib",
-                    path.string(), size_text(needed), size_text(static_cast<double>(text.size())), separators,
-                    size_text(max_bytes)));
+  const LogSize size = measure_log(path, max_bytes);
+  std::string text;
+  text.reserve(size.bytes);
+  for_each_text_block(path, byte_limit(max_bytes), kAllowedLog, [&](std::string_view block) { text += block; });
   return parse_log(text, path.string(), format, params, sensor);
 }
 

@@ -1,18 +1,18 @@
-// Recorded logs: scans that a real sensor took, in the formats that logs come in. Gzip is unpacked on the way.
+// Reads recorded logs: the scans of a real sensor. Gzip files are unpacked.
 //
-// carmen   FLASER and ROBOTLASER1 lines; all other messages are passed over. FLASER states no beam angles, and public
+// carmen   FLASER and ROBOTLASER1 lines; all other messages are skipped. FLASER states no beam angles, and public
 //          readers disagree by up to 17 cm at 10 m; the rule here: -90 deg + i * 180/n for n = 180 and 360 beams,
 //          -90 deg + i * 180/(n-1) for 181 and 361; any other n needs first_angle_deg and step_deg. ROBOTLASER1 states
 //          its angles. A log that holds both gives the scans of the message that comes first.
 //          Poses: `reference` is the first pose triple of a line (the laser's), `odometry` the second (the robot's),
 //          `vertex` the VERTEX2 line before the scan in a graph log.
-// dpslam   "Odometry x y theta" and "Laser n r1 .. rn" in turns; angles by the same rule.
-// csv      one scan per row, fields separated by commas or blanks, # begins a comment; `columns` says what they are:
+// dpslam   "Odometry x y theta" and "Laser n r1 .. rn" alternate; beam angles follow the same rule.
+// csv      one scan per row, fields separated by commas or blanks, # begins a comment; `columns` names them:
 //          t_s t_ms t_us  x_m x_cm x_mm  y_m y_cm y_mm  yaw_rad yaw_deg  skip skip:20  ranges
 //          "inf", "-inf" and "nan" are allowed among the ranges.
 //
-// What a reading means (REP-117): 0, negative and NaN: no reading (NaN); below range_min_m: too close (-inf); from
-// no_return_m on (if that is > 0): nothing in range (+inf).
+// What a reading means (REP-117): 0, negative and NaN: no reading (NaN); below range_min_m: too close (-inf); at
+// no_return_m or above (if that is > 0): nothing in range (+inf).
 #pragma once
 
 #include <filesystem>
@@ -30,9 +30,20 @@ std::vector<std::string> log_formats();
 /// The options of a format, with units, bounds and docs. Throws ConfigError for an unknown format.
 std::vector<ParamSpec> log_param_specs(std::string_view format);
 
+/// Throws ParamError for options that fit no log of the format: wrong `columns`, no `step_deg`.
+void check_log_params(std::string_view format, const ParamSet& params);
+
+/// What a format is, for people.
+struct LogFormatText {
+  std::string summary;
+  std::vector<std::string> notes;  ///< rules that the options alone do not show
+};
+LogFormatText log_format_text(std::string_view format);
+
 /// The scans of a log. `sensor` gives name, noise and timing; beam angles and range limits come from the log and its
 /// options. Stamps are the log's, or the sensor's scan period apart if it has none. No truth. Throws ConfigError with
-/// file:line:col for a line that is cut short, fields that are no numbers, beam counts that change, no scan at all.
+/// file:line:col for a line that is cut short, fields that are no numbers, beam counts that change, no scan at all;
+/// and, before it keeps any of the text, for a log that needs more than max_bytes. Throws as read_text_file() does.
 Recording read_log(const std::filesystem::path& path, std::string_view format, const ParamSet& params,
                    const SensorModel& sensor, double max_bytes);
 

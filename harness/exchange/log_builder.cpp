@@ -1,4 +1,4 @@
-// Lines, angles, poses and readings: the rules that all log formats share.
+// The rules for lines, angles, poses and readings that all log formats share.
 #include "harness/exchange/log_builder.hpp"
 
 #include <fmt/format.h>
@@ -37,9 +37,10 @@ void LogLines::check_last_number(const std::vector<std::string_view>& words) con
   const std::size_t usual = decimals(before.front());
   if (decimals(words.back()) >= usual) return;
   if (!std::ranges::all_of(before, [&](std::string_view word) { return decimals(word) == usual; })) return;
-  refuse(words.back(), fmt::format("{} has fewer than the {} decimals of the numbers before it; allowed: all of them, "
-                                   "or a line break behind a number that is whole",
-                                   quoted_excerpt(words.back()), usual));
+  refuse(words.back(),
+         fmt::format("{} has fewer than the {} decimals of the numbers before it; allowed: as many decimals, "
+                     "or a line break after a complete number",
+                     quoted_excerpt(words.back()), usual));
 }
 
 double LogLines::number_of(std::string_view word, std::string_view what) const {

@@ -1,4 +1,4 @@
-// What the log readers share: options, lines with their numbers, and the recording that grows frame by frame.
+// Shared parts of the log readers: options, numbered lines, and the builder that adds frame by frame to a recording.
 #pragma once
 
 #include <string>
@@ -34,26 +34,30 @@ struct LogOptions {
     return std::tuple{
         choice("poses", &O::poses,
                {{LogPoses::reference, "reference"}, {LogPoses::odometry, "odometry"}, {LogPoses::vertex, "vertex"}},
-               "which pose of a scan to take: the first triple, the second, or the VERTEX2 line before it"),
+               "pose of a scan: reference is the first triple of its line, odometry the second, vertex the VERTEX2 "
+               "line before it"),
         field("no_return_m", &O::no_return_m, at_least(0), "m",
-              "readings from here on mean nothing in range; 0: none do"),
-        field("range_min_m", &O::range_min_m, at_least(0), "m", "readings below are too close"),
-        field("first_angle_deg", &O::first_angle_deg, between(-360, 360), "deg", "of beam 0; read only with step_deg"),
-        field("step_deg", &O::step_deg, between(-360, 360), "deg", "between beams; 0: what the format says"),
-        field("columns", &O::columns, "names of the columns of a row"),
-        field("skip_lines", &O::skip_lines, between(0, 1e6), "", "lines to pass over at the top"),
-        field("beams", &O::beams, between(0, 1e6), "", "ranges in a row; 0: as many as the first row has"),
+              "least reading that means nothing in range; 0: no reading does"),
+        field("range_min_m", &O::range_min_m, at_least(0), "m", "readings below this are too close"),
+        field("first_angle_deg", &O::first_angle_deg, between(-360, 360), "deg",
+              "angle of beam 0, counter-clockwise from straight ahead; used only with step_deg"),
+        field("step_deg", &O::step_deg, between(-360, 360), "deg",
+              "angle from a beam to the next; 0: the angles of the format"),
+        field("columns", &O::columns,
+              "columns of a row: t_s t_ms t_us x_m x_cm x_mm y_m y_cm y_mm yaw_rad yaw_deg skip skip:20 ranges"),
+        field("skip_lines", &O::skip_lines, between(0, 1e6), "", "lines to skip at the top"),
+        field("beams", &O::beams, between(0, 1e6), "", "number of ranges in a row; 0: that of the first row"),
         field("unit_m", &O::unit_m, above(0), "m", "metres per unit of the ranges"),
-        field("every", &O::every, between(1, 1e6), "", "take every n-th scan"),
-        field("max_frames", &O::max_frames, between(0, 1e9), "", "stop after so many scans; 0: all"),
-        field("sensor_x_m", &O::sensor_x_m, any_number(), "m", "place of the sensor in the frame of the log's poses"),
-        field("sensor_y_m", &O::sensor_y_m, any_number(), "m", "place of the sensor in the frame of the log's poses"),
-        field("sensor_yaw_deg", &O::sensor_yaw_deg, between(-360, 360), "deg",
-              "direction of the sensor in that frame")};
+        field("every", &O::every, between(1, 1e6), "", "read every n-th scan"),
+        field("max_frames", &O::max_frames, between(0, 1e9), "", "number of scans to read; 0: all"),
+        field("sensor_x_m", &O::sensor_x_m, any_number(), "m",
+              "x of the sensor in the frame whose poses the log holds"),
+        field("sensor_y_m", &O::sensor_y_m, any_number(), "m", "y of the sensor in that frame"),
+        field("sensor_yaw_deg", &O::sensor_yaw_deg, between(-360, 360), "deg", "heading of the sensor in that frame")};
   }
 };
 
-/// The lines of a log, one at a time, with what messages need to know about them.
+/// The lines of a log, one at a time, with their numbers for messages.
 class LogLines {
  public:
   explicit LogLines(std::string_view text) : rest_(text) {}
@@ -66,8 +70,9 @@ class LogLines {
   bool cut_short() const { return ends_open_; }
 
   [[noreturn]] void refuse(std::string_view word, const std::string& message) const;
-  /// Refuses an open last line whose last number has fewer decimals than the 32 before it, which agree: it was cut
-  /// inside that number. Numbers of varying width, and whole ones, do not show it.
+  /// Refuses a last line without line break whose last number has fewer decimals than the 32 numbers before it, which
+  /// all have the same: the file was cut inside that number. Whole numbers and numbers of varying width do not show a
+  /// cut.
   void check_last_number(const std::vector<std::string_view>& words) const;
   /// A finite number; throws PlacedError naming `what`.
   double number_of(std::string_view word, std::string_view what) const;
@@ -89,7 +94,7 @@ class LogBuilder {
  public:
   explicit LogBuilder(const LogOptions& options);
 
-  /// True if the next scan is one to keep; call once per scan.
+  /// True if the next scan is read (`every`). Call it once per scan.
   bool wants_scan();
   /// True when no further scan is wanted.
   bool full() const;
@@ -101,16 +106,16 @@ class LogBuilder {
   /// Checks the angles against the first scan's.
   void check_angles(const LogLines& lines, const BeamAngles& angles);
 
-  /// A pose of the log (m, rad), moved to the sensor. Throws PlacedError for a heading that is no angle.
+  /// The sensor's pose for a pose of the log (m, rad). Throws PlacedError for a heading above 1e5 rad.
   Pose2 pose(const LogLines& lines, double x_m, double y_m, double yaw_rad) const;
 
-  /// A range in metres as REP-117 wants it.
+  /// A range in metres, with the special values of REP-117 (log.hpp).
   double reading(double range_m) const;
 
   void add(Frame frame) { frames_.push_back(std::move(frame)); }
   std::size_t frames() const { return frames_.size(); }
 
-  /// The recording. `has_stamps` false: frames get the sensor's scan period between them.
+  /// The recording. Without stamps in the log, frames are one scan period of the sensor apart.
   Recording finish(SensorModel sensor, bool has_stamps);
 
  private:

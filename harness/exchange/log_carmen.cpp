@@ -1,4 +1,4 @@
-// CARMEN logs: FLASER, ROBOTLASER1, and the VERTEX2 lines of graph logs.
+// Reader of CARMEN logs: FLASER, ROBOTLASER1, and the VERTEX2 lines of graph logs.
 //
 //   FLASER n r1 .. rn  laser_x laser_y laser_yaw  odom_x odom_y odom_yaw  stamp host logger_stamp
 //   ROBOTLASER1 type start fov resolution max accuracy remission_mode n r1 .. rn m e1 .. em
@@ -42,7 +42,7 @@ class CarmenReader {
   }
 
  private:
-  // CARMEN's messages have names in capitals: anything else is another kind of file.
+  // CARMEN's messages have names in capitals. Any other line shows that the file is no CARMEN log.
   void check_message_name() {
     const auto capital = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; };
     if (!(words_[0].front() >= 'A' && words_[0].front() <= 'Z') || !std::ranges::all_of(words_[0], capital))
@@ -67,7 +67,7 @@ class CarmenReader {
     return static_cast<std::size_t>(*n);
   }
 
-  // Lines of one log end alike; one that does not was cut or mixed in.
+  // All scans of a log have equally many words after the ranges. A different number shows a cut or foreign line.
   void check_tail(std::size_t tail) {
     if (tail_line_ == 0) {
       tail_ = tail;
@@ -86,7 +86,7 @@ class CarmenReader {
       lines_.refuse(
           words_[1],
           fmt::format("FLASER states {} ranges and has {} words after its name; allowed: {} (ranges, two poses, "
-                      "stamp, host, stamp), or {} and {} without the last ones",
+                      "stamp, host, stamp), or {} and {} without the last words",
                       n, words_.size() - 1, n + 10, n + 8, n + 7));
     check_tail(tail);
     builder_.check_beams(lines_, n);
@@ -151,7 +151,7 @@ class CarmenReader {
   LogLines lines_;
   LogBuilder builder_;
   std::vector<std::string_view> words_;
-  std::string_view message_;  // the one that scans are taken from
+  std::string_view message_;  // the message whose scans are read: the first one that occurs
   std::optional<Pose2> vertex_;
   std::size_t tail_ = 0;  // words after the ranges
   int tail_line_ = 0;

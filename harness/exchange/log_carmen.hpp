@@ -1,4 +1,4 @@
-// Logs with one message per line: CARMEN and DP-SLAM.
+// Readers of logs with one message per line: CARMEN and DP-SLAM.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@
 
 namespace scanbench::harness {
 
-/// Throws PlacedError for a line that is not as the format says (log.hpp).
+/// Throws PlacedError for a line that violates the format (log.hpp).
 Recording parse_carmen(std::string_view text, const LogOptions& options, const SensorModel& sensor);
 Recording parse_dpslam(std::string_view text, const LogOptions& options, const SensorModel& sensor);
 

@@ -1,4 +1,4 @@
-// Scans in rows of numbers.
+// Reads `columns`, then one scan per row.
 #include "harness/exchange/log_csv.hpp"
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ struct Layout {
 };
 
 void add_column(std::string_view word, Layout& layout) {
-  // skip:20 stands for 20 times skip.
+  // skip:20 means skip, 20 times.
   const std::size_t colon = word.find(':');
   const std::string_view name = word.substr(0, colon);
   long long times = 1;
@@ -99,6 +99,12 @@ double range_of(const LogLines& lines, std::string_view word, double unit_m) {
 
 }  // namespace
 
+void check_csv_options(const LogOptions& options) {
+  parse_columns(options.columns);
+  if (options.step_deg == 0 && options.beams != 1)
+    throw ParamError("step_deg", "step_deg is 0; allowed: the angle between two beams in deg, not 0 (or beams: 1)");
+}
+
 Recording parse_csv_scans(std::string_view text, const LogOptions& options, const SensorModel& sensor) {
   const Layout layout = parse_columns(options.columns);
   const std::size_t others = layout.columns.size() - 1;
@@ -116,9 +122,11 @@ Recording parse_csv_scans(std::string_view text, const LogOptions& options, cons
     const std::size_t n = fields.size() - others;
     if (options.beams > 0 && n != static_cast<std::size_t>(options.beams))
       lines.refuse(fields.front(), fmt::format("a row with {} ranges; allowed: beams = {}", n, options.beams));
-    // A single beam needs no step.
-    if (options.step_deg == 0 && n > 1)
-      throw ParamError("step_deg", "step_deg is 0; allowed: the angle between two beams in deg, not 0");
+    if (others == 0 && n == 4 && options.beams != 4)
+      lines.refuse(
+          fields.front(),
+          "a row of four numbers: a vector map (x1, y1, x2, y2)? allowed: world: {file: PATH} for a vector map, "
+          "or beams: 4 for scans of four beams");
     lines.check_last_number(fields);
     builder.check_beams(lines, n);
     builder.check_angles(lines, {options.first_angle_deg, options.step_deg});

@@ -1,4 +1,4 @@
-// Records to rows.
+// Writes polygon records as CSV rows.
 #include "harness/exchange/polygon_files.hpp"
 
 #include "core/polygon.hpp"

@@ -8,8 +8,8 @@
 
 namespace scanbench::harness {
 
-/// A row per segment: frame, segment, then the fields of its record in their order. Neighbours joined by the usual
-/// rules.
+/// One row per segment: frame, segment, then the fields of its record in their order. Neighbours are joined with the
+/// default rules of polygon_of().
 std::string polygons_csv(const std::vector<ScanLines>& scans);
 
 }  // namespace scanbench::harness

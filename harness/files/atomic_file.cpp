@@ -3,13 +3,14 @@
 
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "harness/files/input_file.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
@@ -30,14 +31,14 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
   int get() const { return fd_; }
   explicit operator bool() const { return fd_ >= 0; }
-  /// close() reports what a network file system found only now.
+  /// 0, or -1: a network file system may report a failed write only here.
   int close() { return ::close(std::exchange(fd_, -1)); }
 
  private:
   int fd_;
 };
 
-/// 0, or errno.
+/// Returns 0, or errno.
 int write_and_flush(const fs::path& path, std::string_view bytes, bool flush) {
   Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW);
   if (!file) return errno;
@@ -63,22 +64,16 @@ fs::path temporary_beside(const fs::path& path) {
 }  // namespace
 
 std::string read_file(const fs::path& path) {
-  const Descriptor file(path, O_RDONLY);
-  if (!file) refuse("read", path, errno);
-  struct stat info {};
-  if (::fstat(file.get(), &info) != 0) refuse("read", path, errno);
-  if (S_ISDIR(info.st_mode)) refuse("read", path, EISDIR);
+  InputFile file(path);
   std::string bytes;
-  bytes.resize(static_cast<std::size_t>(info.st_size));
+  bytes.resize(file.size());
   std::size_t filled = 0;
   while (true) {
-    if (filled == bytes.size()) bytes.resize(bytes.size() + 1);  // proves the end; files in /proc say size 0
-    const ssize_t n = ::read(file.get(), bytes.data() + filled, bytes.size() - filled);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) refuse("read", path, errno);
+    // One more byte proves the end. Files in /proc have size 0, so the buffer then grows.
+    if (filled == bytes.size()) bytes.resize(filled <= file.size() ? filled + 1 : 2 * filled);
+    const std::size_t n = file.read(std::span(bytes).subspan(filled));
     if (n == 0) break;
-    filled += static_cast<std::size_t>(n);
-    if (filled == bytes.size() && filled > static_cast<std::size_t>(info.st_size)) bytes.resize(2 * filled);
+    filled += n;
   }
   bytes.resize(filled);
   return bytes;
@@ -115,7 +110,7 @@ void make_folders(const fs::path& path) {
 void exchange_folders(const fs::path& a, const fs::path& b) {
   if (::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) return;
   if (errno != EINVAL && errno != ENOSYS) refuse("replace", b, errno);
-  // A file system without exchange: for an instant b does not exist, but all of it stands beside.
+  // The file system cannot exchange: for an instant b does not exist, but a complete copy is beside it.
   const fs::path aside = temporary_beside(b).string() + "-aside";
   if (::rename(b.c_str(), aside.c_str()) != 0) refuse("replace", b, errno);
   if (::rename(a.c_str(), b.c_str()) != 0) {

@@ -1,4 +1,5 @@
-// Files and folders that appear whole or not at all: temporary name beside the target, flush to disk, rename.
+// Files and folders that appear whole or not at all: each is written under a temporary name beside its target, flushed
+// to disk and renamed.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +8,7 @@
 
 namespace scanbench::harness {
 
-/// The bytes of a file. Throws ConfigError with the file's name and the reason.
+/// The bytes of a regular file (input_file.hpp). Throws ConfigError with the file's name and the reason.
 std::string read_file(const std::filesystem::path& path);
 
 /// Writes a file whole: after a failure (disk full, no permission) the target is as it was and the temporary is gone.
@@ -17,7 +18,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
 /// Writes a file inside a StagedFolder, which is flushed and renamed as a whole later. Throws ConfigError.
 void write_staged_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Removes a file; none there is all right. Throws ConfigError.
+/// Removes a file. A file that does not exist is no error. Throws ConfigError.
 void remove_file(const std::filesystem::path& path);
 
 /// Makes a folder and its parents. Throws ConfigError.
@@ -26,11 +27,11 @@ void make_folders(const std::filesystem::path& path);
 /// Exchanges two existing folders of one file system, in one step where the file system can.
 void exchange_folders(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// True for the names that StagedFolder and write_file_atomically give to what is not finished.
+/// True for the names that StagedFolder and write_file_atomically give to unfinished files and folders.
 bool is_temporary_name(std::string_view name);
 
-/// A folder under construction beside its target: `.<name>.tmp-<pid>`. commit() flushes it and puts it in the target's
-/// place; what stood there before is removed only after the new one is in place. Without commit() it is removed.
+/// A folder under construction beside its target: `.<name>.tmp-<pid>`. commit() flushes it and renames it to the
+/// target; an earlier target is removed only after the new one is in place. Without commit() the new folder is removed.
 class StagedFolder {
  public:
   explicit StagedFolder(std::filesystem::path target);
@@ -42,7 +43,7 @@ class StagedFolder {
 
   const std::filesystem::path& path() const { return staging_; }
   const std::filesystem::path& target() const { return target_; }
-  /// Removes what has been written so far (of a worker that crashed).
+  /// Removes all files written so far, for instance by a worker that crashed.
   void clear();
   void commit();
 

@@ -1,4 +1,4 @@
-// RFC 4180 in both directions.
+// Writes and reads comma-separated tables (RFC 4180).
 #include "harness/files/csv.hpp"
 
 #include <algorithm>
@@ -69,6 +69,7 @@ CsvTable::CsvTable(std::string_view bytes, std::filesystem::path file, const std
   const auto fail = [&](std::size_t line, const std::string& message) {
     throw ConfigError(file_.string() + ":" + std::to_string(line) + ": " + message);
   };
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   std::vector<std::string> row;
   std::size_t line = 1;
   std::size_t i = 0;
@@ -110,8 +111,10 @@ CsvTable::CsvTable(std::string_view bytes, std::filesystem::path file, const std
       lines_.push_back(start);
     }
   }
+  const bool semicolons = columns_.size() == 1 && columns_.front().find(';') != std::string::npos;
+  const std::string hint = semicolons ? "; allowed: commas between the fields, not semicolons" : "";
   for (const auto& name : required)
-    if (!has(name)) fail(1, "the column '" + name + "' is missing");
+    if (!has(name)) fail(1, "the column '" + name + "' is missing" + hint);
 }
 
 bool CsvTable::has(std::string_view column) const {

@@ -10,7 +10,7 @@
 
 namespace scanbench::harness {
 
-/// A field as it stands in a file: quoted only where a comma, quote or line end makes it necessary.
+/// A field as written to a file: quoted only if it contains a comma, a quote or a line end.
 std::string csv_field(std::string_view text);
 
 /// Builds a table. Every row must have as many fields as there are columns.
@@ -33,18 +33,20 @@ class CsvWriter {
   std::string text_;
 };
 
-/// A table that was read. Errors are ConfigErrors that name file and line.
+/// A table read from text. Errors are ConfigErrors that name file and line.
 class CsvTable {
  public:
-  /// The first line names the columns; `required` ones must be there, in any order.
+  /// The first line names the columns; a byte order mark before it is skipped. Those in `required` must exist, in any
+  /// order.
   CsvTable(std::string_view bytes, std::filesystem::path file, const std::vector<std::string>& required = {});
 
   std::size_t rows() const { return rows_.size(); }
+  int line(std::size_t row) const { return static_cast<int>(lines_[row]); }  ///< line number at which a row begins
   const std::vector<std::string>& columns() const { return columns_; }
   bool has(std::string_view column) const;
   const std::string& text(std::size_t row, std::string_view name) const;
-  double number(std::size_t row, std::string_view name) const;                          ///< an empty field is NaN
-  std::optional<double> optional_number(std::size_t row, std::string_view name) const;  ///< an empty field is nothing
+  double number(std::size_t row, std::string_view name) const;                          ///< NaN for an empty field
+  std::optional<double> optional_number(std::size_t row, std::string_view name) const;  ///< nullopt for an empty field
   long long integer(std::size_t row, std::string_view name) const;
   int index(std::size_t row, std::string_view name) const;  ///< an integer that fits an int
   [[noreturn]] void refuse(std::size_t row, const std::string& message) const;
@@ -55,7 +57,7 @@ class CsvTable {
   std::filesystem::path file_;
   std::vector<std::string> columns_;
   std::vector<std::vector<std::string>> rows_;
-  std::vector<std::size_t> lines_;  ///< where each row begins
+  std::vector<std::size_t> lines_;  ///< line number at which each row begins
 };
 
 }  // namespace scanbench::harness

@@ -2,14 +2,12 @@
 #include "harness/files/hash.hpp"
 
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <vector>
 
 #include <openssl/evp.h>
 
 #include "core/error.hpp"
+#include "harness/files/input_file.hpp"
 
 namespace scanbench::harness {
 
@@ -49,13 +47,10 @@ std::string sha256_hex(std::string_view bytes) {
 }
 
 std::string sha256_of_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw ConfigError("cannot read " + path.string() + ": " + std::strerror(errno));
+  InputFile file(path);
   Sha256 hash;
   std::vector<char> block(1 << 16);
-  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
-    hash.add({block.data(), static_cast<std::size_t>(file.gcount())});
-  if (file.bad()) throw ConfigError("cannot read " + path.string() + ": " + std::strerror(errno));
+  while (const std::size_t n = file.read(block)) hash.add({block.data(), n});
   return hash.hex();
 }
 

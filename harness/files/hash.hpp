@@ -1,4 +1,4 @@
-// SHA-256 of bytes, files and of the running program.
+// SHA-256 of bytes, of files and of the running program.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +15,10 @@ class Sha256 {
  public:
   Sha256();
   Sha256& add(std::string_view bytes);
-  /// A named part of an address: names and lengths go in too, so that no two lists of parts look alike.
+  /// Adds a named part of an address. The name and both lengths are hashed too: different lists of parts give different
+  /// bytes.
   Sha256& part(std::string_view name, std::string_view bytes);
-  /// Ends the digest; the object is then used up.
+  /// The digest. Call it once, last.
   std::string hex();
 
  private:
@@ -29,7 +30,7 @@ class Sha256 {
 
 std::string sha256_hex(std::string_view bytes);
 
-/// Throws ConfigError if the file cannot be read.
+/// The hash of a regular file, read block by block. Throws ConfigError if the file cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
 
 /// Hash of the running executable's bytes, computed once: the version of the code that made a result.

@@ -1,4 +1,4 @@
-// Writing and strict reading of .npy 1.0.
+// Writer and strict reader of .npy version 1.0.
 #include "harness/files/npy.hpp"
 
 #include <bit>
@@ -11,7 +11,7 @@
 namespace scanbench::harness {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "values are copied as they stand in memory");
+static_assert(std::endian::native == std::endian::little, "values are copied from memory byte by byte");
 
 constexpr std::string_view kMagic{"\x93NUMPY\x01\x00", 8};
 constexpr std::size_t kPreamble = 10;  // magic, version, two bytes of header length

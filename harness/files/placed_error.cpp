@@ -1,4 +1,4 @@
-// Messages of errors that have a place.
+// Adds the file's name, line and column to the message of an error.
 #include "harness/files/placed_error.hpp"
 
 #include <fmt/format.h>

@@ -10,13 +10,14 @@
 
 namespace scanbench::harness {
 
-/// 1-based. Line 0 marks a node that no file holds: it came from a `--set` override, and column is its 0-based number.
+/// 1-based. Line 0 marks a node from a `--set` override instead of the file; column is then the override's 0-based
+/// number.
 struct Mark {
   int line = 0;
   int column = 0;
 };
 
-/// An error inside a file whose name only the caller knows; in_file() turns it into a ConfigError.
+/// An error inside a file whose name only the caller knows. in_file() adds the name and throws a ConfigError.
 class PlacedError : public ConfigError {
  public:
   PlacedError(Mark mark, const std::string& message) : ConfigError(message), mark_(mark) {}

@@ -1,24 +1,38 @@
-// Reading files through zlib, which passes plain files on as they are.
+// Reads files through zlib, which returns plain files unchanged.
 #include "harness/files/text_file.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 #include <zlib.h>
 #include <algorithm>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <memory>
-#include <system_error>
+#include <vector>
 
 #include "core/error.hpp"
+#include "harness/files/input_file.hpp"
 
 namespace scanbench::harness {
 namespace {
 
 struct CloseGz {
   void operator()(gzFile_s* file) const { gzclose_r(file); }
+};
+
+/// Line and column of the next character, both from 1.
+struct TextPlace {
+  std::uint64_t line = 1;
+  std::uint64_t column = 1;
+  void advance(std::string_view text) {
+    const std::size_t last_break = text.rfind('\n');
+    line += static_cast<std::uint64_t>(std::ranges::count(text, '\n'));
+    column = last_break == std::string_view::npos ? column + text.size() : text.size() - last_break;
+  }
 };
 
 bool is_blank(char c) {
@@ -38,38 +52,51 @@ std::string size_text(double bytes) {
                                     : fmt::format("{:.1f} {}", bytes, kUnits[unit]);
 }
 
-std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes) {
+void for_each_text_block(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed,
+                         const std::function<void(std::string_view)>& use) {
   const std::string name = path.string();
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw ConfigError(name + ": no such file");
-  if (!std::filesystem::is_regular_file(status))
-    throw ConfigError(name + ": not a regular file; allowed: a file, plain or gzip");
-
-  const std::unique_ptr<gzFile_s, CloseGz> file(gzopen(name.c_str(), "rb"));
-  if (file == nullptr) throw ConfigError(name + ": cannot be opened: " + std::strerror(errno));
+  const InputFile input(path);
+  input.require_at_most(max_bytes);
+  const int descriptor = input.duplicate();
+  const std::unique_ptr<gzFile_s, CloseGz> file(gzdopen(descriptor, "rb"));
+  if (file == nullptr) {
+    ::close(descriptor);
+    throw ConfigError(name + ": cannot be opened: out of memory");
+  }
   gzbuffer(file.get(), 256 * 1024);
 
-  std::string text;
   std::vector<char> block(1 << 20);
+  std::uint64_t bytes = 0;
+  TextPlace place;
   while (true) {
     const int n = gzread(file.get(), block.data(), static_cast<unsigned>(block.size()));
     int code = Z_OK;
     const char* message = gzerror(file.get(), &code);
-    // A gzip file that ends early still hands out what it has; zlib says Z_BUF_ERROR then.
+    // zlib returns the data of a gzip file that ends early, with the code Z_BUF_ERROR.
     if (n < 0 || code == Z_BUF_ERROR)
       throw ConfigError(fmt::format("{}: {} after {} unpacked bytes; allowed: a whole gzip file", name,
                                     code == Z_BUF_ERROR ? "the gzip data ends early"
                                     : code == Z_ERRNO   ? std::strerror(errno)
                                                         : message,
-                                    text.size() + static_cast<std::size_t>(std::max(n, 0))));
-    if (n == 0) break;
-    text.append(block.data(), static_cast<std::size_t>(n));
-    if (text.size() > max_bytes)
-      throw ConfigError(fmt::format("{}: larger than {}; allowed: up to {}", name,
-                                    size_text(static_cast<double>(max_bytes)),
-                                    size_text(static_cast<double>(max_bytes))));
+                                    bytes + static_cast<std::uint64_t>(std::max(n, 0))));
+    if (n == 0) return;
+    const std::string_view text(block.data(), static_cast<std::size_t>(n));
+    if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
+      place.advance(text.substr(0, nul));
+      throw ConfigError(fmt::format("{}:{}:{}: a byte 0; allowed: {}", name, place.line, place.column, allowed));
+    }
+    place.advance(text);
+    bytes += text.size();
+    if (bytes > max_bytes)
+      throw ConfigError(fmt::format("{}: larger than {}{}", name, size_text(static_cast<double>(max_bytes)),
+                                    bytes > input.size() ? " when unpacked" : ""));
+    use(text);
   }
+}
+
+std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed) {
+  std::string text;
+  for_each_text_block(path, max_bytes, allowed, [&](std::string_view block) { text += block; });
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,21 +14,27 @@ namespace scanbench::harness {
 /// The largest world, or set of lines, that is read.
 inline constexpr std::size_t kMaxWorldBytes = std::size_t{64} << 20;
 
-/// The bytes of a regular file, unpacked if they are gzip (told by the file's first bytes, not by its name). Throws
-/// ConfigError for a missing, unreadable, damaged or cut-short file, for anything but a regular file, and for more than
-/// max_bytes (after unpacking).
-std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes);
+/// Calls `use` with the bytes of a regular file, block by block, unpacked if they are gzip (recognized by the file's
+/// first bytes, not by its name). Throws ConfigError for a missing, unreadable, damaged or cut-short file, for anything
+/// but a regular file, for more than max_bytes (packed or unpacked), and for a byte 0, with the file's name. `allowed`
+/// says in that last message what the file may be.
+void for_each_text_block(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed,
+                         const std::function<void(std::string_view)>& use);
+
+/// All bytes of such a file.
+std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes,
+                           std::string_view allowed = "a text file in UTF-8");
 
 /// "8 MiB", "1.5 GiB", "312 B".
 std::string size_text(double bytes);
 
-/// The next line of `rest`, without its line break (\n or \r\n), taken off its front.
+/// Removes the first line from `rest` and returns it without its line break (\n or \r\n).
 std::string_view take_line(std::string_view& rest);
 
-/// The words of a line, separated by blanks; the result is put into `words`, which keeps its memory.
+/// Splits a line at blanks. Overwrites `words`, whose memory is reused from call to call.
 void split_words(std::string_view line, std::vector<std::string_view>& words);
 
-/// The fields of a row, separated by blanks or by a comma with any blanks around it: two commas enclose an empty field.
+/// Splits a row at blanks, or at commas with any blanks around them. Two commas enclose an empty field.
 void split_fields(std::string_view line, std::vector<std::string_view>& fields);
 
 /// 1-based column at which `word`, a part of `line`, begins.

@@ -1,4 +1,4 @@
-// The registries, read through one pair of glasses.
+// Collects the entries of all registries, sensors and formats of logs.
 #include "harness/report/catalog.hpp"
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "core/modules.hpp"
 #include "core/names.hpp"
 #include "harness/report/table.hpp"
+#include "harness/scenario/sections.hpp"
 #include "metrics/metric.hpp"
 #include "render/figure.hpp"
 #include "sim/sensors.hpp"
@@ -74,6 +75,8 @@ std::vector<CatalogEntry> catalog() {
   append<render::Figure>(entries);
   append<sim::TrajectoryKind>(entries);
   append_sensors(entries);
+  for (auto& [info, params, notes] : recording_formats())
+    entries.push_back({"recording", std::move(info), std::move(params), std::move(notes)});
   return entries;
 }
 
@@ -82,7 +85,9 @@ std::vector<CatalogEntry> find_in_catalog(const std::string& name) {
   std::vector<std::string> known;
   for (auto& entry : catalog()) {
     known.push_back(entry.info.name);
-    if (entry.info.name == name || entry.kind + "/" + entry.info.name == name) found.push_back(std::move(entry));
+    if (std::ranges::find(known, entry.kind) == known.end()) known.push_back(entry.kind);
+    if (entry.info.name == name || entry.kind + "/" + entry.info.name == name || entry.kind == name)
+      found.push_back(std::move(entry));
   }
   if (found.empty()) {
     const std::string near = nearest_name(name, known);

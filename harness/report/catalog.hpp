@@ -10,7 +10,7 @@
 namespace scanbench::harness {
 
 struct CatalogEntry {
-  std::string kind;  ///< extract, merge, match, align, map, metrics, figure, trajectory, sensor
+  std::string kind;  ///< extract, merge, match, align, map, metrics, figure, trajectory, sensor, recording
   ModuleInfo info;
   std::vector<ParamSpec> params;
   std::vector<std::string> notes;  ///< further lines: the rows of a metric family
@@ -19,7 +19,8 @@ struct CatalogEntry {
 /// By kind, then by name.
 std::vector<CatalogEntry> catalog();
 
-/// The entries of that name (or "kind/name"). Throws ConfigError, naming the nearest, if there are none.
+/// The entries of that name, of that "kind/name", or of that kind. Throws ConfigError, naming the nearest, if there are
+/// none.
 std::vector<CatalogEntry> find_in_catalog(const std::string& name);
 
 std::string describe_text(const CatalogEntry& entry);

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "harness/analysis/published.hpp"
 #include "harness/analysis/statistics.hpp"
 #include "harness/report/table_marks.hpp"
+#include "harness/scenario/published.hpp"
 
 namespace scanbench::harness {
 namespace {

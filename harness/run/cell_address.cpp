@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "core/number_text.hpp"
-#include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
 
 namespace scanbench::harness {
@@ -53,7 +52,7 @@ void add_input(Sha256& hash, const SimulatedInput& input) {
 }
 
 void add_input(Sha256& hash, const RecordedInput& input) {
-  hash.part("input", "recorded").part("log", read_file(input.log)).part("format", input.format);
+  hash.part("input", "recorded").part("log", sha256_of_file(input.log)).part("format", input.format);
   add_params(hash, input.params);
   hash.part("sensor", input.sensor_preset);
   add_params(hash, input.sensor_params);

@@ -48,10 +48,12 @@ sim::SimulationInput input_within_memory(const Scenario& scenario, std::uint64_t
 }  // namespace
 
 void check_scenario(const Scenario& scenario) {
+  if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
+    read_log(recorded->log, recorded->format, recorded->params, recorded->sensor, scenario.limits.memory_bytes);
   if (!std::holds_alternative<SimulatedInput>(scenario.input)) return;
   const sim::SimulationInput input = input_within_memory(scenario, 0);
   try {
-    sim::check_clear(input.world, input.trajectory);
+    sim::check_clear(input.world, input.trajectory, input.sensor.range_max_m);
   } catch (const ConfigError& error) {
     throw ConfigError(scenario.path.string() + ": " + error.what());
   }

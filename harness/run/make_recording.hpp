@@ -10,8 +10,8 @@
 
 namespace scanbench::harness {
 
-/// Checks what loading leaves until a run: that the path is clear of walls, and that the memory suffices. Throws
-/// ConfigError.
+/// Checks what loading does not: that the path is clear of walls and the sensor in range of one, that the memory
+/// suffices, and that the log can be read. Throws ConfigError.
 void check_scenario(const Scenario& scenario);
 
 /// The recording of a scenario for one seed: simulates, or reads the log (the seed is then unused).

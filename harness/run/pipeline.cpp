@@ -12,6 +12,7 @@
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "harness/run/stopwatch.hpp"
+#include "harness/scenario/chain.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -225,25 +226,11 @@ std::vector<ScanLines> given_lines(const ScanSet& scans) {
   return lines;
 }
 
-void check_chain(const PipelineSpec& pipeline, bool scans) {
-  static const std::map<std::string, int, std::less<>> kPlaces{
-      {"extract", 0}, {"align", 1}, {"match", 1}, {"map", 2}, {"merge", 2}};
-  int last = -1;
-  for (const auto& slot : pipeline.slots) {
-    const auto place = kPlaces.find(slot.kind);
-    if (place == kPlaces.end() || place->second <= last || (last < 0 && (place->second == 0) != scans))
-      throw ConfigError("pipeline '" + pipeline.name + "': the slot '" + slot.kind + "' cannot stand here; allowed: " +
-                        (scans ? "extract -> " : "") + "(align | match) -> (map | merge)");
-    last = place->second;
-  }
-  if (last < 0) throw ConfigError("pipeline '" + pipeline.name + "' has no slots");
-}
-
 }  // namespace
 
 PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Journal* journal) {
   const bool given = scans.has_given_lines();
-  check_chain(pipeline, !given);
+  if (const auto fault = chain_fault(pipeline, !given)) throw ConfigError(fault->message);
   const std::span<const ModuleChoice> behind_lines = std::span(pipeline.slots).subspan(given ? 0 : 1);
   std::unique_ptr<LineExtractor> extractor;
   if (!given) extractor = Registry<LineExtractor>::make(pipeline.slots.front().module, pipeline.slots.front().params);

@@ -18,6 +18,10 @@ void check_scenarios(const std::vector<Scenario>& scenarios, const RunOptions& o
     check_name("scenario", scenario.name);
     if (!names.insert(scenario.name).second)
       throw ConfigError("two scenarios have the name '" + scenario.name + "'; each needs a folder of its own");
+    if (scenario.pipelines.empty())
+      throw ConfigError("scenario '" + scenario.name +
+                        "' has no pipelines; allowed: at least one in the key `pipelines` (`scanbench simulate` makes "
+                        "recordings without any)");
     std::set<std::string> pipelines;
     for (const auto& pipeline : scenario.pipelines) {
       check_name("pipeline", pipeline.name);

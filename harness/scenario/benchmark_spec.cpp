@@ -1,4 +1,4 @@
-// Reading and keeping what a benchmark is asked to show.
+// Reads and writes the specification of a benchmark page.
 #include "harness/scenario/benchmark_spec.hpp"
 
 #include <fmt/format.h>

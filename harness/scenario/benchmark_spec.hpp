@@ -1,4 +1,4 @@
-// What a benchmark is asked to show: a suite's key `benchmark`, and benchmark.json in its run folder.
+// The specification of a benchmark page: a suite's key `benchmark`, and benchmark.json in its run folder.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +12,18 @@
 namespace scanbench::harness {
 
 struct BenchmarkSpec {
-  std::string about;     ///< the suite's
-  std::string baseline;  ///< pipeline that times are given as ratios to
-  std::string example;   ///< scenario of which one scan is shown
+  std::string about;     ///< the suite's description
+  std::string baseline;  ///< pipeline whose time is 1 in the ratios of times
+  std::string example;   ///< scenario whose scan is shown
 };
 
-/// Reads the key `benchmark` of a suite of these scenarios: {baseline: iepf, example: rooms-1cm}. The example is the
-/// first scenario unless it is named; `about` stays empty. Throws PlacedError for unknown names, and if the scenarios
-/// are not simulated, have not all the same pipelines, or not the metrics segments, efficiency (with matches: true) and
-/// timing.
+/// Reads the key `benchmark` of a suite of these scenarios: {baseline: iepf, example: rooms-1cm}. The default example
+/// is the first scenario; `about` stays empty. Throws PlacedError for unknown names, and unless all scenarios are
+/// simulated, share the same pipelines, and have the metrics segments, efficiency (with matches: true) and timing.
 BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& scenarios);
 
 std::string benchmark_json(const BenchmarkSpec& spec);
-/// Of a run folder; nothing if the run is no benchmark. Throws ConfigError if the file is damaged.
+/// Reads benchmark.json of a run folder; nullopt if the run is no benchmark. Throws ConfigError if the file is damaged.
 std::optional<BenchmarkSpec> load_benchmark(const std::filesystem::path& run);
 
 }  // namespace scanbench::harness

@@ -41,7 +41,8 @@ void add_input(YamlNode& root, const SimulatedInput& input) {
   yaml_add(trajectory, "sweep", yaml_plain(input.sweep ? "true" : "false"));
 }
 
-/// A path with the variable holds anywhere; any other is made absolute, for this text is read from another folder.
+/// A path with the variable is valid in any folder. Any other path is made absolute: this text is read from the run
+/// folder.
 YamlNode path_node(const std::filesystem::path& path, const std::string& as_written) {
   const bool portable = as_written.starts_with("${");
   return yaml_text(portable ? as_written : std::filesystem::absolute(path).lexically_normal().string());
@@ -77,7 +78,7 @@ std::string effective_yaml(const Scenario& scenario) {
   std::visit([&](const auto& input) { add_input(root, input); }, scenario.input);
   YamlNode& seeds = yaml_add(root, "seeds", yaml_sequence());
   for (const std::uint64_t seed : scenario.seeds) seeds.items.push_back(yaml_plain(std::to_string(seed)));
-  YamlNode& pipelines = yaml_add(root, "pipelines", yaml_sequence());
+  YamlNode pipelines = yaml_sequence();
   for (const auto& pipeline : scenario.pipelines) {
     YamlNode node = yaml_map();
     yaml_add(node, "name", yaml_text(pipeline.name));
@@ -85,11 +86,11 @@ std::string effective_yaml(const Scenario& scenario) {
     for (const auto& slot : pipeline.slots) yaml_add(node, slot.kind, choice_node(slot, "module"));
     pipelines.items.push_back(std::move(node));
   }
+  if (!pipelines.items.empty()) yaml_add(root, "pipelines", std::move(pipelines));
   yaml_add(root, "metrics", choices_node(scenario.metrics));
   yaml_add(root, "figures", choices_node(scenario.figures));
   if (!scenario.published_file.empty())
-    yaml_add(root, "published",
-             yaml_text(std::filesystem::absolute(scenario.published_file).lexically_normal().string()));
+    yaml_add(root, "published", path_node(scenario.published_file, scenario.published_as_written));
   YamlNode& limits = yaml_add(root, "limits", yaml_map());
   yaml_add(limits, "seconds", yaml_number(scenario.limits.seconds));
   yaml_add(limits, "memory_mib", yaml_number(scenario.limits.memory_bytes / (1024.0 * 1024.0)));

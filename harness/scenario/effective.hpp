@@ -7,8 +7,8 @@
 
 namespace scanbench::harness {
 
-/// The scenario with every default written out, the world in it, in one canonical form; loading it again, from any
-/// folder, gives the same scenario, the same bytes of this text and of every artefact.
+/// The scenario as YAML, with every default and the world written out. Loading the text again, from any folder, gives
+/// the same scenario, the same text, and the same bytes in every artefact.
 std::string effective_yaml(const Scenario& scenario);
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// Combinations of levels.
+// Reads factors and forms all combinations of their levels.
 #include "harness/scenario/factors.hpp"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ bool in_section(const std::string& set, std::string_view section) {
 std::vector<Variant> read_levels(const YamlEntry& factor) {
   std::vector<Variant> levels;
   for (const auto& level : entries_of(factor.value, "the factor " + factor.key, "{level: {key: value}}")) {
-    check_name(level.key, level.mark, "the level's name");
+    require_folder_name(level.key, level.mark, "the level's name");
     levels.push_back({"-" + level.key, {}, level.mark});
     for (const auto& entry :
          entries_of(level.value, "the level " + level.key, "{key: value}, with dotted keys like sensor.sigma_m"))

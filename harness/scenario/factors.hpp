@@ -1,4 +1,4 @@
-// Factors of a suite: everything that a suite varies besides its scenarios, as levels that override parts of them.
+// Factors of a suite: what it varies besides its scenarios. Each level is a set of overrides.
 //
 //   factors:
 //     sensor: {ladar: {sensor.preset: ladar_2d30}, urg: {sensor.preset: urg_04lx, sensor.quantum_m: 0}}
@@ -14,7 +14,7 @@ namespace scanbench::harness {
 
 /// One level of every factor.
 struct Variant {
-  std::string suffix;             ///< "-urg-5cm": what its scenarios' names end in
+  std::string suffix;             ///< end of the scenarios' names: "-urg-5cm"
   std::vector<std::string> sets;  ///< "key=value", as after --set
   Mark mark;                      ///< of the last factor's level
 };

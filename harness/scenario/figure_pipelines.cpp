@@ -1,4 +1,4 @@
-// The names that figures give, held against the pipelines.
+// Compares the pipelines that figures name with those of the scenario.
 #include "harness/scenario/figure_pipelines.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kParam = "pipeline";
 
-/// What is wrong with the figure's `pipeline`; empty: nothing.
+/// The message about a wrong `pipeline` of the figure; empty if it is right.
 std::string complaint(const ModuleChoice& figure, const std::vector<PipelineSpec>& pipelines) {
   const auto param = figure.params.find(kParam);
   const auto* wanted = param != figure.params.end() ? std::get_if<std::string>(&param->second) : nullptr;
@@ -45,8 +45,8 @@ void check_figure_pipelines(const YamlNode& list, const std::vector<ModuleChoice
 void check_figure_pipelines(Mark mark, const Scenario& scenario) {
   for (const auto& figure : scenario.figures)
     if (const std::string wrong = complaint(figure, scenario.pipelines); !wrong.empty())
-      throw PlacedError(mark, fmt::format("{}: {}; `figures` of the suite take the place of the scenario's own",
-                                          scenario.name, wrong));
+      throw PlacedError(mark,
+                        fmt::format("{}: {}; `figures` of the suite replace the scenario's own", scenario.name, wrong));
 }
 
 TraceChoice traces_drawn(const Scenario& scenario, std::string_view pipeline) {

@@ -1,4 +1,4 @@
-// A figure may show one pipeline: its parameter `pipeline` names it, and the scenario must have it.
+// Checks that the pipelines which figures name in their parameter `pipeline` exist.
 #pragma once
 
 #include <string_view>
@@ -10,8 +10,8 @@
 
 namespace scanbench::harness {
 
-/// Refuses a figure whose `pipeline` (not empty) is none of these: nothing would be drawn. `list` is the YAML that the
-/// figures were read from. Throws PlacedError at that parameter, naming the pipelines that there are.
+/// Throws PlacedError for a figure whose `pipeline` (not empty) is none of these: the figure would be empty. The
+/// message names the existing pipelines. `list` is the YAML that the figures were read from.
 void check_figure_pipelines(const YamlNode& list, const std::vector<ModuleChoice>& figures,
                             const std::vector<PipelineSpec>& pipelines);
 

@@ -1,10 +1,11 @@
-// One switch over the kinds of modules.
+// Selects the registry of a kind of module.
 #include "harness/scenario/modules.hpp"
 
 #include "core/error.hpp"
 #include "core/modules.hpp"
 #include "core/names.hpp"
 #include "harness/files/text_file.hpp"
+#include "harness/scenario/chain.hpp"
 #include "harness/yaml/reader.hpp"
 #include "metrics/metric.hpp"
 #include "render/figure.hpp"
@@ -33,15 +34,13 @@ auto with_kind(std::string_view kind, const Use& use) {
 
 }  // namespace
 
-const std::vector<std::string>& slot_kinds() {
-  static const std::vector<std::string> kinds = {"extract", "align", "match", "map", "merge"};
-  return kinds;
-}
-
 const std::vector<std::string>& module_kinds() {
   static const std::vector<std::string> kinds = [] {
-    std::vector<std::string> all = slot_kinds();
-    all.insert(all.end(), {"metrics", "figure", "trajectory"});
+    std::vector<std::string> all;
+    for (const SlotKind& slot : chain_slots()) all.emplace_back(slot.kind);
+    for (const std::string_view other :
+         {metrics::MetricFamily::kKind, render::Figure::kKind, sim::TrajectoryKind::kKind})
+      all.emplace_back(other);
     return all;
   }();
   return kinds;

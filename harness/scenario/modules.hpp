@@ -1,5 +1,4 @@
-// The registries of all kinds of modules behind one name: what a scenario file, `list` and `describe` look things up
-// in.
+// Lookup of modules of any kind by name, over the registries of all interfaces.
 #pragma once
 
 #include <string>
@@ -16,11 +15,8 @@ struct ModuleEntry {
   const std::vector<ParamSpec>& params;
 };
 
-/// extract, align, match, map, merge, metrics, figure, trajectory.
+/// The slots of the chain (chain.hpp), then metrics, figure, trajectory.
 const std::vector<std::string>& module_kinds();
-
-/// The slots of a pipeline in the order of its chain.
-const std::vector<std::string>& slot_kinds();
 
 /// Alphabetical. Throws ConfigError for an unknown kind.
 std::vector<std::string> module_names(std::string_view kind);
@@ -28,7 +24,8 @@ std::vector<std::string> module_names(std::string_view kind);
 /// The module; throws ConfigError for an unknown kind or name, naming the known ones.
 ModuleEntry find_module(std::string_view kind, std::string_view name);
 
-/// Makes the module and drops it: throws ParamError for parameters that do not go together.
+/// Constructs the module and discards it, to check its parameters. Throws ParamError for parameters that contradict
+/// each other.
 void try_module(std::string_view kind, std::string_view name, const ParamSet& params);
 
 }  // namespace scanbench::harness

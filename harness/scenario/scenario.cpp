@@ -1,4 +1,4 @@
-// Questions about a scenario.
+// Predicates on scenarios and pipelines.
 #include "harness/scenario/scenario.hpp"
 
 #include <algorithm>

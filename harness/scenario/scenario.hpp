@@ -1,4 +1,4 @@
-// A scenario in memory: what is requested, with every default filled in. scenario_file.hpp reads it.
+// A scenario in memory: everything that a run needs to know, with every default filled in. scenario_file.hpp reads it.
 #pragma once
 
 #include <cstdint>
@@ -19,16 +19,16 @@ namespace scanbench::harness {
 /// 2^53: the largest seed that every tool reads back exactly.
 inline constexpr std::uint64_t kLargestSeed = 9007199254740992U;
 
-/// A registered thing with its parameters, all of them.
+/// A registered module with all of its parameters.
 struct ModuleChoice {
-  std::string kind;  ///< slot: extract, align, match, map, merge; or metrics, figure
+  std::string kind;  ///< a slot of the chain (chain.hpp), or metrics, figure, trajectory
   std::string module;
   ParamSet params;
 };
 
 struct PipelineSpec {
   std::string name;
-  std::vector<ModuleChoice> slots;  ///< in the order of the chain: extract -> (align | match) -> (map | merge)
+  std::vector<ModuleChoice> slots;  ///< in the order of the chain (chain.hpp)
   std::string published;            ///< the method's name in Scenario::published_file; may be empty
 };
 
@@ -61,12 +61,12 @@ struct RecordedInput {
   SensorModel sensor;
 };
 
-/// ... or there are no scans, but lines: copies of the world's walls, or those of a file.
+/// ... or lines are given instead of scans: copies of the world's walls, or the lines of a file.
 struct LinesInput {
   std::optional<sim::World> world;           ///< the truth; present for copies
   std::filesystem::path file;                ///< empty: copies
   std::string file_as_written;               ///< in the scenario, with ${SCANBENCH_DATA}
-  std::vector<std::vector<Segment>> frames;  ///< what the file holds
+  std::vector<std::vector<Segment>> frames;  ///< the lines of the file
   ParamSet params;                           ///< of the copies, in the units of the scenario; effective
   sim::LineCopies copies;
 };
@@ -86,11 +86,10 @@ struct Scenario {
   std::vector<PipelineSpec> pipelines;
   std::vector<ModuleChoice> metrics;
   std::vector<ModuleChoice> figures;
-  std::filesystem::path
-      published_file;  ///< values that a paper prints, shown beside ours; empty: none (key `published`)
+  std::filesystem::path published_file;  ///< values that a paper prints (key `published`); empty: none
+  std::string published_as_written;      ///< in the scenario, with ${SCANBENCH_DATA}
   Limits limits;
-  std::vector<std::string>
-      notes;  ///< for the user: what reading passed over, like walls without length in a vector map
+  std::vector<std::string> notes;  ///< for the user: input that was skipped, like walls without length in a vector map
 };
 
 /// True if the recording depends on the seed: it is simulated, not read.

@@ -1,4 +1,4 @@
-// Reading a scenario: the sections in the order of the file.
+// Reads the sections of a scenario in the order of the file.
 #include "harness/scenario/scenario_file.hpp"
 
 #include <fmt/format.h>
@@ -7,10 +7,12 @@
 
 #include "harness/exchange/line_set.hpp"
 #include "harness/exchange/log.hpp"
+#include "harness/files/input_file.hpp"
 #include "harness/files/placed_error.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/scenario/figure_pipelines.hpp"
 #include "harness/scenario/modules.hpp"
+#include "harness/scenario/published.hpp"
 #include "harness/scenario/sections.hpp"
 #include "harness/scenario/shared_keys.hpp"
 #include "harness/scenario/world_file.hpp"
@@ -30,7 +32,7 @@ class ScenarioReader {
     read_schema(map_);
     scenario_.name = map_.text_or("name", scenario_.path.stem().string());
     const YamlNode* name = map_.find("name");
-    check_name(scenario_.name, name != nullptr ? name->mark : root_.mark, "the scenario's name");
+    require_folder_name(scenario_.name, name != nullptr ? name->mark : root_.mark, "the scenario's name");
     scenario_.about = map_.text_or("about", "");
     read_limits();
     scenario_.seeds = read_seeds(map_);
@@ -48,13 +50,16 @@ class ScenarioReader {
       scenario_.figures = read_choices(*node, "figure");
       check_figure_pipelines(*node, scenario_.figures, scenario_.pipelines);
     }
-    if (const YamlNode* node = map_.find("published"))
-      scenario_.published_file = resolve_path(*node, map_.text("published", "a file's path"), scenario_.path);
+    if (const YamlNode* node = map_.find("published")) {
+      scenario_.published_as_written = map_.text("published", "a file's path");
+      scenario_.published_file = resolve_path(*node, scenario_.published_as_written, scenario_.path);
+      check_published(scenario_);
+    }
     map_.done();
   }
 
  private:
-  /// All parameters of a section of nothing but parameters, which may be left out. Angles are in degrees, as written.
+  /// All parameters of an optional section that holds only parameters. Angles are in degrees, as in the file.
   template <class Params>
   static ParamSet read_optional(YamlMap& map, const std::string& key) {
     const std::vector<ParamSpec> specs = param_specs<Params>();
@@ -92,8 +97,7 @@ class ScenarioReader {
       map.done();
       loaded = load_world(resolve_path(*file, as_written, scenario_.path));
       if (loaded.dropped > 0)
-        scenario_.notes.push_back(
-            fmt::format("{}: {} segments without length were passed over", as_written, loaded.dropped));
+        scenario_.notes.push_back(fmt::format("{}: skipped {} segments without length", as_written, loaded.dropped));
     } else {
       loaded.world = read_world(map, scenario_.name);
       map.done();
@@ -151,11 +155,13 @@ class ScenarioReader {
     input.format = map.text("format", "a name");
     const auto specs = at_param(format_node, [&] { return log_param_specs(input.format); });
     if (input.format != "csv")
-      map.require("no_return_m",
-                  "the range in m from which on a reading means that nothing was in range, or 0 if none does");
+      map.require("no_return_m", "the least range in m that means that nothing was in range, or 0 if no reading does");
     input.params = resolve(specs, map.params(specs));
     map.done();
+    at_param(node, [&] { check_log_params(input.format, input.params); });
     input.log = resolve_path(log, input.log_as_written, scenario_.path);
+    at_param(log,
+             [&] { InputFile(input.log).require_at_most(static_cast<std::uint64_t>(scenario_.limits.memory_bytes)); });
     if (const YamlNode* sensor = map_.find("sensor")) {
       read_sensor(*sensor, recorded_sensor_specs(), input.sensor_preset, input.sensor_params, input.sensor);
     } else {
@@ -198,7 +204,7 @@ class ScenarioReader {
   void refuse_many_seeds(std::string_view what) {
     if (scenario_.seeds.size() > 1)
       throw PlacedError(map_.find("seeds")->mark,
-                        fmt::format("seeds has {} values, but {} has no chance in it; allowed: one seed",
+                        fmt::format("seeds has {} values, but {} is the same for every seed; allowed: one seed",
                                     scenario_.seeds.size(), what));
   }
 

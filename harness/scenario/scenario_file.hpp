@@ -1,26 +1,29 @@
-// Reads a scenario file, checks it and fills every default in.
+// Reads a scenario file, checks it, and fills in every default.
 //
 //   schema: 1
 //   name: rooms                                  # optional, default: the file's name without ending
-//   about: what is shown                         # optional
+//   about: two rooms, seen from a corridor       # optional
 //   world: {file: worlds/rooms.yaml}             # relative to the scenario; or the keys of a world file themselves
 //   sensor: {preset: ladar_2d30, sigma_m: 0.02}  # any field may be overridden
 //   trajectory:                                  # kind, its parameters, errors of odometry and tilt
-//     {kind: waypoints, points_m: {A: [1, 1], B: [4, 1]}, scans: 200, odometry: {translation_per_m: 0.02}, sweep:
-//     false}
+//     kind: waypoints
+//     points_m: {A: [1, 1], B: [4, 1]}
+//     scans: 200
+//     odometry: {translation_per_m: 0.02}
+//     sweep: false
 //   seed: 1                                      # or seeds: [1, 2], or seeds: {first: 1, count: 20}; default: seed: 1
 //   pipelines:                                   # slots: extract, then align or match, then map or merge
 //     - {name: iepf, extract: {module: iepf, params: {threshold_m: 0.10}}}
 //   metrics: [borges2000, {name: segments, params: {}}]
 //   figures: [environment]
-//   published: published/rooms.csv               # optional: figures that a paper prints
+//   published: published/rooms.csv               # optional: values that a paper prints
 //   limits: {seconds: 600, memory_mib: 4096}     # of a cell; memory also of a recording before it starts
 //
-// A log takes the place of world, sensor and trajectory: `recording: {log: FILE, format: carmen, ...}` with the options
-// of its format (harness/exchange/log.hpp); `sensor` beside it gives noise and timing, which algorithms may ask for.
-// Lines take the place of sensor and trajectory, and pipelines then have no extract: `lines: {copies: 10,
-// rotation_sigma_deg: 1, shift_sigma_m: 0.02}` are as many copies of the world's walls; `lines: {file: FILE}` is a set
-// of one's own (harness/exchange/line_set.hpp), of which a `world` is the truth. In paths, ${SCANBENCH_DATA} stands for
+// A log replaces world and trajectory: `recording: {log: FILE, format: carmen, ...}` with the options of its format
+// (harness/exchange/log.hpp); `sensor` then gives noise and timing, which algorithms may use.
+// Lines replace sensor and trajectory, and pipelines then have no extract: `lines: {copies: 10,
+// rotation_sigma_deg: 1, shift_sigma_m: 0.02}` are 10 copies of the world's walls; `lines: {file: FILE}` is a set
+// of lines (harness/exchange/line_set.hpp), for which `world` is the truth. In paths, ${SCANBENCH_DATA} is replaced by
 // that environment variable.
 #pragma once
 

@@ -1,13 +1,25 @@
-// Which fields of a sensor a log leaves open.
+// Describes the formats of logs, and selects the fields of a sensor that a log does not state.
 #include "harness/scenario/sections.hpp"
 
 #include <algorithm>
 #include <array>
 #include <string_view>
 
+#include "harness/exchange/log.hpp"
 #include "sim/sensors.hpp"
 
 namespace scanbench::harness {
+
+std::vector<RecordingFormat> recording_formats() {
+  std::vector<RecordingFormat> formats;
+  for (const auto& name : log_formats()) {
+    LogFormatText text = log_format_text(name);
+    text.notes.insert(text.notes.begin(), "recording: {log: FILE, format: " + name +
+                                              ", ...}; FILE may be gzip and begin with ${SCANBENCH_DATA}");
+    formats.push_back({{name, text.summary, ""}, log_param_specs(name), std::move(text.notes)});
+  }
+  return formats;
+}
 
 std::vector<ParamSpec> recorded_sensor_specs() {
   static constexpr std::array<std::string_view, 5> kOfTheLog = {"angle_min_deg", "angle_step_deg", "beams",

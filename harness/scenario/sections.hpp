@@ -1,9 +1,11 @@
-// The small sections of a scenario file as parameters: limits, copies of lines, the sensor beside a log.
+// Parameters of the small sections of a scenario file: limits, copies of lines, the sensor of a log.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/params.hpp"
+#include "core/registry.hpp"
 #include "sim/line_copies.hpp"
 
 namespace scanbench::harness {
@@ -25,9 +27,9 @@ struct LineCopiesParams {
   double shift_sigma_m = 0.0;
   static auto fields() {
     using P = LineCopiesParams;
-    return std::tuple{field("copies", &P::copies, between(1, 10000), "", "how often every wall is there"),
+    return std::tuple{field("copies", &P::copies, between(1, 10000), "", "number of copies of every wall"),
                       field("rotation_sigma_deg", &P::rotation_sigma_deg, at_least(0), "deg",
-                            "standard deviation of the turn of a copy about the world's origin"),
+                            "standard deviation of a copy's rotation about the world's origin"),
                       field("shift_sigma_m", &P::shift_sigma_m, at_least(0), "m",
                             "standard deviation of each coordinate of a copy's shift")};
   }
@@ -37,6 +39,14 @@ struct LineCopiesParams {
             .shift_sigma_m = shift_sigma_m};
   }
 };
+
+/// A format of recorded logs (key `recording`): its options and the rules behind them.
+struct RecordingFormat {
+  ModuleInfo info;
+  std::vector<ParamSpec> params;
+  std::vector<std::string> notes;
+};
+std::vector<RecordingFormat> recording_formats();
 
 /// The fields of a sensor that a log does not state: noise and timing.
 std::vector<ParamSpec> recorded_sensor_specs();

@@ -1,4 +1,4 @@
-// Seeds, pipelines, lists of metrics and figures, paths.
+// Reads seeds, pipelines, lists of metrics and figures, and paths.
 #include "harness/scenario/shared_keys.hpp"
 
 #include <fmt/format.h>
@@ -6,13 +6,17 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <set>
 
 #include "harness/files/placed_error.hpp"
 #include "harness/files/text_file.hpp"
+#include "harness/scenario/chain.hpp"
 #include "harness/scenario/modules.hpp"
 
 namespace scanbench::harness {
 namespace {
+
+constexpr std::size_t kMostSeeds = 100000;
 
 ParamSpec seed_spec(std::string name, Bounds bounds) {
   ParamSpec spec;
@@ -27,7 +31,7 @@ std::uint64_t read_seed(const YamlNode& node, const std::string& name) {
       std::get<std::int64_t>(read_param(node, seed_spec(name, between(0, static_cast<double>(kLargestSeed))))));
 }
 
-// `name` under `key` in a map {key: name, params: {...}}; extra keys are refused.
+// Reads a map {key: name, params: {...}}. Other keys are refused.
 ModuleChoice read_module(const YamlNode& node, const std::string& kind, const std::string& key,
                          const std::string& what) {
   YamlMap map(node, what);
@@ -52,35 +56,19 @@ PipelineSpec read_pipeline(const YamlNode& node, bool scans) {
   YamlMap map(node, "a pipeline");
   PipelineSpec pipeline;
   pipeline.name = map.text("name", "a name for tables and figures");
-  check_name(pipeline.name, map.find("name")->mark, "the pipeline's name");
+  require_folder_name(pipeline.name, map.find("name")->mark, "the pipeline's name");
   pipeline.published = map.text_or("published", "");
-  const YamlNode* nodes[5] = {};
-  for (std::size_t i = 0; i < slot_kinds().size(); ++i) {
-    const std::string& kind = slot_kinds()[i];
-    nodes[i] = map.find(kind);
-    if (nodes[i] != nullptr)
-      pipeline.slots.push_back(read_module(*nodes[i], kind, "module", fmt::format("{} of {}", kind, pipeline.name)));
+  std::vector<Mark> marks;
+  for (const SlotKind& slot : chain_slots()) {
+    const YamlNode* slot_node = map.find(slot.kind);
+    if (slot_node == nullptr) continue;
+    marks.push_back(slot_node->mark);
+    pipeline.slots.push_back(
+        read_module(*slot_node, std::string(slot.kind), "module", fmt::format("{} of {}", slot.kind, pipeline.name)));
   }
   map.done();
-  const auto& [extract, align, match, mapper, merge] = nodes;
-  if (!scans && extract != nullptr)
-    throw PlacedError(extract->mark,
-                      fmt::format("pipeline {} has 'extract', but there are no scans, only lines; allowed: align or "
-                                  "match, then map or merge",
-                                  pipeline.name));
-  if (!scans && pipeline.slots.empty())
-    throw PlacedError(
-        node.mark, fmt::format("pipeline {} has no slot; allowed: align or match, then map or merge", pipeline.name));
-  if (scans && extract == nullptr)
-    throw PlacedError(
-        node.mark, fmt::format("pipeline {} has no 'extract'; allowed: extract, then align or match, then map or merge",
-                               pipeline.name));
-  if (align != nullptr && match != nullptr)
-    throw PlacedError(match->mark,
-                      fmt::format("pipeline {} has both align and match; allowed: one of them", pipeline.name));
-  if (mapper != nullptr && merge != nullptr)
-    throw PlacedError(merge->mark,
-                      fmt::format("pipeline {} has both map and merge; allowed: one of them", pipeline.name));
+  if (const auto fault = chain_fault(pipeline, scans))
+    throw PlacedError(fault->slot < marks.size() ? marks[fault->slot] : node.mark, fault->message);
   return pipeline;
 }
 
@@ -96,8 +84,8 @@ std::vector<std::uint64_t> read_seeds(YamlMap& map) {
   if (many->kind == YamlKind::map) {
     YamlMap range(*many, "seeds");
     const std::uint64_t first = read_seed(range.require("first", "a seed"), "first");
-    const auto count = std::get<std::int64_t>(
-        read_param(range.require("count", "how many seeds"), seed_spec("count", between(1, 100000))));
+    const auto count = std::get<std::int64_t>(read_param(
+        range.require("count", "how many seeds"), seed_spec("count", between(1, static_cast<double>(kMostSeeds)))));
     range.done();
     if (const std::uint64_t last = first + static_cast<std::uint64_t>(count) - 1; last > kLargestSeed)
       throw PlacedError(many->mark,
@@ -105,10 +93,14 @@ std::vector<std::uint64_t> read_seeds(YamlMap& map) {
     for (std::int64_t i = 0; i < count; ++i) seeds.push_back(first + static_cast<std::uint64_t>(i));
     return seeds;
   }
-  for (const auto& node : read_list(*many, "seeds", "a list, [1, 2, 3], or {first: 1, count: 20}")) {
+  std::set<std::uint64_t> seen;
+  const auto& nodes = read_list(*many, "seeds", "a list, [1, 2, 3], or {first: 1, count: 20}");
+  if (nodes.size() > kMostSeeds)
+    throw PlacedError(many->mark, fmt::format("seeds has {} values; allowed: up to {}", nodes.size(), kMostSeeds));
+  for (const auto& node : nodes) {
     seeds.push_back(read_seed(node, "a seed"));
-    if (std::ranges::count(seeds, seeds.back()) > 1)
-      throw PlacedError(node.mark, fmt::format("the seed {} stands here a second time", seeds.back()));
+    if (!seen.insert(seeds.back()).second)
+      throw PlacedError(node.mark, fmt::format("the seed {} occurs a second time", seeds.back()));
   }
   if (seeds.empty()) throw PlacedError(many->mark, "seeds is empty; allowed: at least one");
   return seeds;
@@ -116,12 +108,14 @@ std::vector<std::uint64_t> read_seeds(YamlMap& map) {
 
 std::vector<PipelineSpec> read_pipelines(const YamlNode& node, bool scans) {
   std::vector<PipelineSpec> pipelines;
+  std::set<std::string> names;
   for (const auto& item : read_list(node, "pipelines", "a list of {name, extract, ...}")) {
     pipelines.push_back(read_pipeline(item, scans));
-    if (std::ranges::count(pipelines, pipelines.back().name, &PipelineSpec::name) > 1)
+    if (!names.insert(pipelines.back().name).second)
       throw PlacedError(item.mark,
                         fmt::format("a second pipeline is called {}; allowed: different names", pipelines.back().name));
   }
+  if (pipelines.empty()) throw PlacedError(node.mark, "pipelines is empty; allowed: at least one pipeline");
   return pipelines;
 }
 
@@ -136,12 +130,12 @@ std::vector<ModuleChoice> read_choices(const YamlNode& node, const std::string& 
       choices.push_back(read_module(item, kind, "name", "an element of " + list));
     }
     if (std::ranges::count(choices, choices.back().module, &ModuleChoice::module) > 1)
-      throw PlacedError(item.mark, fmt::format("{} stands in {} a second time", choices.back().module, list));
+      throw PlacedError(item.mark, fmt::format("{} occurs in {} a second time", choices.back().module, list));
   }
   return choices;
 }
 
-void check_name(const std::string& name, Mark mark, const std::string& what) {
+void require_folder_name(const std::string& name, Mark mark, const std::string& what) {
   const auto good = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
            c == '.';
@@ -167,7 +161,7 @@ std::filesystem::path resolve_path(const YamlNode& node, const std::string& text
   if (expanded.find("${") != std::string::npos)
     throw PlacedError(node.mark, quoted_excerpt(text) + " names a variable; allowed: ${SCANBENCH_DATA} and no other");
   const std::filesystem::path path(expanded);
-  // A path on the command line means what it means to the shell.
+  // As for the shell, a path on the command line is relative to the working directory.
   const bool from_command_line = node.mark.line == 0;
   std::filesystem::path result = path.is_absolute() || from_command_line ? path : file.parent_path() / path;
   std::error_code error;

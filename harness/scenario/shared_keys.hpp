@@ -1,4 +1,4 @@
-// Parts of a scenario file that suites share.
+// Readers of the keys that scenarios and suites share.
 #pragma once
 
 #include <filesystem>
@@ -11,25 +11,24 @@
 
 namespace scanbench::harness {
 
-/// The value of `seed` or `seeds`, whichever stands in the map; empty if neither does. Throws PlacedError.
+/// The value of `seed` or `seeds`; empty if the map has neither. Throws PlacedError.
 std::vector<std::uint64_t> read_seeds(YamlMap& map);
 
-/// A list of pipelines; they begin with `extract` where there are scans, and have none where lines are given. Throws
-/// PlacedError.
+/// A list of at least one pipeline, each a valid chain (chain.hpp). Throws PlacedError.
 std::vector<PipelineSpec> read_pipelines(const YamlNode& node, bool scans);
 
 /// A list of names or {name, params}; kind is `metrics` or `figure`. Throws PlacedError.
 std::vector<ModuleChoice> read_choices(const YamlNode& node, const std::string& kind);
 
-/// A name that can be a folder's: letters, digits, _ - . and no leading dot. Throws PlacedError.
-void check_name(const std::string& name, Mark mark, const std::string& what);
+/// Throws PlacedError unless `name` can name a folder: letters, digits, _ - . and no leading dot. `what` is for the
+/// message.
+void require_folder_name(const std::string& name, Mark mark, const std::string& what);
 
-/// A path with ${SCANBENCH_DATA} replaced, relative to the folder of `file`, or to the working directory if it
-/// came from a `--set`. Throws PlacedError if the variable is not
-/// set or the file does not exist.
+/// A path with ${SCANBENCH_DATA} replaced, relative to the folder of `file`, or to the working directory if it came
+/// from a `--set`. Throws PlacedError if the variable is not set or the file does not exist.
 std::filesystem::path resolve_path(const YamlNode& node, const std::string& text, const std::filesystem::path& file);
 
-/// Runs `work` and gives its ParamErrors the place of the parameter in `map`, other ConfigErrors that of the map.
+/// Runs `work`. Its ParamErrors get the place of the parameter in `map`, its other ConfigErrors the place of the map.
 template <class Work>
 auto at_param(const YamlNode& map, Work&& work) {
   try {

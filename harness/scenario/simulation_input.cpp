@@ -1,4 +1,4 @@
-// The world, the sensor and the generated trajectory.
+// Collects the world, the sensor and the generated trajectory of a scenario.
 #include "harness/scenario/simulation_input.hpp"
 
 #include <variant>

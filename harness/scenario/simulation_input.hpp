@@ -1,4 +1,4 @@
-// What the simulator gets of a scenario.
+// The simulator's input for a scenario.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,8 @@
 
 namespace scanbench::harness {
 
-/// What simulate() gets; its trajectory has the waypoints that figures show. Only for scenarios with a simulated world.
+/// The input of simulate(). Its trajectory has the waypoints that figures show. The scenario must be simulated, else
+/// InternalError.
 sim::SimulationInput simulation_input(const Scenario& scenario, std::uint64_t seed);
 
 }  // namespace scanbench::harness

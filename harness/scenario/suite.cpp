@@ -1,4 +1,4 @@
-// Reading a suite: its scenarios, and what replaces parts of them.
+// Reads a suite: its scenarios, and the parts that replace theirs.
 #include "harness/scenario/suite.hpp"
 
 #include <fmt/format.h>
@@ -10,6 +10,7 @@
 #include "harness/files/text_file.hpp"
 #include "harness/scenario/factors.hpp"
 #include "harness/scenario/figure_pipelines.hpp"
+#include "harness/scenario/published.hpp"
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/scenario/shared_keys.hpp"
 #include "harness/scenario/world_file.hpp"
@@ -33,8 +34,10 @@ class SuiteReader {
     if (const YamlNode* node = map_.find("metrics")) metrics_ = read_choices(*node, "metrics");
     figures_node_ = map_.find("figures");
     if (figures_node_ != nullptr) figures_ = read_choices(*figures_node_, "figure");
-    if (const YamlNode* node = map_.find("published"))
-      published_ = resolve_path(*node, map_.text("published", "a file's path"), suite_.path);
+    if (const YamlNode* node = map_.find("published")) {
+      published_as_written_ = map_.text("published", "a file's path");
+      published_ = resolve_path(*node, published_as_written_, suite_.path);
+    }
     const YamlNode* factors = map_.find("factors");
     const YamlNode* benchmark = map_.find("benchmark");
     const YamlNode& files = map_.require("scenarios", "a list of scenario files");
@@ -57,7 +60,7 @@ class SuiteReader {
   }
 
  private:
-  /// A scenario with what the suite puts in place of its parts.
+  /// A scenario whose parts are replaced by those of the suite.
   Scenario load(const std::filesystem::path& path, const std::vector<std::string>& sets) const {
     Scenario scenario = load_scenario(path, pipelines_ != nullptr ? sets_outside_section(sets, "pipelines") : sets);
     if (!seeds_.empty() && has_chance(scenario)) scenario.seeds = seeds_;
@@ -70,11 +73,15 @@ class SuiteReader {
     } else if (pipelines_ != nullptr) {
       check_figure_pipelines(pipelines_->mark, scenario);
     }
-    if (!published_.empty()) scenario.published_file = published_;
+    if (!published_.empty()) {
+      scenario.published_file = published_;
+      scenario.published_as_written = published_as_written_;
+    }
+    check_published(scenario);
     return scenario;
   }
 
-  /// What is wrong here is wrong with the level: without it the scenario was good.
+  /// Errors name the level as their place: without it the scenario was valid.
   Scenario load_variant(const std::filesystem::path& path, const std::string& name, const Variant& variant) const {
     std::vector<std::string> sets = variant.sets;
     sets.insert(sets.end(), sets_.begin(), sets_.end());
@@ -112,6 +119,7 @@ class SuiteReader {
   const YamlNode* figures_node_ = nullptr;
   std::vector<ModuleChoice> figures_;
   std::filesystem::path published_;
+  std::string published_as_written_;
 };
 
 }  // namespace

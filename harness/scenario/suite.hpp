@@ -1,16 +1,15 @@
 // Suites: scenarios x levels of factors x pipelines x seeds in one file.
 //
 //   schema: 1
-//   about: what is compared                             # optional
+//   about: four extractors                              # optional
 //   scenarios: [../abcdef.yaml, ../four_rooms.yaml]     # relative to the suite
-//   seeds: {first: 1, count: 20}                        # optional: in place of the scenarios' own (not of logs)
-//   pipelines: [...]                                    # optional: in place of the scenarios' own
-//   metrics: [...]                                      # optional: in place of the scenarios' own
-//   figures: [...]                                      # optional: in place of the scenarios' own
-//   published: ../published/paper.csv                   # optional: in place of the scenarios' own
+//   seeds: {first: 1, count: 20}                        # optional: replaces the scenarios' own (not of logs)
+//   pipelines: [...]                                    # optional: replaces the scenarios' own
+//   metrics: [...]                                      # optional: replaces the scenarios' own
+//   figures: [...]                                      # optional: replaces the scenarios' own
+//   published: ../published/paper.csv                   # optional: replaces the scenarios' own
 //   factors: {noise: {1cm: {sensor.sigma_m: 0.01}}}     # optional: every scenario at every combination of levels
-//   benchmark: {baseline: iepf, example: rooms-1cm}     # optional: one page that ranks the pipelines over all
-//   scenarios
+//   benchmark: {baseline: iepf, example: rooms-1cm}     # optional: one page that ranks the pipelines
 #pragma once
 
 #include <filesystem>
@@ -29,14 +28,14 @@ struct Suite {
   std::filesystem::path path;
   std::string text;  ///< the file's bytes
   std::string about;
-  /// With the suite's seeds, pipelines and metrics in them; different names. With factors each scenario stands here
-  /// once per combination of levels: rooms-ladar-1cm, rooms-ladar-5cm, ...
+  /// These have the suite's seeds, pipelines and metrics, and different names. With factors, each scenario occurs once per
+  /// combination of levels: rooms-ladar-1cm, rooms-ladar-5cm, ...
   std::vector<Scenario> scenarios;
   std::optional<BenchmarkSpec> benchmark;
 };
 
-/// True if the file has a key `scenarios` at its top, which is what tells a suite from a scenario. Throws ConfigError
-/// for a file that is not YAML.
+/// True if the file has a key `scenarios` at its top: suites have it, scenarios do not. Throws ConfigError for a file
+/// that is not YAML.
 bool is_suite(const std::filesystem::path& path);
 
 /// `sets` are overrides of each scenario, and of the suite's pipelines where it has some. Throws ConfigError with

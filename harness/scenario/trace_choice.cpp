@@ -1,5 +1,9 @@
-// Names of trace rows as a set and as text.
+// Looks up names of trace rows, and lists them as text.
 #include "harness/scenario/trace_choice.hpp"
+
+#include <vector>
+
+#include "core/names.hpp"
 
 namespace scanbench::harness {
 
@@ -13,9 +17,7 @@ bool TraceChoice::wants(std::string_view slot, std::string_view name) const {
 
 std::string TraceChoice::text() const {
   if (all) return "all";
-  std::string joined;
-  for (const auto& name : names) joined += (joined.empty() ? "" : " ") + name;
-  return joined.empty() ? "none" : joined;
+  return names.empty() ? "none" : join(std::vector(names.begin(), names.end()), " ");
 }
 
 }  // namespace scanbench::harness

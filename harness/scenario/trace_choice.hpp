@@ -1,4 +1,4 @@
-// Which rows of a trace a cell keeps.
+// Selects the rows of a trace that a cell keeps.
 #pragma once
 
 #include <functional>
@@ -8,15 +8,14 @@
 
 namespace scanbench::harness {
 
-/// Which rows of a trace are kept.
 struct TraceChoice {
   bool all = false;
   std::set<std::string, std::less<>> names = {};  ///< "slot.name"
 
   bool nothing() const { return !all && names.empty(); }
-  /// Of `slot`, if no name is given.
+  /// True if rows of this name in `slot` are kept; without a name, if any row of `slot` is.
   bool wants(std::string_view slot, std::string_view name = {}) const;
-  std::string text() const;  ///< "all", "none" or the names: tells two choices apart
+  std::string text() const;  ///< "all", "none" or the names; different for different choices
 };
 
 }  // namespace scanbench::harness

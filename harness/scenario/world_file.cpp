@@ -1,4 +1,5 @@
-// World files in YAML. Every wall is checked where it stands, so that the message can say line and column.
+// Reads worlds from YAML and from vector maps. Every wall is checked while it is read: messages name its line and
+// column.
 #include "harness/scenario/world_file.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 namespace scanbench::harness {
 namespace {
 
-// Labels stand in tables and in names of metrics.
+// Labels become entries of CSV tables and names of subjects of metrics.
 const std::string& read_label(const YamlNode& node, std::string_view what) {
   constexpr std::string_view kAllowed = "a label of 1 to 64 characters without comma, quote or line break";
   const std::string& label = read_word(node, what, kAllowed);
@@ -63,8 +64,8 @@ class WorldReader {
       throw PlacedError(mark, fmt::format("wall {} has no length; allowed: two different end points", label));
     const auto [first, is_new] = lines_.emplace(label, mark.line);
     if (!is_new)
-      throw PlacedError(
-          mark, fmt::format("wall {} stands here a second time; the first is in line {}", label, first->second));
+      throw PlacedError(mark,
+                        fmt::format("wall {} occurs a second time; the first is in line {}", label, first->second));
     world_.walls.push_back({std::move(label), segment});
   }
 
@@ -130,10 +131,11 @@ class WorldReader {
     double speed_mps = 1.0;
     bool loop = false;
     static auto fields() {
-      return std::tuple{field("radius_m", &MovingParams::radius_m, above(0), "m", "radius"),
-                        field("path_m", &MovingParams::path_m, any_number(), "m", "points of the path"),
-                        field("speed_mps", &MovingParams::speed_mps, above(0), "m/s", "speed along the path"),
-                        field("loop", &MovingParams::loop, "back and forth, instead of staying at the end")};
+      return std::tuple{
+          field("radius_m", &MovingParams::radius_m, above(0), "m", "radius"),
+          field("path_m", &MovingParams::path_m, any_number(), "m", "points of the path"),
+          field("speed_mps", &MovingParams::speed_mps, above(0), "m/s", "speed along the path"),
+          field("loop", &MovingParams::loop, "true: back and forth along the path; false: stays at its last point")};
     }
   };
 
@@ -181,7 +183,7 @@ YamlNode row(std::initializer_list<double> numbers, const std::string& label) {
   return node;
 }
 
-// Checks of the world as a whole, which have no line of their own.
+// Checks the world as a whole. These errors have no line.
 void validate_in_file(const sim::World& world, const std::string& file) {
   try {
     sim::validate(world);
@@ -234,6 +236,8 @@ LoadedWorld parse_vector_map(std::string_view text, const std::string& file) {
         v[i] = *parsed;
       }
       const Segment segment{{v[0], v[1]}, {v[2], v[3]}};
+      if (loaded.world.walls.size() == kMaxVectorMapWalls)
+        throw PlacedError({number, 1}, fmt::format("more than {} walls", kMaxVectorMapWalls));
       if (segment.length() > 0)
         loaded.world.walls.push_back({std::to_string(number), segment});
       else
@@ -247,7 +251,10 @@ LoadedWorld parse_vector_map(std::string_view text, const std::string& file) {
 }
 
 LoadedWorld load_world(const std::filesystem::path& path) {
-  std::string text = read_text_file(path, kMaxWorldBytes);
+  std::string text = read_text_file(
+      path, kMaxWorldBytes,
+      "a world file in YAML, or a vector map (name ends in .txt or .txt.gz) with x1, y1, x2, y2 in metres "
+      "per line; pictures and grid maps are not read");
   if (is_vector_map(path)) return parse_vector_map(text, path.string());
   sim::World world = parse_world(text, path.string());
   return {std::move(world), std::move(text), 0};

@@ -12,12 +12,15 @@
 //     box: [[2, 1], [3, 1], [3, 2]]
 //   circles:                                          # return beams but are no lines of the truth
 //     - [pillar, 5, 3, 0.2]                           # [label, x, y, radius]
-//   moving:                                           # round bodies on their way; in metres, as the names say
+//   moving:                                           # round bodies that move; in metres, whatever unit_m says
 //     - {label: person, radius_m: 0.2, path_m: [[1, 1], [5, 1]], speed_mps: 1.2, loop: true}
 //
-// A file that ends in .txt or .txt.gz is a vector map as robot localisation uses it: "x1, y1, x2, y2" per line (commas
+// loop: false moves a body along its path once, after which it stays at the last point; loop: true moves it to the last
+// point, back to the first, and so on. It has the first point when the recording starts.
+//
+// A file that ends in .txt or .txt.gz is a vector map as used for robot localisation: "x1, y1, x2, y2" per line (commas
 // or blanks), metres, `#` begins a comment; walls are labelled with their line's number. Segments without length are
-// dropped there and counted.
+// skipped and counted.
 #pragma once
 
 #include <filesystem>
@@ -29,6 +32,9 @@
 #include "sim/world.hpp"
 
 namespace scanbench::harness {
+
+/// The largest number of walls in a vector map: more do not fit into an effective scenario (kMaxYamlNodes).
+inline constexpr std::size_t kMaxVectorMapWalls = 300000;
 
 struct LoadedWorld {
   sim::World world;  ///< metres
@@ -43,8 +49,8 @@ LoadedWorld load_world(const std::filesystem::path& path);
 sim::World parse_world(std::string_view text, const std::string& file);
 LoadedWorld parse_vector_map(std::string_view text, const std::string& file);
 
-/// The world of a map that is being read: a world file's, or one written into a scenario. Asks for every key of the
-/// format except `schema`, and leaves done() to the caller. Throws PlacedError.
+/// Reads a world from the map of a world file or of a scenario's key `world`. Requests every key of the format except
+/// `schema`; the caller calls done(). Throws PlacedError.
 sim::World read_world(YamlMap& map, const std::string& default_name);
 
 /// The world as a map that read_world() reads back to the same numbers (metres, every wall a segment).

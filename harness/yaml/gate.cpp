@@ -1,4 +1,4 @@
-// The event handler that builds the tree and refuses what a scenario has no use for.
+// Builds the tree from yaml-cpp's events and refuses the parts of YAML that scenarios do not use.
 #include "harness/yaml/gate.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 namespace scanbench::harness {
 namespace {
 
-// yaml-cpp reads a whole line ahead when the line begins with a bracket; this bounds what that costs.
+// yaml-cpp reads a whole line ahead if it begins with a bracket. This bounds the cost.
 constexpr std::size_t kMaxLineBytes = std::size_t{1} << 20;
 
 Mark mark_of(const YAML::Mark& mark) {
@@ -70,7 +70,7 @@ class TreeBuilder : public YAML::EventHandler {
 
  private:
   struct Open {
-    YamlNode* node;  // stays in place: the vector that holds it grows only after this node is closed
+    YamlNode* node;  // stays valid: the vector that holds it grows only after this node is closed
     bool has_key = false;
     std::unordered_map<std::string, int> lines;  // of the keys seen
   };
@@ -83,13 +83,17 @@ class TreeBuilder : public YAML::EventHandler {
     if (key == "<<") throw PlacedError(mark_of(mark), "a merge key (<<); allowed: keys written out");
     const auto [earlier, is_new] = open_.back().lines.emplace(key, mark.line + 1);
     if (!is_new)
-      throw PlacedError(mark_of(mark), fmt::format("the key {} stands here a second time; the first is in line {}",
+      throw PlacedError(mark_of(mark), fmt::format("the key {} occurs a second time; the first is in line {}",
                                                    quoted_excerpt(key), earlier->second));
+    if (open_.back().lines.size() > kMaxYamlKeys)
+      throw PlacedError(mark_of(mark), fmt::format("a map of more than {} keys", kMaxYamlKeys));
     open_.back().node->entries.push_back({key, mark_of(mark), {}});
     open_.back().has_key = true;
   }
 
   YamlNode& add(YamlKind kind, const YAML::Mark& mark) {
+    if (++nodes_ > kMaxYamlNodes)
+      throw PlacedError(mark_of(mark), fmt::format("more than {} values in a file", kMaxYamlNodes));
     YamlNode* node = &root_;
     if (!open_.empty()) {
       Open& parent = open_.back();
@@ -118,7 +122,7 @@ class TreeBuilder : public YAML::EventHandler {
     if (anchor != 0) throw PlacedError(mark_of(mark), "an anchor (&name); allowed: values written out");
   }
 
-  // The parser says "?" for plain and "!" for quoted values that carry no tag.
+  // The parser's tag is "?" for plain and "!" for quoted values without a tag.
   static void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
     if (!tag.empty() && tag != "?" && tag != "!")
       throw PlacedError(mark_of(mark), "a tag (" + quoted_excerpt(tag) + "); allowed: values without tags");
@@ -126,6 +130,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   YamlNode root_;
   std::vector<Open> open_;
+  std::size_t nodes_ = 0;
 };
 
 void check_bytes(std::string_view text, std::size_t max_bytes) {

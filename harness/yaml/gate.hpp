@@ -1,9 +1,9 @@
-// The gate in front of every YAML file: a tree of plain nodes, or a refusal with the place.
+// Parses YAML into a tree of maps, lists and scalars, and refuses everything else with line and column.
 //
 // yaml-cpp 0.7 accepts duplicate keys (the last one wins), ignores merge keys, follows aliases until a file of 300
-// bytes takes seconds or crashes, and loads the first of several documents without a word. The gate listens to its
-// parser's events and refuses all of that: anchors, aliases, merge keys, tags, duplicate keys, keys that are not plain
-// words, nesting deeper than 32, several documents, too large files. What is left is a tree of maps, lists and scalars.
+// bytes takes seconds or crashes, and loads only the first of several documents. This parser reads yaml-cpp's
+// events and refuses anchors, aliases, merge keys, tags, duplicate keys, keys that are not plain words, nesting deeper
+// than 32 levels, several documents, and files with too many bytes, nodes or keys.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct YamlEntry;
 
 struct YamlNode {
   YamlKind kind = YamlKind::null;
-  bool quoted = false;  ///< of a scalar: it is text, whatever it looks like
+  bool quoted = false;  ///< of a scalar: it is text, even if it looks like a number
   Mark mark;
   std::string text;                ///< of a scalar
   std::vector<YamlNode> items;     ///< of a sequence
@@ -41,6 +41,8 @@ struct YamlEntry {
 
 inline constexpr std::size_t kMaxYamlBytes = std::size_t{8} << 20;
 inline constexpr int kMaxYamlDepth = 32;
+inline constexpr std::size_t kMaxYamlKeys = 100000;    ///< of one map
+inline constexpr std::size_t kMaxYamlNodes = 2000000;  ///< of a file: about 200 MB
 
 /// The one document of `text`. Throws PlacedError.
 YamlNode parse_yaml(std::string_view text, std::size_t max_bytes = kMaxYamlBytes);

@@ -1,4 +1,4 @@
-// From nodes to checked values.
+// Turns YAML nodes into checked values.
 #include "harness/yaml/reader.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace scanbench::harness {
 namespace {
 
-// 010 is 8 to some readers and 10 to others.
+// Some YAML readers take 010 for 8, others for 10.
 bool has_leading_zero(std::string_view text) {
   if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
   return text.size() > 1 && text[0] == '0' && text[1] >= '0' && text[1] <= '9';
@@ -120,7 +120,7 @@ const YamlNode* YamlMap::find(std::string_view key) {
 const YamlNode& YamlMap::require(std::string_view key, std::string_view allowed) {
   const YamlNode* value = find(key);
   if (value == nullptr) {
-    // A misspelt key is the likelier cause of a missing one: say so where it stands.
+    // A misspelt key is the likelier cause: the message then names the place of that key.
     for (const auto& entry : node_->entries)
       if (std::ranges::find(known_, entry.key) == known_.end() && nearest_name(entry.key, {std::string(key)}) == key)
         throw PlacedError(

@@ -1,5 +1,5 @@
-// Typed reading of YAML trees: every key is asked for by somebody or refused, every value is checked against a
-// ParamSpec, every error stands at its line and column.
+// Typed reading of YAML trees. A key that no reader requests is refused, every value is checked against a ParamSpec,
+// and every error names line and column.
 #pragma once
 
 #include <set>
@@ -12,16 +12,17 @@
 
 namespace scanbench::harness {
 
-/// A map being read. What it was asked for is what it knows; done() refuses the rest.
+/// A map that is being read. The keys requested from it are its known keys; done() refuses all others.
 class YamlMap {
  public:
-  /// `what` names the map in messages: "the scenario", "sensor", "params of iepf". Throws PlacedError if it is none.
+  /// `what` names the map in messages: "the scenario", "sensor", "params of iepf". Throws PlacedError if the node is no
+  /// map.
   YamlMap(const YamlNode& node, std::string what);
 
   const std::string& what() const { return what_; }
   Mark mark() const { return node_->mark; }
 
-  /// The key's value or nullptr; the key is known from now on.
+  /// The key's value, or nullptr. The key is known from now on.
   const YamlNode* find(std::string_view key);
   /// The key's value; throws PlacedError, with `allowed`, if it is missing.
   const YamlNode& require(std::string_view key, std::string_view allowed);
@@ -29,10 +30,10 @@ class YamlMap {
   std::string text(std::string_view key, std::string_view allowed);
   std::string text_or(std::string_view key, std::string fallback);
 
-  /// The values of the keys that `specs` name, checked; missing keys are absent. Bounds and types as the specs say.
+  /// The values of the keys that `specs` name, checked against their types and bounds. Missing keys are absent.
   ParamSet params(const std::vector<ParamSpec>& specs);
 
-  /// Throws PlacedError for the first key that nobody asked for; names the known ones and the nearest.
+  /// Throws PlacedError for the first key that was not requested. The message lists the known keys and the nearest one.
   void done() const;
 
  private:
@@ -50,7 +51,7 @@ ParamValue read_param(const YamlNode& node, const ParamSpec& spec);
 /// A scalar's text, quoted or plain, numbers included (a wall's label may be 1). Throws PlacedError.
 const std::string& read_word(const YamlNode& node, std::string_view name, std::string_view allowed);
 
-/// A finite number; `name` and `unit` are for the message. Fast: worlds have many.
+/// A finite number; `name` and `unit` are for the message. Worlds have many numbers: this is faster than read_param().
 double read_number(const YamlNode& node, std::string_view name, std::string_view unit = "");
 
 /// What a node is, for messages: "empty", "a list", "'010' (a leading zero: some read 8, some 10)".

@@ -1,4 +1,4 @@
-// `--set key=value`: overrides on the tree, before anything is checked.
+// Applies `--set key=value` overrides to the tree before it is checked.
 #include "harness/yaml/sets.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ void mark_all(YamlNode& node, Mark mark) {
   }
 }
 
-// What an element of a list answers to: `name` of a map, or itself.
+// The name by which an override selects an element of a list: a map's `name`, or a scalar's text.
 std::string element_name(const YamlNode& item) {
   if (item.kind == YamlKind::scalar) return item.text;
   const YamlNode* name = item.find("name");

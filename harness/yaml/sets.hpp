@@ -9,7 +9,7 @@
 namespace scanbench::harness {
 
 /// Applies "key=value" overrides to a tree before it is read: dotted keys; elements of a list by number or by their
-/// `name`. The value is YAML. Maps that are not there yet are added, so that their reader can accept or refuse the key.
+/// `name`. The value is YAML. Missing maps are added; their reader then accepts or refuses the key.
 /// Nodes get the mark (0, index of the override). Throws PlacedError for a path that cannot be followed.
 void apply_sets(YamlNode& root, const std::vector<std::string>& sets);
 

@@ -1,4 +1,4 @@
-// Trees back to YAML text, in one canonical form: equal trees give equal bytes.
+// The canonical form: maps in block style, lists of scalars in flow style, quotes only where needed.
 #include "harness/yaml/writer.hpp"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ bool is_scalar(const YamlNode& node) {
   return node.kind == YamlKind::scalar || node.kind == YamlKind::null;
 }
 
-// Points, rows and named points stand in one line: nothing but scalars two levels down.
+// True for points, rows and named points, which are written in one line: they hold only scalars two levels down.
 bool fits_flow(const YamlNode& node, int levels = 1) {
   const auto fits = [&](const YamlNode& child) {
     return is_scalar(child) || (levels > 0 && child.kind == YamlKind::sequence && fits_flow(child, 0));

@@ -1,4 +1,4 @@
-// YAML trees as text, in one canonical form: equal trees give equal bytes.
+// Writes YAML trees as text in one canonical form: equal trees give equal bytes.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace scanbench::harness {
 /// style, text in quotes where it needs them. Ends with a line break.
 std::string write_yaml(const YamlNode& node);
 
-// Making trees to write.
+// Constructors of nodes.
 YamlNode yaml_text(std::string text);  ///< quoted when written if it could be taken for something else
 YamlNode yaml_number(double value);
-YamlNode yaml_plain(std::string text);  ///< a scalar as it stands: true, false, a whole number
+YamlNode yaml_plain(std::string text);  ///< a scalar written without quotes: true, false, a whole number
 YamlNode yaml_map();
 YamlNode yaml_sequence();
 /// Appends an entry to a map and returns its value.

@@ -26,6 +26,8 @@
 namespace scanbench::sim {
 namespace {
 
+constexpr double kFarSight = std::numeric_limits<double>::infinity();  // a range that reaches every wall
+
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -219,21 +221,27 @@ TEST(CheckClear, NamesTheWallAndThePlaceThatAPathCrosses) {
   World world = test::box_world(10, 10);
   world.walls.push_back({"door", {{5, 4}, {5, 6}}});
   EXPECT_EQ(complaint([&] {
-              check_clear(world, drive({{1, 5, 0}, {9, 5.5, 0}}));
+              check_clear(world, drive({{1, 5, 0}, {9, 5.5, 0}}), kFarSight);
             }),
             "the path from (1, 5) m to (9, 5.5) m crosses wall 'door' at (5, 5.25) m; paths must keep clear of walls");
-  EXPECT_THAT(complaint([&] { check_clear(world, drive({{5, 1, 0}, {5, 9, 0}})); }), HasSubstr("'door' at (5, 4) m"));
-  EXPECT_THAT(complaint([&] { check_clear(world, drive({{1, 4, 0}, {9, 4, 0}})); }), HasSubstr("'door' at (5, 4) m"));
-  EXPECT_NO_THROW(check_clear(world, drive({{1, 3.9, 0}, {9, 3.9, 0}})));
+  EXPECT_THAT(complaint([&] {
+                check_clear(world, drive({{5, 1, 0}, {5, 9, 0}}), kFarSight);
+              }),
+              HasSubstr("'door' at (5, 4) m"));
+  EXPECT_THAT(complaint([&] {
+                check_clear(world, drive({{1, 4, 0}, {9, 4, 0}}), kFarSight);
+              }),
+              HasSubstr("'door' at (5, 4) m"));
+  EXPECT_NO_THROW(check_clear(world, drive({{1, 3.9, 0}, {9, 3.9, 0}}), kFarSight));
   // Placed sensors have no path; a known path takes precedence over the chords between the poses.
   Trajectory placed = drive({{1, 5, 0}, {9, 5.5, 0}});
   placed.continuous = false;
-  EXPECT_NO_THROW(check_clear(world, placed));
+  EXPECT_NO_THROW(check_clear(world, placed, kFarSight));
   Trajectory around = drive({{4, 5, 0}, {6, 5, 0}});
   around.path = {{4, 5}, {4, 3}, {6, 3}, {6, 5}};
-  EXPECT_NO_THROW(check_clear(world, around));
+  EXPECT_NO_THROW(check_clear(world, around, kFarSight));
   around.path = {{4, 5}, {-1, 5}};
-  EXPECT_THAT(complaint([&] { check_clear(world, around); }), HasSubstr("'w4' at (0, 5) m"));
+  EXPECT_THAT(complaint([&] { check_clear(world, around, kFarSight); }), HasSubstr("'w4' at (0, 5) m"));
 }
 
 // Short walls in a large world, so that most paths are clear; the error names the first wall in the world's order.
@@ -256,7 +264,7 @@ TEST(CheckClear, FindsTheSameWallAsABruteForceSearch) {
     Trajectory trajectory = drive({Pose2(100, 100, 0)});
     trajectory.path = {way.a, way.b};
     const auto first = std::ranges::find_if(world.walls, [&](const Wall& w) { return crosses(way, w.segment); });
-    const std::string said = complaint([&] { check_clear(world, trajectory); });
+    const std::string said = complaint([&] { check_clear(world, trajectory, kFarSight); });
     if (first == world.walls.end()) {
       ++clear;
       EXPECT_EQ(said, "no error");
@@ -292,16 +300,16 @@ TEST(CheckClear, NamesTheBodyThatAPathOrASensorIsIn) {
   world.circles.push_back({"pillar", {5, 5}, 0.5});
   world.moving.push_back({"person", 0.3, {{1, 8}, {9, 8}}, 1.0, false});
   EXPECT_THAT(complaint([&] {
-                check_clear(world, drive({{1, 5.4, 0}, {9, 5.4, 0}}));
+                check_clear(world, drive({{1, 5.4, 0}, {9, 5.4, 0}}), kFarSight);
               }),
               HasSubstr("runs through circle 'pillar', radius 0.5 m about (5, 5) m"));
-  EXPECT_NO_THROW(check_clear(world, drive({{1, 5.6, 0}, {9, 5.6, 0}})));
+  EXPECT_NO_THROW(check_clear(world, drive({{1, 5.6, 0}, {9, 5.6, 0}}), kFarSight));
   EXPECT_THAT(complaint([&] {
-                check_clear(world, drive({{5, 4.6, 0}}));
+                check_clear(world, drive({{5, 4.6, 0}}), kFarSight);
               }),
               HasSubstr("scan 0: the sensor at (5, 4.6) m is inside circle 'pillar'"));
   EXPECT_THAT(complaint([&] {
-                check_clear(world, drive({{2, 7.9, 0}, {2, 7.9, 1}}));
+                check_clear(world, drive({{2, 7.9, 0}, {2, 7.9, 1}}), kFarSight);
               }),
               HasSubstr("scan 1: the sensor at (2, 7.9) m is inside moving body 'person' at 1 s"));
 }
@@ -309,8 +317,8 @@ TEST(CheckClear, NamesTheBodyThatAPathOrASensorIsIn) {
 TEST(CheckClear, RefusesSensorsOnWallsOrWhereNothingCanBeSeen) {
   const World world = test::borges_world();
   EXPECT_NO_THROW(check_clear(world, drive({{-3, -3, 0}}), 30.0));  // free air is fine
-  EXPECT_THAT(complaint([&] { check_clear(world, drive({{1.5505, 1, 0}})); }), HasSubstr("is on wall 'w1'"));
-  EXPECT_NO_THROW(check_clear(world, drive({{1.552, 1, 0}})));
+  EXPECT_THAT(complaint([&] { check_clear(world, drive({{1.5505, 1, 0}}), kFarSight); }), HasSubstr("is on wall 'w1'"));
+  EXPECT_NO_THROW(check_clear(world, drive({{1.552, 1, 0}}), kFarSight));
   EXPECT_THAT(
       complaint([&] {
         check_clear(world, drive({{-10, 4, 0}}), 9.5);
@@ -319,10 +327,10 @@ TEST(CheckClear, RefusesSensorsOnWallsOrWhereNothingCanBeSeen) {
   const double nan = std::nan("");
   Trajectory wild;
   wild.poses = {{0.0, Pose2(Vec2(nan, 0.0), 0.0)}};
-  EXPECT_THAT(complaint([&] { check_clear(world, wild); }), HasSubstr("not a finite number"));
+  EXPECT_THAT(complaint([&] { check_clear(world, wild, kFarSight); }), HasSubstr("not a finite number"));
   Trajectory standing;
   standing.poses = {{1.0, {-3, -3, 0}}, {1.0, {-3, -3, 0}}};
-  EXPECT_THAT(complaint([&] { check_clear(world, standing); }), HasSubstr("scan 1: its time is not after"));
+  EXPECT_THAT(complaint([&] { check_clear(world, standing, kFarSight); }), HasSubstr("scan 1: its time is not after"));
 }
 
 }  // namespace

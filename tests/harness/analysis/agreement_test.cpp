@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "harness/analysis/agreement_files.hpp"
-#include "harness/analysis/published.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/report/agreement_tables.hpp"
 #include "harness/report/paper_tables.hpp"
 #include "harness/report/scenario_tables.hpp"
+#include "harness/scenario/published.hpp"
 #include "harness/store/summary.hpp"
 #include "tests/support/runs.hpp"
 

@@ -156,7 +156,7 @@ TEST(CsvLog, ColumnsSayWhatTheFieldsAre) {
 }
 
 TEST(CsvLog, InfinitiesAndNanAreAllowedAmongTheRanges) {
-  const Recording r = csv("inf -inf nan 2\n");
+  const Recording r = csv("inf -inf nan 2\n", {{"beams", std::int64_t{4}}});
   const auto& ranges = r.observed.frames[0].ranges;
   EXPECT_EQ(ranges[0], kInf);
   EXPECT_EQ(ranges[1], -kInf);
@@ -177,6 +177,60 @@ TEST(CsvLog, RefusalsNamePlaceAndFinding) {
   EXPECT_THAT(refusal("1\n", {{"columns", std::string("t_s")}}), HasSubstr("columns has no 'ranges'"));
   EXPECT_THAT(refusal("# nothing\n"), HasSubstr("no row with a scan"));
   EXPECT_THAT(config_refusal([] { parse_log("1 2\n", "l.csv", "csv", {}, sensor()); }), HasSubstr("step_deg is 0"));
+}
+
+TEST(CsvLog, AVectorMapIsNoLogOfFourBeams) {
+  const std::string map = "0, 0, 4, 0\n4, 0, 4, 3\n";
+  EXPECT_THAT(config_refusal([&] { csv(map); }), HasSubstr("l.csv:1:1: a row of four numbers: a vector map"));
+  EXPECT_EQ(csv(map, {{"beams", std::int64_t{4}}}).observed.frames.size(), 2U);
+}
+
+TEST(LogParams, AreCheckedWithoutTheLog) {
+  const auto refusal = [](const std::string& format, const ParamSet& params) {
+    return config_refusal([&] { check_log_params(format, params); });
+  };
+  EXPECT_EQ(refusal("csv", {{"step_deg", 1.0}}), "");
+  EXPECT_EQ(refusal("csv", {{"beams", std::int64_t{1}}}), "") << "a single beam needs no step";
+  EXPECT_THAT(refusal("csv", {}), HasSubstr("step_deg is 0"));
+  EXPECT_THAT(refusal("csv", {{"step_deg", 1.0}, {"columns", std::string("t_s rangs")}}), HasSubstr("columns has 'rangs'"));
+  EXPECT_EQ(refusal("carmen", {}), "");
+}
+
+TEST(LogFormats, EveryFormatSaysHowItsAnglesFollow) {
+  for (const auto& format : log_formats()) {
+    const LogFormatText text = log_format_text(format);
+    EXPECT_FALSE(text.summary.empty());
+    EXPECT_THAT(text.notes, testing::Contains(HasSubstr("beam angles"))) << format;
+  }
+}
+
+TEST(Log, MoreThanTheLimitIsRefusedWithoutKeepingIt) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& name, const std::string& bytes) {
+    return config_refusal([&] { read_log(folder.write(name, bytes), "carmen", {}, sensor(), 1 << 28); });
+  };
+  EXPECT_THAT(refusal("line.gz", gzip("FLASER " + std::string(17 << 20, '1'))), HasSubstr("line.gz: a line longer than 16 MiB"));
+  EXPECT_THAT(refusal("zeros.gz", gzip(std::string(5 << 20, '\0'))), HasSubstr("zeros.gz:1:1: a byte 0"));
+  std::string blanks;
+  for (int i = 0; i < 4000; ++i) blanks += std::string(9999, ' ') + "\n";
+  EXPECT_THAT(refusal("blanks.gz", gzip(blanks)), HasSubstr("blanks.gz: needs about"));
+}
+
+TEST(CheckScenario, ReadsTheLog) {
+  const TemporaryFolder folder;
+  const std::string head = "schema: 1\nrecording: {log: l.log, format: carmen, no_return_m: 80}\n";
+  folder.write("l.log", "ODOM 1 2 3\n");
+  const auto scenario = parse_scenario(head, folder.path() / "s.yaml");
+  EXPECT_THAT(config_refusal([&] { check_scenario(scenario); }), HasSubstr("l.log:1:1: no FLASER"));
+  folder.write("l.log", flaser(180, 1, kTail));
+  EXPECT_EQ(config_refusal([&] { check_scenario(scenario); }), "");
+}
+
+TEST(Scenario, ALogThatIsNoFileIsRefusedWhereItIsNamed) {
+  EXPECT_THAT(config_refusal([] {
+                parse_scenario("schema: 1\nrecording: {log: /dev/zero, format: carmen, no_return_m: 80}\n", "s.yaml");
+              }),
+              HasSubstr("s.yaml:2:18: /dev/zero: not a regular file"));
 }
 
 TEST(DpslamLog, TakesOdometryAndLaserInTurns) {

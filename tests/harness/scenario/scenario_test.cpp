@@ -231,7 +231,7 @@ TEST(Suite, ReplacesPipelinesMetricsAndPublishedValues) {
   EXPECT_EQ(suite.scenarios[0].pipelines[0].name, "lt");
   EXPECT_TRUE(suite.scenarios[0].metrics.empty());
   EXPECT_EQ(suite.scenarios[0].limits.seconds, 3.0);
-  folder.write("paper.csv", "metric,subject,method,value,unit\n");
+  folder.write("paper.csv", "metric,subject,method,value,unit\nn_lines,a,LT,1,\n");
   const auto paper = folder.write("p.yaml", "schema: 1\nscenarios: [one.yaml]\npublished: paper.csv\n");
   EXPECT_EQ(load_suite(paper).scenarios[0].published_file.filename(), "paper.csv");
   const auto twice = folder.write("t.yaml", "schema: 1\nscenarios: [one.yaml, one.yaml]\n");
@@ -244,6 +244,30 @@ TEST(MakeRecording, OneScanPerPoseWithTheTruth) {
   EXPECT_EQ(r.observed.frames[0].ranges.size(), 451U);
   ASSERT_TRUE(r.truth.has_value());
   EXPECT_EQ(r.truth->walls.size(), 3U);
+}
+
+TEST(CheckScenario, FindsASensorThatIsOutOfRangeOfEveryWall) {
+  const auto refusal = [](const std::string& range) {
+    return config_refusal([&] { check_scenario(parse_scenario(kSmall, "x.yaml", {"sensor.range_max_m=" + range})); });
+  };
+  EXPECT_EQ(refusal("2"), "");  // walls are 1 m away
+  EXPECT_THAT(refusal("0.9"), HasSubstr("x.yaml: "));
+}
+
+TEST(Scenario, WithoutPipelinesItsEffectiveFormHasNoneEither) {
+  std::string text = kSmall;
+  text.erase(text.find("pipelines"), text.find("metrics") - text.find("pipelines"));
+  const Scenario s = parse_scenario(text, "x.yaml");
+  EXPECT_TRUE(s.pipelines.empty());
+  expect_stable(s);
+}
+
+TEST(Suite, KeepsThePathOfPublishedValuesAsWritten) {
+  const TemporaryFolder folder;
+  folder.write("one.yaml", kSmall);
+  folder.write("paper.csv", "metric,subject,method,value,unit\nn_lines,a,LT,1,\n");
+  const auto file = folder.write("p.yaml", "schema: 1\nscenarios: [one.yaml]\npublished: paper.csv\n");
+  EXPECT_EQ(load_suite(file).scenarios[0].published_as_written, "paper.csv");
 }
 
 TEST(MakeRecording, SaysTheArithmeticBeforeItTakesTheMemory) {

@@ -107,6 +107,10 @@ TEST(VectorMap, RealBuildingMapsHaveTheirKnownSizes) {
 TEST(TextFile, RefusesWhatIsNoRegularFileOrDamaged) {
   EXPECT_THAT(config_refusal([] { read_text_file("/nonexistent/x", 10); }), HasSubstr("no such file"));
   EXPECT_THAT(config_refusal([] { read_text_file("/dev/zero", 10); }), HasSubstr("not a regular file"));
+  const TemporaryFolder pictures;
+  const std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+  EXPECT_THAT(config_refusal([&] { load_world(pictures.write("plan.png", png)); }),
+              testing::AllOf(HasSubstr("plan.png:3:1: a byte 0"), HasSubstr("a world file in YAML, or a vector map")));
   EXPECT_THAT(config_refusal([] { read_text_file("/", 10); }), HasSubstr("not a regular file"));
   const TemporaryFolder folder;
   const auto plain = folder.write("a.txt", "hello");

@@ -61,7 +61,7 @@ TEST(YamlGate, KeepsOrderPlacesAndQuotes) {
 
 TEST(YamlGate, RefusesWhatYamlCppWouldLetThrough) {
   EXPECT_THAT(parse_refusal("a: 1\nb: 2\na: 3\n"),
-              HasSubstr("3:1: the key 'a' stands here a second time; the first is in line 1"));
+              HasSubstr("3:1: the key 'a' occurs a second time; the first is in line 1"));
   EXPECT_THAT(parse_refusal("a: &x 1\nb: *x\n"), HasSubstr("an anchor"));
   EXPECT_THAT(parse_refusal("a: {b: &x 1}\n"), HasSubstr("an anchor"));
   EXPECT_THAT(parse_refusal("<<: {a: 1}\n"), HasSubstr("1:1: a merge key"));
@@ -208,6 +208,19 @@ TEST(YamlWriter, AnyTreeReadsBackEqual) {
     EXPECT_TRUE(equal(root, back)) << text;
     EXPECT_EQ(write_yaml(back), text);
   }
+}
+
+TEST(ParseYaml, BoundsTheKeysOfAMapAndTheValuesOfAFile) {
+  std::string keys;
+  for (std::size_t i = 0; i <= kMaxYamlKeys; ++i) keys += "k" + std::to_string(i) + ": 1\n";
+  EXPECT_EQ(parse_refusal(keys), std::to_string(kMaxYamlKeys + 1) + ":1: a map of more than 100000 keys");
+  std::string values;
+  for (std::size_t i = 0; i <= kMaxYamlNodes / 1000; ++i) {
+    values += "- [1";
+    for (int k = 1; k < 1000; ++k) values += ",1";
+    values += "]\n";
+  }
+  EXPECT_THAT(parse_refusal(values), HasSubstr("more than 2000000 values in a file"));
 }
 
 }  // namespace
