@@ -1,4 +1,4 @@
-// Values that a paper prints, kept beside a scenario (key `published`) to be held against ours.
+// Values that a paper prints, kept beside a scenario (key `published`) to be compared with ours.
 #pragma once
 
 #include <filesystem>
