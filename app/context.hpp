@@ -15,6 +15,7 @@ enum ExitCode {
   kBadInput = 2,
   kCellsFailed = 3,
   kIncomplete = 4,
+  kGateFailedIncomplete = 5,
   kOurBug = 70,
   kInterrupted = 130
 };

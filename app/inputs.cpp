@@ -7,17 +7,37 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/scenario/suite.hpp"
 
 namespace scanbench::app {
 
 namespace fs = std::filesystem;
+namespace {
+
+/// Throws ConfigError, with the nearest name in the same folder, if there is no such file.
+void check_exists(const std::string& file) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(file, error))) return;
+  const fs::path path = file;
+  std::vector<std::string> names;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    names.push_back(entry->path().filename().string());
+  std::ranges::sort(names);
+  const std::string near = nearest_name(path.filename().string(), names);
+  throw ConfigError(file + ": no such file" +
+                    (near.empty() ? "" : "; did you mean '" + (path.parent_path() / near).string() + "'?"));
+}
+
+}  // namespace
 
 std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
                                            std::string* name, std::optional<harness::BenchmarkSpec>* benchmark) {
   std::vector<harness::Scenario> scenarios;
   for (const auto& file : files) {
+    check_exists(file);
     if (name != nullptr && name->empty()) *name = fs::path(file).stem().string();
     if (harness::is_suite(file)) {
       harness::Suite suite = harness::load_suite(file, sets);

@@ -31,17 +31,7 @@ int check(const std::vector<std::string>& files, const std::vector<std::string>&
 }
 
 int list(const std::string& kind, bool json) {
-  std::vector<harness::CatalogEntry> entries;
-  std::vector<std::string> kinds;
-  for (auto& entry : harness::catalog()) {
-    if (kinds.empty() || kinds.back() != entry.kind) kinds.push_back(entry.kind);
-    if (kind.empty() || entry.kind == kind) entries.push_back(std::move(entry));
-  }
-  if (entries.empty()) {
-    std::string known;
-    for (const auto& k : kinds) known += (known.empty() ? "" : ", ") + k;
-    throw ConfigError("there is no kind '" + kind + "'; kinds: " + known);
-  }
+  const auto entries = harness::catalog_of_kind(kind);
   print(json ? harness::catalog_json(entries) : harness::catalog_text(entries));
   return kGood;
 }
@@ -80,14 +70,14 @@ void add_inspection(Context& context) {
 
   auto* list_verb = context.app.add_subcommand("list", "Lists modules, metrics, figures, trajectories and sensors");
   list_verb->add_option("KIND", options->name,
-                        "only this kind: extract, merge, metrics, figure, trajectory, sensor, ...");
+                        "only this kind: modules, extract, merge, metrics, figures, trajectories, sensors, ...");
   list_verb->add_flag("--json", options->json, "as JSON");
   list_verb->callback(
       [&context, options] { context.action = [options] { return list(options->name, options->json); }; });
 
   auto* describe_verb =
       context.app.add_subcommand("describe", "Shows what a module does, its parameters, defaults and bounds");
-  describe_verb->add_option("NAME", options->name, "a name from `list`");
+  describe_verb->add_option("NAME", options->name, "a name from `list`, or of a metric: f1");
   describe_verb->add_flag("--all", options->all, "everything");
   describe_verb->add_flag("--markdown", options->markdown,
                           "as Markdown (docs/modules.md is made with --all --markdown)");

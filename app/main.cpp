@@ -1,10 +1,13 @@
 // scanbench: the command line, and the one place where exceptions become exit codes.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <new>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "app/inspection.hpp"
 #include "app/progress.hpp"
@@ -13,6 +16,7 @@
 #include "app/run.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
+#include "harness/report/plain_text.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_folder.hpp"
 
@@ -20,8 +24,30 @@ namespace {
 
 using namespace scanbench;
 
+// The first option of the command line that its verb does not have, with the nearest one that it has; empty if there is
+// none.
+std::string unknown_option(const CLI::App& app, int argc, char** argv) {
+  const auto chosen = app.get_subcommands();
+  const CLI::App& verb = chosen.empty() ? app : *chosen.front();
+  std::vector<std::string> known;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+    for (const auto& name : option->get_snames()) known.push_back("-" + name);
+  }
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const std::string name = word.substr(0, word.find('='));
+    if (!name.starts_with("--") || name == "--" || std::ranges::count(known, name) > 0) continue;
+    return (chosen.empty() ? std::string("there") : "'" + verb.get_name() + "'") +
+           (chosen.empty() ? " is no option '" : " has no option '") + name + "'" + known_names(name, known);
+  }
+  return "";
+}
+
 // CLI11 says of `scanbench rnu` only that a subcommand is required.
 std::string parse_trouble(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+    if (const std::string option = unknown_option(app, argc, argv); !option.empty()) return option;
   const std::string first = argc > 1 ? argv[1] : "";
   if (dynamic_cast<const CLI::RequiredError*>(&error) == nullptr || !app.get_subcommands().empty() ||
       (!first.empty() && first.front() == '-'))
@@ -40,7 +66,10 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", harness::version_text());
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 good, 1 a gate failed, 2 bad input, 3 some cells failed, 4 incomplete, 70 a bug of ours, 130 "
+      "The script ./scanbench in the folder of the sources has two more verbs: `./scanbench build` builds the program, "
+      "`./scanbench test` builds and runs its tests.\n\n"
+      "Exit codes: 0 good, 1 a gate failed, 2 bad input, 3 some cells failed, 4 incomplete, 5 both 1 and 4, 70 a bug "
+      "of the program, 130 "
       "interrupted.");
   app.get_formatter()->column_width(34);
 
@@ -55,7 +84,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     fmt::print(stderr, "scanbench: {}\n(scanbench --help shows the verbs, scanbench VERB --help its options)\n",
-               parse_trouble(app, error, argc, argv));
+               harness::plain_text(parse_trouble(app, error, argc, argv)));
     return app::kBadInput;
   }
   const int code = action();
@@ -66,23 +95,23 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of write(), with a message, not our death
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of write(), with a message
   try {
     return run_program(argc, argv);
   } catch (const ConfigError& error) {
-    fmt::print(stderr, "scanbench: {}\n", error.what());
+    fmt::print(stderr, "scanbench: {}\n", harness::plain_text(error.what()));
     return app::kBadInput;
   } catch (const app::Interrupted&) {
     fmt::print(stderr, "\nscanbench: interrupted\n");
     return app::kInterrupted;
   } catch (const std::system_error& error) {  // standard output or a folder that the system refuses us
-    fmt::print(stderr, "scanbench: {}\n", error.what());
+    fmt::print(stderr, "scanbench: {}\n", harness::plain_text(error.what()));
     return app::kBadInput;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "scanbench: out of memory\n");
     return app::kBadInput;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "scanbench: internal error, please report it: {}\n", error.what());
+    fmt::print(stderr, "scanbench: internal error, please report it: {}\n", harness::plain_text(error.what()));
     return app::kOurBug;
   }
 }

@@ -42,21 +42,24 @@ void Progress::update(double share, const std::string& what) {
   if (interrupted != 0) throw Interrupted{};
   if (style_ == Style::silent) return;
   share = std::clamp(share, 0.0, 1.0);
+  const auto now = Clock::now();
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const std::string failed = failures_ > 0 ? fmt::format(", {} failed", failures_) : "";
+  const std::string left =
+      share > 0.02 && share < 1.0 && elapsed > 2 ? ", " + duration_text(elapsed * (1 - share) / share) + " left" : "";
   if (style_ == Style::lines) {
-    if (what != what_) fmt::print(stderr, "{:3.0f} %  {}\n", 100.0 * share, what);
-    what_ = what;
+    if (what.empty() || (share - share_ < 0.1 && now - last_ < std::chrono::minutes(1))) return;
+    fmt::print(stderr, "{:3.0f} %{}{}  {}\n", 100.0 * share, left, failed, what);
+    share_ = share;
+    last_ = now;
     return;
   }
-  const auto now = Clock::now();
   if (drawn_ && now - last_ < std::chrono::milliseconds(80) && share < 1.0) return;
   last_ = now;
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
   const int filled = static_cast<int>(share * kWidth);
   std::string bar;
   for (int i = 0; i < kWidth; ++i) bar += i < filled ? "█" : "░";
-  const std::string left =
-      share > 0.02 && elapsed > 2 ? ", " + duration_text(elapsed * (1 - share) / share) + " left" : "";
-  fmt::print(stderr, "\r\x1b[K{} {:3.0f} %{}  {}", bar, 100.0 * share, left, what.substr(0, 60));
+  fmt::print(stderr, "\r\x1b[K{} {:3.0f} %{}{}  {}", bar, 100.0 * share, left, failed, what.substr(0, 60));
   std::fflush(stderr);
   drawn_ = true;
 }

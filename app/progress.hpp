@@ -1,4 +1,4 @@
-// Progress of long work: one bar that redraws itself on a terminal, plain lines elsewhere, silence with --quiet.
+// Progress of long work: a bar on a terminal, a line every tenth of the work or minute elsewhere, none with --quiet.
 #pragma once
 
 #include <signal.h>
@@ -36,6 +36,8 @@ class Progress {
 
   /// A share in [0, 1] of everything, and what is being done now.
   void update(double share, const std::string& what);
+  /// Counts a cell that failed; the bar and the lines show how many have.
+  void failure() { ++failures_; }
   /// A line above the bar.
   void note(const std::string& line);
   /// Leaves the terminal as it was.
@@ -46,7 +48,8 @@ class Progress {
   Style style_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = {};
-  std::string what_;
+  double share_ = -1.0;  ///< at the last line
+  int failures_ = 0;
   bool drawn_ = false;
 };
 

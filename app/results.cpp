@@ -1,4 +1,4 @@
-// score, figures, report, compare: work on run folders that stand there already.
+// score, figures, report, compare: the verbs that work on existing run folders.
 #include "app/results.hpp"
 
 #include <fmt/format.h>
@@ -52,8 +52,14 @@ int figures(const fs::path& run, const std::vector<std::string>& files, bool pdf
   harness::draw_run_figures(run, scenarios, pdf,
                             [&](double share, const std::string& what) { progress.update(share, "figure " + what); });
   progress.finish();
-  for (const auto& figure : harness::load_figure_index(run))
-    if (!quiet) fmt::print("{}\n", (run / "figures" / (figure.name + ".svg")).string());
+  if (quiet) return kGood;
+  const auto drawn = harness::load_figure_index(run);
+  for (const auto& figure : drawn) fmt::print("{}\n", (run / "figures" / (figure.name + ".svg")).string());
+  if (drawn.empty())
+    fmt::print("nothing to draw: {}\n",
+               std::ranges::any_of(scenarios, [](const auto& s) { return !s.figures.empty(); })
+                   ? "the run has no recordings"
+                   : "the scenarios name no figures (--with FILE takes those of other scenario files)");
   return kGood;
 }
 
@@ -90,7 +96,9 @@ int compare(const fs::path& a, const fs::path& b, const std::string& csv, bool a
   std::string counts;
   for (const auto& [verdict, count] : comparison.counts)
     counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, to_string(verdict));
-  fmt::print("{}{}\n", counts.empty() ? "nothing to compare" : counts, comparison.incomplete ? "; INCOMPLETE" : "");
+  const bool worse = comparison.counts.contains(harness::Verdict::worse);
+  fmt::print("{}{}{}\n", counts.empty() ? "nothing to compare" : counts, worse ? "; WORSE" : "",
+             comparison.incomplete ? "; INCOMPLETE" : "");
   if (!csv.empty()) harness::write_file_atomically(csv, harness::comparison_csv(comparison));
   return comparison.exit_code();
 }
@@ -107,7 +115,7 @@ void add_results(Context& context) {
 
   auto* score_verb = context.app.add_subcommand("score", "Computes the metrics of a run again, from its files");
   score_verb->add_option("RUN", options->run, "a run folder")->required();
-  score_verb->add_option("--with", options->files, "scenario files whose metrics take the place of the run's own");
+  score_verb->add_option("--with", options->files, "scenario files whose metrics replace the run's own");
   score_verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors and what is missing");
   score_verb->callback([&context, options] {
     context.action = [options] { return score(options->run, options->files, options->quiet); };
@@ -115,8 +123,8 @@ void add_results(Context& context) {
 
   auto* figures_verb = context.app.add_subcommand("figures", "Draws the figures of a run again, from its files");
   figures_verb->add_option("RUN", options->run, "a run folder")->required();
-  figures_verb->add_option("--with", options->files, "scenario files whose figures take the place of the run's own");
-  figures_verb->add_flag("--pdf", options->pdf, "as PDF too");
+  figures_verb->add_option("--with", options->files, "scenario files whose figures replace the run's own");
+  figures_verb->add_flag("--pdf", options->pdf, "also as PDF");
   figures_verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
   figures_verb->callback([&context, options] {
     context.action = [options] { return figures(options->run, options->files, options->pdf, options->quiet); };
@@ -126,12 +134,12 @@ void add_results(Context& context) {
   report_verb->add_option("RUN", options->run, "a run folder")->required();
   report_verb->callback([&context, options] { context.action = [options] { return report(options->run); }; });
 
-  auto* compare_verb =
-      context.app.add_subcommand("compare", "Compares two runs cell by cell; exit code 1 if B is worse");
+  auto* compare_verb = context.app.add_subcommand(
+      "compare", "Compares two runs cell by cell; exit code 1 if B is worse, 4 if incomplete, 5 if both");
   compare_verb->add_option("A", options->run, "the run folder to compare with")->required();
   compare_verb->add_option("B", options->other, "the run folder that is judged")->required();
   compare_verb->add_option("--csv", options->csv, "write all rows to this file");
-  compare_verb->add_flag("--all", options->all, "show what has not changed too");
+  compare_verb->add_flag("--all", options->all, "also show what has not changed");
   compare_verb->callback([&context, options] {
     context.action = [options] { return compare(options->run, options->other, options->csv, options->all); };
   });

@@ -10,6 +10,7 @@
 #include "app/inputs.hpp"
 #include "app/progress.hpp"
 #include "harness/report/page_input.hpp"
+#include "harness/report/plain_text.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/report/scenario_tables.hpp"
 #include "harness/run/run_options.hpp"
@@ -48,7 +49,7 @@ void print_json(const harness::RunResult& result) {
                      {"pipeline", cell.key.pipeline},
                      {"seed", cell.key.seed},
                      {"status", cell.done ? to_string(cell.record.outcome.status) : "missing"},
-                     {"message", cell.record.outcome.message},
+                     {"message", harness::plain_line(cell.record.outcome.message)},
                      {"reused", cell.reused}});
   const nlohmann::ordered_json json{{"out", result.out.string()}, {"exit_code", result.exit_code()}, {"cells", cells}};
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
@@ -57,7 +58,9 @@ void print_json(const harness::RunResult& result) {
 void note_cell(Progress& progress, const harness::CellResult& cell) {
   const auto& outcome = cell.record.outcome;
   if (outcome.status == harness::CellStatus::ok) return;
-  progress.note(fmt::format("{}: {}: {}", harness::to_string(cell.key), to_string(outcome.status), outcome.message));
+  progress.failure();
+  progress.note(fmt::format("{}: {}: {}", harness::to_string(cell.key), to_string(outcome.status),
+                            harness::plain_line(outcome.message)));
 }
 
 int run(const Options& options, const std::vector<std::string>& argv) {
@@ -123,7 +126,7 @@ void add_run(Context& context) {
   verb->add_option("--set", options->sets, "KEY=VALUE: a value in place of the file's (dotted keys)")->take_all();
   verb->add_option("--only", options->only, "only these scenarios, pipelines or scenario/pipeline")->delimiter(',');
   verb->add_flag("--resume", options->resume, "keep the cells that have not changed");
-  verb->add_flag("--trace", options->journal, "write what the algorithms record on the way (trace.csv)");
+  verb->add_flag("--trace", options->journal, "write the intermediate results of the algorithms (trace.csv)");
   verb->add_flag("--no-figures", options->no_figures, "draw nothing");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
   verb->add_flag("--json", options->json, "print the cells' outcomes as JSON");

@@ -1,13 +1,39 @@
+# The version header: commit, and for a tree that differs from its commit "-dirty-" with a hash of the code, so that
+# two such programs can be distinguished. Without Git: "unknown-" with that hash.
+set(code core sim algorithms metrics render harness app cmake CMakeLists.txt)
 execute_process(COMMAND git -C ${SOURCE_DIR} rev-parse HEAD OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE
                 ERROR_QUIET RESULT_VARIABLE failed)
+set(mark "")
 if(failed)
   set(commit "unknown")
+  set(mark "-")
 else()
-  execute_process(COMMAND git -C ${SOURCE_DIR} status --porcelain --untracked-files=no OUTPUT_VARIABLE changes
-                  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  execute_process(COMMAND git -C ${SOURCE_DIR} status --porcelain --untracked-files=all -- ${code}
+                  OUTPUT_VARIABLE changes OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
   if(changes)
-    string(APPEND commit "-modified")
+    set(mark "-dirty-")
   endif()
+endif()
+if(mark)
+  set(hashes "")
+  foreach(part ${code})
+    if(IS_DIRECTORY ${SOURCE_DIR}/${part})
+      file(GLOB_RECURSE files RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/${part}/*.cpp ${SOURCE_DIR}/${part}/*.hpp
+           ${SOURCE_DIR}/${part}/*.cmake)
+    elseif(EXISTS ${SOURCE_DIR}/${part})
+      set(files ${part})
+    else()
+      set(files "")
+    endif()
+    list(SORT files)
+    foreach(name ${files})
+      file(SHA256 ${SOURCE_DIR}/${name} hash)
+      string(APPEND hashes "${name} ${hash}\n")
+    endforeach()
+  endforeach()
+  string(SHA256 hash "${hashes}")
+  string(SUBSTRING ${hash} 0 12 hash)
+  string(APPEND commit "${mark}${hash}")
 endif()
 set(text "#pragma once
 

@@ -81,16 +81,16 @@ std::vector<std::string> subjects_of(const std::string& metric, const std::vecto
   return subjects;
 }
 
-/// The indices of those that no other is better than; NaN is never best.
-std::vector<std::size_t> best_of(const std::vector<double>& values, Direction direction) {
-  const double sign = direction == Direction::lower_is_better ? 1.0 : -1.0;
-  double least = std::numeric_limits<double>::infinity();
+/// The indices of the finite values that no other one is better than.
+std::vector<std::size_t> best_of(const std::vector<double>& values, const MetricDescription& metric) {
+  double best = kNaN;
   for (const double value : values)
-    if (std::isfinite(value)) least = std::min(least, sign * value);
-  std::vector<std::size_t> best;
+    if (std::isfinite(value) && metrics::better(metric, value, best)) best = value;
+  std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (sign * values[i] == least) best.push_back(i);
-  return best;
+    if (std::isfinite(values[i]) && !std::isnan(best) && !metrics::better(metric, best, values[i]))
+      indices.push_back(i);
+  return indices;
 }
 
 }  // namespace
@@ -181,7 +181,7 @@ std::vector<double> orderings_per_seed(const ComparedColumn& column) {
 
 std::vector<BestCount> best_counts(const ComparedColumn& column, Ties ties) {
   std::vector<BestCount> counts;
-  if (column.metric.direction == Direction::neither || column.metric.direction == Direction::target) return counts;
+  if (column.metric.direction == Direction::neither) return counts;
   for (std::size_t m = 0; m < column.methods.size(); ++m)
     if (!column.methods[m].published.empty()) counts.push_back({m, 0, 0, std::vector<double>(column.seeds, 0.0)});
 
@@ -189,7 +189,7 @@ std::vector<BestCount> best_counts(const ComparedColumn& column, Ties ties) {
     std::vector<double> values;
     values.reserve(counts.size());
     for (const auto& count : counts) values.push_back(value_of(column.at(subject, count.method)));
-    auto best = best_of(values, column.metric.direction);
+    auto best = best_of(values, column.metric);
     if (ties == Ties::nobodys && best.size() > 1) best.clear();
     return best;
   };

@@ -112,14 +112,23 @@ const std::vector<BenchmarkColumn>& benchmark_columns() {
        "root mean square distance of the matches' midpoints from the true line"},
       {"sigma_angle", "σ angle [°]", 1, 3, false, lower_is_better,
        "root mean square angle between the matches and the true line"},
-      {"efficiency_offset", "offset / bound", 1, 2, true, lower_is_better,
+      {"efficiency_offset", "offset / bound", 1, 2, true, target,
        "mean square error of the offset at the true line's midpoint over its Cramér–Rao bound; 1 is the best that the "
-       "readings allow; lines with 20 returns or more"},
-      {"efficiency_angle", "angle / bound", 1, 2, true, lower_is_better, "the same of the angle"},
+       "readings allow; lines with 20 returns or more",
+       1.0},
+      {"efficiency_angle", "angle / bound", 1, 2, true, target, "the same of the angle", 1.0},
       {"t_scan", "time [µs]", 1, 2, true, lower_is_better, "median CPU time per scan"},
       {"t_ratio", "time ratio", 1, 2, true, lower_is_better,
        "that time over the baseline's in the same condition and seed"}};
   return kColumns;
+}
+
+metrics::MetricDescription BenchmarkColumn::description() const {
+  metrics::MetricDescription result;
+  result.metric = metric;
+  result.direction = direction;
+  result.target = target;
+  return result;
 }
 
 std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenarios, const std::vector<SummaryRow>& rows,

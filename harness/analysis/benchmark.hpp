@@ -1,4 +1,4 @@
-// A benchmark: all cells of a suite as one ranking of its pipelines. What is asked for (the suite's key `benchmark`,
+// A benchmark: all cells of a suite as one ranking of its pipelines. What is requested (the suite's key `benchmark`,
 // benchmark.json in the run folder), and the table.
 //
 // A condition is one scenario of the suite: a world seen by one sensor at one noise level. Every condition counts the
@@ -33,16 +33,19 @@ struct BenchmarkColumn {
   bool geometric = false;
   metrics::Direction direction = metrics::Direction::lower_is_better;
   std::string definition;  ///< a sentence for the reader of the page
+  double target = 0.0;     ///< the best value if direction is `target`
+
+  metrics::MetricDescription description() const;  ///< for comparisons of values
 };
 const std::vector<BenchmarkColumn>& benchmark_columns();
 
 struct RankedPipeline {
   std::string name;
-  std::map<std::string, Interval> values;  ///< by the metric of a column; in the unit of summary.csv
-  int missing = 0;                         ///< cells without an F1: not ok, or not there
-  double next_difference = 0.0;            ///< mean F1 minus that of the next in rank, paired by seed; NaN for the last
-  double next_p = 1.0;                     ///< of that difference, paired t test, corrected after Holm; NaN: no test
-  int conditions_won = 0;                  ///< in which its F1, averaged over the seeds, is the best
+  std::map<std::string, MeanInterval> values;  ///< by the metric of a column; in the unit of summary.csv
+  int missing = 0;                             ///< cells without an F1: not ok, or not there
+  double next_difference = 0.0;  ///< mean F1 minus that of the next in rank, paired by seed; NaN for the last
+  double next_p = 1.0;           ///< of that difference, paired t test, corrected after Holm; NaN: no test
+  int conditions_won = 0;        ///< in which its F1, averaged over the seeds, is the best
 };
 
 /// The value of a metric (subject "all") in every cell: by pipeline, seed and scenario.

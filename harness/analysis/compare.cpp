@@ -1,4 +1,4 @@
-// Pairing, differences, verdicts.
+// Pairs the cells of two runs, takes differences and judges them.
 #include "harness/analysis/compare.hpp"
 
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/registry.hpp"
+#include "harness/analysis/selection.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
@@ -53,13 +54,14 @@ std::string status_of(const std::optional<LoadedCell>& cell) {
   return cell ? std::string(to_string(cell->status)) : "missing";
 }
 
-/// Different bits count as a change: the smallest drift shows.
+/// Different bits count as a change: the smallest drift shows. An infinite value is no result: it is not better than
+/// any other, whatever the direction.
 Verdict judge(const MetricDescription& description, double a, double b) {
   if (description.timing) return Verdict::timing;
-  if (std::isnan(a) && std::isnan(b)) return Verdict::same;
-  if (std::isnan(b)) return Verdict::worse;
-  if (std::isnan(a)) return Verdict::better;
-  if (a == b) return Verdict::same;
+  if (a == b || (std::isnan(a) && std::isnan(b))) return Verdict::same;
+  if (!std::isfinite(a) && !std::isfinite(b)) return Verdict::changed;
+  if (!std::isfinite(b)) return Verdict::worse;
+  if (!std::isfinite(a)) return Verdict::better;
   const double change = b - a;
   if (std::fabs(change) <= description.tolerance) return Verdict::within;
   if (description.direction == Direction::neither) return Verdict::changed;
@@ -76,17 +78,26 @@ class Comparer {
     const Manifest a = load_manifest(a_);
     const Manifest b = load_manifest(b_);
     const std::set<CellKey> in_a(a.cells.begin(), a.cells.end());
-    for (const auto& key : a.cells) compare_cell(key);
+    const std::set<CellKey> in_b(b.cells.begin(), b.cells.end());
+    const auto not_requested = [](const Manifest& run, const std::set<CellKey>& cells, const CellKey& key) {
+      return !cells.contains(key) || !was_selected(run, key);
+    };
+    const auto compare_unless_left_out = [&](const CellKey& key) {
+      compare_cell(key, not_requested(a, in_a, key) && not_requested(b, in_b, key));
+    };
+    for (const auto& key : a.cells) compare_unless_left_out(key);
     for (const auto& key : b.cells)
-      if (!in_a.contains(key)) compare_cell(key);
+      if (!in_a.contains(key)) compare_unless_left_out(key);
     for (const auto& row : result_.rows) ++result_.counts[row.verdict];
     return std::move(result_);
   }
 
  private:
-  void compare_cell(const CellKey& key) {
+  /// `left_out`: neither run requested the cell: it may be missing in both.
+  void compare_cell(const CellKey& key, bool left_out) {
     const auto a = load_cell(a_, key);
     const auto b = load_cell(b_, key);
+    if (left_out && !a && !b) return;
     compare_recordings(key);
     const bool a_ok = a && a->status == CellStatus::ok;
     const bool b_ok = b && b->status == CellStatus::ok;
@@ -187,7 +198,8 @@ std::string_view to_string(Verdict verdict) {
 }
 
 int Comparison::exit_code() const {
-  if (counts.contains(Verdict::worse)) return 1;
+  const bool worse = counts.contains(Verdict::worse);
+  if (worse) return incomplete ? 5 : 1;
   return incomplete ? 4 : 0;
 }
 

@@ -20,7 +20,7 @@ enum class Verdict {
   timing,      ///< depends on the machine: shown, never judged
   only_in_a,   ///< the row, or the whole cell, is missing in B
   only_in_b,   ///< ... in A
-  not_judged,  ///< the cell is not ok in either run
+  not_judged,  ///< the cell is ok in neither run
 };
 std::string_view to_string(Verdict verdict);
 
@@ -42,8 +42,8 @@ struct Comparison {
   std::vector<ComparisonRow> rows;  ///< in the order of A's summary, then what only B has
   std::vector<std::string> notes;   ///< recordings that differ: then differences are not the algorithm's alone
   std::map<Verdict, int> counts;
-  bool incomplete = false;  ///< a cell or row of one run is missing in the other
-  /// 1 if anything is worse; else 4 if incomplete; else 0.
+  bool incomplete = false;  ///< a cell or row of one run is missing in the other, or a requested cell in both
+  /// 0 nothing is worse or missing, 1 something is worse, 4 incomplete, 5 both.
   int exit_code() const;
 };
 

@@ -35,7 +35,7 @@ std::vector<ErrorPoint> ErrorBins::points(std::int64_t least) const {
     }
     if (point.count < least) continue;
     const auto count = static_cast<double>(point.count);
-    const Interval interval = mean_interval(log_rms);  // passes over seeds without any error
+    const MeanInterval interval = mean_interval(log_rms);  // skips seeds without any error
     point.x /= count;
     point.bound = std::sqrt(squared_bound / count);
     point.rms = std::exp(interval.mean);

@@ -22,7 +22,7 @@ class ErrorBins {
   /// Bins [edge_k, edge_k+1) at edge_k = first * ratio^k, for all whole k, also negative ones.
   ErrorBins(double first, double ratio);
 
-  /// Observations with x <= 0 or values that are not finite are passed over.
+  /// Observations with x <= 0 or values that are not finite are skipped.
   void add(std::uint64_t seed, double x, double error, double bound);
 
   /// Bins with at least `least` observations, by increasing x.

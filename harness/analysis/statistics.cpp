@@ -84,7 +84,7 @@ Ends bca_bootstrap(std::span<const double> values, double mean) {
 
 }  // namespace
 
-Interval mean_interval(std::span<const double> all) {
+MeanInterval mean_interval(std::span<const double> all) {
   const std::vector<double> values = finite(all);
   const auto count = static_cast<std::int64_t>(values.size());
   if (values.empty()) return {kNaN, kNaN, kNaN, 0};

@@ -8,7 +8,7 @@
 namespace scanbench::harness {
 
 /// A mean with a 95 % confidence interval; low = high = mean for fewer than two values, all NaN for none.
-struct Interval {
+struct MeanInterval {
   double mean;
   double low;
   double high;
@@ -19,7 +19,7 @@ struct Interval {
 
 /// The wider, at each end, of Student's t interval and a seeded bias-corrected and accelerated bootstrap (Efron 1987):
 /// the percentile bootstrap alone covers too little below some twenty seeds. NaN values are left out.
-Interval mean_interval(std::span<const double> values);
+MeanInterval mean_interval(std::span<const double> values);
 
 /// Two-sided p-value of Student's t test that the mean of the differences of pairs is zero. NaN for fewer than two
 /// values; 0 or 1 for differences without spread. NaN values are left out.

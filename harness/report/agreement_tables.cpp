@@ -172,9 +172,7 @@ std::vector<Table> departure_tables(const std::string& scenario, const std::vect
     for (const auto& cell : column->cells)
       if (!std::isnan(cell.our_median())) largest = std::max(largest, std::abs(cell.our_median()));
     const Display display = display_for(column->metric.unit, largest);
-    const auto shown = [&](double value) {
-      return std::isnan(value) ? "–" : fmt::format("{:.{}f}", value * display.scale, display.decimals);
-    };
+    const auto shown = [&](double value) { return value_text(value, display); };
     for (const auto& ordering : orderings(*column)) {
       ++stated;
       if (ordering.holds) continue;

@@ -161,7 +161,7 @@ class Drawer {
         std::vector<std::string> at_level;
         for (const auto& scenario : scenarios_)
           if (noise_m(scenario) == level) at_level.push_back(scenario.name);
-        const Interval interval = mean_interval(per_seed(f1, name, seeds_, at_level));
+        const MeanInterval interval = mean_interval(per_seed(f1, name, seeds_, at_level));
         curve.points.emplace_back(100 * level, 100 * (1 - interval.mean));
         curve.intervals.push_back({100 * level, std::max(1e-3, 100 * (1 - interval.high)), 100 * (1 - interval.low)});
       }

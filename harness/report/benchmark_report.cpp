@@ -11,6 +11,7 @@
 
 #include "core/geometry.hpp"
 #include "harness/report/html_page.hpp"
+#include "harness/report/plain_text.hpp"
 #include "harness/report/ranking_table.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/modules.hpp"
@@ -126,7 +127,7 @@ Table extractors_table(const ReportInput& input, const std::vector<RankedPipelin
   return table;
 }
 
-/// Adjacent ranks that the seeds tell apart, and those that they do not.
+/// Adjacent ranks that differ significantly over the seeds, and those that do not.
 std::string significance_text(const std::vector<RankedPipeline>& ranking) {
   std::vector<std::string> ties;
   std::size_t tests = 0;
@@ -160,7 +161,7 @@ constexpr std::string_view kMatching =
     "A true line is a run of consecutive beams on one wall with at least 9 returns over 0.5 m. A found line matches it "
     "if "
     "they differ by at most 10° and 15 cm and overlap by more than half of the shorter; pairs are taken one to one by "
-    "decreasing overlap. Found lines shorter than 0.5 m that match nothing are passed over. A value is averaged over "
+    "decreasing overlap. Found lines shorter than 0.5 m that match nothing are skipped. A value is averaged over "
     "the "
     "conditions, each counting the same, for every seed; shown are the mean over the seeds and, behind ±, half of its "
     "95 % interval (the wider of Student's t and a bootstrap). What is undefined in a "
@@ -174,7 +175,8 @@ const std::vector<std::string>& limits_of_the_page() {
       "only easy lines has smaller errors than one that finds all; and no error can be much larger than the gate.",
       "The bound is that of a line whose beams are known, from the returns between its first and last beam. A ratio "
       "below 1 is possible where an extractor used beams of two runs of one wall for one line.",
-      "Noise is Gaussian, of one size at all ranges, and known to the extractors that ask for it; there are no mixed "
+      "Noise is Gaussian, of one size at all ranges, and known to the extractors that take it as a parameter; there "
+      "are no mixed "
       "pixels, no lost returns, no rounding and nothing that moves. Walls are straight.",
       "Times are CPU times on a machine that may have been busy; the ratio to the baseline, taken in the same "
       "condition "
@@ -221,7 +223,7 @@ std::string benchmark_markdown(const ReportInput& input, const BenchmarkSpec& sp
   const auto ranking = rank_pipelines(input.scenarios, input.rows, spec);
   Table ranks = ranking_table(ranking, spec);
   ranks.title = "Ranking";
-  std::string out = "# " + input.title + "\n\n" + spec.about + "\n\n" + markdown_status(input.cells);
+  std::string out = "# " + input.title + "\n\n" + markdown_escaped(spec.about) + "\n\n" + markdown_status(input.cells);
   out += "\n" + run_text(input, spec) + "\n\n" + to_markdown(worlds_table(input)) + "\n" +
          to_markdown(sensors_table(input)) + "\n" + to_markdown(ranks) + "\n" + significance_text(ranking) + "\n";
   for (const auto& [name, number] : numbered_figures(spec))

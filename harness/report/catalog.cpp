@@ -2,6 +2,8 @@
 #include "harness/report/catalog.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -33,6 +35,43 @@ void append_metrics(std::vector<CatalogEntry>& entries) {
                                 metric.doc);
     entries.push_back(std::move(described));
   }
+}
+
+std::string direction_text(const metrics::MetricDescription& metric) {
+  switch (metric.direction) {
+    case metrics::Direction::lower_is_better:
+      return "less is better";
+    case metrics::Direction::higher_is_better:
+      return "more is better";
+    case metrics::Direction::target:
+      return fmt::format("best near {:g}", metric.target);
+    case metrics::Direction::neither:
+      break;
+  }
+  return "no value is better than another";
+}
+
+/// An entry for every metric of every family.
+std::vector<CatalogEntry> single_metrics() {
+  std::vector<CatalogEntry> entries;
+  for (const auto& [family, entry] : Registry<metrics::MetricFamily>::all())
+    for (const auto& metric : entry.make({})->describe()) {
+      CatalogEntry described{"metric", {metric.metric, metric.doc, ""}, {}, {}};
+      described.notes.push_back("family: " + family);
+      if (!metric.unit.empty()) described.notes.push_back("unit: " + metric.unit);
+      described.notes.push_back("direction: " + direction_text(metric));
+      described.notes.push_back(metric.timing ? "depends on the machine: compare does not judge it"
+                                              : fmt::format("compare accepts a change of {:g}", metric.tolerance));
+      entries.push_back(std::move(described));
+    }
+  return entries;
+}
+
+/// "metric", "metrics" and "Metrics" are one kind.
+std::string singular(std::string kind) {
+  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (kind.ends_with("ies")) return kind.substr(0, kind.size() - 3) + "y";
+  return kind.ends_with('s') ? kind.substr(0, kind.size() - 1) : kind;
 }
 
 void append_sensors(std::vector<CatalogEntry>& entries) {
@@ -89,11 +128,29 @@ std::vector<CatalogEntry> find_in_catalog(const std::string& name) {
     if (entry.info.name == name || entry.kind + "/" + entry.info.name == name || entry.kind == name)
       found.push_back(std::move(entry));
   }
+  for (auto& metric : single_metrics()) {
+    known.push_back(metric.info.name);
+    if (metric.info.name == name || metric.kind + "/" + metric.info.name == name) found.push_back(std::move(metric));
+  }
   if (found.empty()) {
     const std::string near = nearest_name(name, known);
     throw ConfigError("nothing is called '" + name + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
                       " (`scanbench list` shows all names)");
   }
+  return found;
+}
+
+std::vector<CatalogEntry> catalog_of_kind(const std::string& kind) {
+  static const std::set<std::string> kModules{"extract", "align", "match", "map", "merge"};
+  const std::string wanted = singular(kind);
+  std::vector<CatalogEntry> found;
+  std::vector<std::string> kinds{"modules"};
+  for (auto& entry : catalog()) {
+    if (std::ranges::count(kinds, entry.kind) == 0) kinds.push_back(entry.kind);
+    if (kind.empty() || singular(entry.kind) == wanted || (wanted == "module" && kModules.contains(entry.kind)))
+      found.push_back(std::move(entry));
+  }
+  if (found.empty()) throw ConfigError("there is no kind '" + kind + "'" + known_names(kind, kinds));
   return found;
 }
 

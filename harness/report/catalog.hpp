@@ -1,4 +1,4 @@
-// Everything that is registered, whatever its kind: what `list`, `describe` and docs/modules.md show.
+// Everything that is registered, of all kinds: what `list`, `describe` and docs/modules.md show.
 #pragma once
 
 #include <string>
@@ -19,8 +19,12 @@ struct CatalogEntry {
 /// By kind, then by name.
 std::vector<CatalogEntry> catalog();
 
-/// The entries of that name, of that "kind/name", or of that kind. Throws ConfigError, naming the nearest, if there are
-/// none.
+/// The entries of one kind, which may be in the singular or plural; "modules": all that a pipeline is made of; empty:
+/// everything. Throws ConfigError, naming the kinds, if there are none.
+std::vector<CatalogEntry> catalog_of_kind(const std::string& kind);
+
+/// The entries of that name, of that "kind/name", or of that kind; single metrics of a family included. Throws
+/// ConfigError, naming the nearest, if there are none.
 std::vector<CatalogEntry> find_in_catalog(const std::string& name);
 
 std::string describe_text(const CatalogEntry& entry);

@@ -11,7 +11,7 @@
 
 namespace scanbench::harness {
 
-/// A figure that stands in the run folder: figures/<name>.svg and .png.
+/// A figure in the run folder: figures/<name>.svg and .png.
 struct FigureFile {
   std::string scenario;
   std::string name;

@@ -1,12 +1,19 @@
 // The frame of report pages.
 #include "harness/report/html_page.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/base64.hpp"
+#include "harness/report/plain_text.hpp"
 #include "harness/report/table.hpp"
 
 namespace scanbench::harness {
@@ -39,43 +46,63 @@ figure { margin: 1rem 0; } figure img { max-width: 100%; height: auto; } figcapt
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; font-size: .86rem; } dt { color: var(--faint); } dd { margin: 0; overflow-wrap: anywhere; }
 )css";
 
-std::string base64(const std::string& bytes) {
-  std::string out(4 * ((bytes.size() + 2) / 3) + 1, '\0');
-  const int length =
-      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(out.data()),
-                      reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
-  out.resize(static_cast<std::size_t>(length));
-  return out;
+constexpr std::size_t kLargestList = 200;  ///< rows of a table of cells
+
+/// "all 6 cells ok", "4 of 6 cells ok", "1 of 38 cells selected, all ok".
+std::string outcome_text(const std::vector<CellLine>& cells) {
+  const auto selected = std::ranges::count(cells, true, &CellLine::selected);
+  const auto ok = std::ranges::count(cells, "ok", &CellLine::status);
+  const auto all = std::ssize(cells);
+  if (selected < all)
+    return fmt::format("{} of {} cells selected, {} ok", selected, all, ok == selected ? "all" : std::to_string(ok));
+  return ok == all ? fmt::format("all {} cells ok", all) : fmt::format("{} of {} cells ok", ok, all);
 }
 
-struct Verdict {
-  std::size_t ok = 0;
-  std::size_t all = 0;
-  std::string text() const {
-    if (all == ok) return fmt::format("all {} cells ok", all);
-    return fmt::format("{} of {} cells ok", ok, all);
-  }
-};
-
-Verdict verdict(const std::vector<CellLine>& cells) {
-  Verdict result;
-  for (const auto& cell : cells) {
-    ++result.all;
-    result.ok += cell.status == "ok";
-  }
-  return result;
-}
-
-// Cells that did not end well, as a table; empty if all did.
+/// Cells that did not end well, as a table; empty if all did.
 std::optional<Table> failures(const std::vector<CellLine>& cells) {
   Table table{"failures", "Cells that did not end well", "", {"scenario", "pipeline", "seed", "status", "message"}, {},
               {}};
+  std::size_t left_out = 0;
   for (const auto& cell : cells) {
-    if (cell.status == "ok") continue;
+    if (cell.status == "ok" || !cell.selected) continue;
+    if (table.rows.size() == kLargestList) {
+      ++left_out;
+      continue;
+    }
     table.rows.push_back(
         {{cell.scenario, cell.pipeline, std::to_string(cell.seed), cell.status, cell.message}, {}, false});
   }
   if (table.rows.empty()) return std::nullopt;
+  if (left_out > 0) table.caption = fmt::format("And {} more: status.json of every cell says how it ended.", left_out);
+  return table;
+}
+
+/// What cells that are ok say of their algorithms, like those that have not converged; one row for all seeds with the
+/// same remark.
+std::optional<Table> remarks(const std::vector<CellLine>& cells) {
+  std::vector<std::pair<std::vector<std::string>, std::size_t>> rows;
+  std::size_t left_out = 0;
+  for (const auto& cell : cells) {
+    if (cell.status != "ok" || cell.message.empty()) continue;
+    const std::vector<std::string> heads{cell.scenario, cell.pipeline, cell.message};
+    const auto same = std::ranges::find(rows, heads, &decltype(rows)::value_type::first);
+    if (same != rows.end())
+      ++same->second;
+    else if (rows.size() < kLargestList)
+      rows.emplace_back(heads, 1);
+    else
+      ++left_out;
+  }
+  if (rows.empty()) return std::nullopt;
+  Table table{"remarks",
+              "Remarks on cells that are ok",
+              "An aligner or matcher that is named here has not converged on that many scans or recordings: its result "
+              "is what it had at the end.",
+              {"scenario", "pipeline", "remark"},
+              {{"", "cells", false}},
+              {}};
+  if (left_out > 0) table.caption += fmt::format(" And {} more cells with other remarks.", left_out);
+  for (const auto& [heads, count] : rows) table.rows.push_back({heads, {{std::to_string(count)}}, false});
   return table;
 }
 
@@ -90,14 +117,16 @@ std::string html_page(const std::string& title, const std::string& body) {
 }
 
 std::string html_status(const std::vector<CellLine>& cells) {
-  std::string out = fmt::format("<p><span class=\"status\">{}</span></p>\n", html_escaped(verdict(cells).text()));
-  if (const auto table = failures(cells)) out += to_html(*table);
+  std::string out = fmt::format("<p><span class=\"status\">{}</span></p>\n", html_escaped(outcome_text(cells)));
+  for (const auto& table : {failures(cells), remarks(cells)})
+    if (table) out += to_html(*table);
   return out;
 }
 
 std::string markdown_status(const std::vector<CellLine>& cells) {
-  std::string out = verdict(cells).text() + ".\n";
-  if (const auto table = failures(cells)) out += "\n" + to_markdown(*table);
+  std::string out = outcome_text(cells) + ".\n";
+  for (const auto& table : {failures(cells), remarks(cells)})
+    if (table) out += "\n" + to_markdown(*table);
   return out;
 }
 
@@ -117,7 +146,7 @@ std::string html_facts(const std::vector<std::pair<std::string, std::string>>& f
 
 std::string markdown_facts(const std::vector<std::pair<std::string, std::string>>& facts) {
   std::string out = "\n## How to get these numbers again\n\n";
-  for (const auto& [name, value] : facts) out += "- " + name + ": " + value + "\n";
+  for (const auto& [name, value] : facts) out += "- " + name + ": " + markdown_escaped(value) + "\n";
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,10 +19,11 @@ struct CellLine {
   std::string scenario;
   std::string pipeline;
   std::uint64_t seed = 0;
-  std::string status;
-  std::string message;
+  std::string status;   ///< a name of CellStatus, or "missing"
+  std::string message;  ///< why it failed; of a cell that is ok, the remarks of its pipeline
   double wall_seconds = 0.0;
   double peak_memory_bytes = 0.0;
+  bool selected = true;  ///< false: the run was restricted to other cells, and this one does not exist
 };
 
 struct ReportInput {
@@ -32,6 +34,7 @@ struct ReportInput {
   std::vector<SummaryRow> rows;
   std::vector<CellLine> cells;
   std::vector<FigureFile> figures;
+  std::map<std::string, std::string> sources = {};  ///< of recorded scenarios: the log's hash and beam angles
 };
 
 }  // namespace scanbench::harness

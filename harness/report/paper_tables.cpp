@@ -52,12 +52,9 @@ Display display_of(const ComparedColumn& column) {
 }
 
 TableCell our_cell(const ComparedCell& cell, const Display& display) {
-  const double value = cell.our_median();
-  if (std::isnan(value)) return {"–", false, false};
-  std::string text = fmt::format("{:.{}f}", value * display.scale, display.decimals);
-  if (const double half = median_interval(cell.ours).half_width(); std::isfinite(half))
-    text += fmt::format(" ±{:.{}f}", half * display.scale, display.decimals);
-  return {text, false, false};
+  std::string text = value_text(cell.our_median(), display);
+  const std::string spread = spread_text(median_interval(cell.ours).half_width(), display);
+  return {spread.empty() ? text : text + " " + spread, false, false};
 }
 
 std::string title_of(const std::string& scenario, const ComparedColumn& column) {
@@ -106,8 +103,8 @@ Table lines_table(const std::string& scenario, const Columns& columns) {
       std::vector<TableCell*> our_cells, their_cells;
       for (std::size_t c = from; c < cells.size(); ++c)
         (cells[c].published ? their_cells : our_cells).push_back(&cells[c]);
-      mark_best(our_cells, ours, column->metric.direction);
-      mark_best(their_cells, theirs, column->metric.direction);
+      mark_best(our_cells, ours, column->metric);
+      mark_best(their_cells, theirs, column->metric);
     }
   }
   return table;

@@ -5,21 +5,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/special_values.hpp"
+#include "harness/report/table_marks.hpp"
 
 namespace scanbench::harness {
 namespace {
 
 using metrics::Direction;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kF1Margin = 0.05;
+constexpr double kRounding = 1e-9;  ///< a difference of exactly the margin is within it
 
 std::string number(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "–";
 }
 
 /// Fewer decimals for larger values where a column spans decades.
-TableCell interval_cell(const Interval& interval, const BenchmarkColumn& column) {
+TableCell interval_cell(const MeanInterval& interval, const BenchmarkColumn& column) {
   if (!std::isfinite(interval.mean)) return {"–"};
   const double mean = interval.mean * column.scale;
   const int large = column.geometric ? static_cast<int>(mean >= 10) + static_cast<int>(mean >= 100) : 0;
@@ -35,6 +41,29 @@ TableCell next_cell(const RankedPipeline& ranked) {
   cell.spread = ranked.next_p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", ranked.next_p);
   if (ranked.next_p >= 0.05) cell.spread += " n.s.";
   return cell;
+}
+
+/// Errors and costs are compared among extractors that find about as much: one that finds little errs little.
+void mark_columns(Table& table, const std::vector<RankedPipeline>& ranking) {
+  double best_f1 = kNaN;
+  for (const auto& ranked : ranking) {
+    const double f1 = ranked.values.at("f1").mean;
+    if (ranked.missing == 0 && (std::isnan(best_f1) || f1 > best_f1)) best_f1 = f1;
+  }
+  std::size_t c = 0;
+  for (const auto& column : benchmark_columns()) {
+    std::vector<TableCell*> cells;
+    std::vector<double> means;
+    std::vector<bool> eligible;
+    for (std::size_t r = 0; r < ranking.size(); ++r) {
+      cells.push_back(&table.rows[r].cells[c]);
+      means.push_back(ranking[r].values.at(column.metric).mean);
+      const bool finds_enough = ranking[r].values.at("f1").mean >= best_f1 - kF1Margin - kRounding;
+      eligible.push_back(ranking[r].missing == 0 && (finds_enough || column.direction == Direction::higher_is_better));
+    }
+    mark_best(cells, means, column.description(), eligible);
+    ++c;
+  }
 }
 
 }  // namespace
@@ -55,18 +84,11 @@ Table ranking_table(const std::vector<RankedPipeline>& ranking, const BenchmarkS
     row.cells.push_back({std::to_string(ranked.conditions_won)});
     table.rows.push_back(std::move(row));
   }
-  std::size_t c = 0;
-  for (const auto& column : benchmark_columns()) {
-    double best = kNan;
-    for (const auto& ranked : ranking) {
-      const double v = ranked.values.at(column.metric).mean;
-      const bool better = column.direction == Direction::lower_is_better ? v < best : v > best;
-      if (std::isnan(best) || better) best = v;
-    }
-    for (std::size_t r = 0; r < ranking.size(); ++r)
-      table.rows[r].cells[c].best = ranking[r].values.at(column.metric).mean == best;
-    ++c;
-  }
+  mark_columns(table, ranking);
+  table.caption = fmt::format(
+      "* the best value; of errors, times and other costs among extractors within {} points of the best F1. An "
+      "extractor that misses cells has no mark.",
+      100.0 * kF1Margin);
   return table;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "harness/report/html_page.hpp"
+#include "harness/report/plain_text.hpp"
 #include "harness/report/scenario_tables.hpp"
 
 namespace scanbench::harness {
@@ -11,7 +12,7 @@ namespace {
 
 constexpr std::size_t kPageWidth = 136;  // characters of a table that fit the page
 
-std::string input_text(const Scenario& scenario) {
+std::string input_text(const ReportInput& input, const Scenario& scenario) {
   if (const auto* simulated = std::get_if<SimulatedInput>(&scenario.input)) {
     return fmt::format("World {} with {} walls, sensor {}, trajectory {}, {} seed{}.", simulated->world.name,
                        simulated->world.walls.size(), simulated->sensor_preset, simulated->trajectory.module,
@@ -27,8 +28,10 @@ std::string input_text(const Scenario& scenario) {
                        scenario.seeds.size() == 1 ? "" : "s");
   }
   const auto& recorded = std::get<RecordedInput>(scenario.input);
-  return fmt::format("Recorded log {} ({}). There is no truth: metrics that need it are absent.",
-                     recorded.log.filename().string(), recorded.format);
+  const auto source = input.sources.find(scenario.name);
+  return fmt::format("Recorded log {} ({}{}). There is no truth: metrics that need it are absent.",
+                     recorded.log.filename().string(), recorded.format,
+                     source == input.sources.end() ? "" : "; " + source->second);
 }
 
 std::vector<FigureFile> figures_of(const ReportInput& input, const std::string& scenario) {
@@ -44,8 +47,8 @@ std::string report_html(const ReportInput& input) {
   std::string out = html_status(input.cells);
   for (const auto& scenario : input.scenarios) {
     out += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n<p class=\"faint\">{2}</p>\n", html_escaped(scenario.name),
-                       html_escaped(scenario.about), html_escaped(input_text(scenario)));
-    for (const auto& table : scenario_tables(scenario, input.rows, TableDetail::departures))
+                       html_escaped(scenario.about), html_escaped(input_text(input, scenario)));
+    for (const auto& table : scenario_tables(scenario, input.rows, input.cells, TableDetail::departures))
       for (const auto& part : parts_of_width(table, kPageWidth)) out += to_html(part);
     out += "<div class=\"figures\">\n";
     for (const auto& figure : figures_of(input, scenario.name)) {
@@ -59,11 +62,12 @@ std::string report_html(const ReportInput& input) {
 std::string report_markdown(const ReportInput& input) {
   std::string out = "# " + input.title + "\n\n" + markdown_status(input.cells);
   for (const auto& scenario : input.scenarios) {
-    out += "\n## " + scenario.name + "\n\n" + scenario.about + "\n\n" + input_text(scenario) + "\n";
-    for (const auto& table : scenario_tables(scenario, input.rows, TableDetail::departures))
+    out += "\n## " + scenario.name + "\n\n" + markdown_escaped(scenario.about) + "\n\n" +
+           markdown_escaped(input_text(input, scenario)) + "\n";
+    for (const auto& table : scenario_tables(scenario, input.rows, input.cells, TableDetail::departures))
       out += "\n" + to_markdown(table);
     for (const auto& figure : figures_of(input, scenario.name))
-      out += fmt::format("\n![{0}](figures/{1}.svg)\n\n{0}\n", figure.caption, figure.name);
+      out += fmt::format("\n![{0}](figures/{1}.svg)\n\n{0}\n", markdown_escaped(figure.caption), figure.name);
   }
   return out + markdown_facts(input.facts);
 }

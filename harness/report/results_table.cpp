@@ -1,16 +1,21 @@
-// Grouping, averaging over seeds, marking the best.
+// Tables of the metric families: means over seeds, what is missing, the best marked.
 #include "harness/report/results_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/registry.hpp"
+#include "core/special_values.hpp"
 #include "harness/analysis/statistics.hpp"
 #include "harness/report/table_marks.hpp"
 #include "metrics/metric.hpp"
@@ -21,32 +26,31 @@ namespace {
 using metrics::Direction;
 using metrics::MetricDescription;
 
-// Our value of one (pipeline, metric, subject) over seeds.
+/// How much worse in completeness than the best a pipeline may be for its errors and costs to be compared.
+constexpr double kCompletenessMargin = 0.05;
+constexpr double kRounding = 1e-9;  ///< a difference of exactly the margin is within it
+/// Metrics that say how much of what is there a pipeline finds, all of them shares; earlier ones are preferred.
+constexpr std::array<std::string_view, 4> kCompleteness{"f1", "covered_5cm", "placed", "missed"};
+
 using Key = std::pair<std::string, std::string>;  // metric, subject
+
+/// Our values of one (pipeline, metric, subject) over seeds.
 class Values {
  public:
-  explicit Values(const std::vector<SummaryRow>& rows, const std::string& scenario) {
-    for (const auto& row : rows)
-      if (row.scenario == scenario) values_[row.pipeline][{row.metric, row.subject}].push_back(row.value);
+  explicit Values(const std::vector<SummaryRow>& rows) {
+    for (const auto& row : rows) values_[row.pipeline][{row.metric, row.subject}].push_back(row.value);
   }
-  std::optional<Interval> find(const std::string& pipeline, const Key& key) const {
+  const std::vector<double>& of(const std::string& pipeline, const Key& key) const {
+    static const std::vector<double> kNone;
     const auto p = values_.find(pipeline);
-    if (p == values_.end()) return std::nullopt;
+    if (p == values_.end()) return kNone;
     const auto v = p->second.find(key);
-    if (v == p->second.end()) return std::nullopt;
-    return mean_interval(v->second);
+    return v == p->second.end() ? kNone : v->second;
   }
 
  private:
   std::map<std::string, std::map<Key, std::vector<double>>> values_;
 };
-
-std::string value_text(const Interval& interval, const Display& display) {
-  if (std::isnan(interval.mean)) return "–";
-  std::string text = fmt::format("{:.{}f}", interval.mean * display.scale, display.decimals);
-  if (interval.count > 1) text += fmt::format(" ± {:.{}f}", interval.half_width() * display.scale, display.decimals);
-  return text;
-}
 
 struct Family {
   std::string name;
@@ -55,10 +59,13 @@ struct Family {
 
 class TableBuilder {
  public:
-  TableBuilder(const Scenario& scenario, const std::vector<SummaryRow>& rows)
-      : scenario_(scenario), rows_(rows), values_(rows, scenario.name) {}
+  TableBuilder(const Scenario& scenario, const ComparableRows& results, std::vector<MetricDescription> all_metrics)
+      : scenario_(scenario), results_(results), all_metrics_(std::move(all_metrics)), values_(results.rows) {}
 
-  std::optional<Table> build(const Family& family) const {
+  std::optional<Table> build(const Family& family) {
+    gate_ = completeness_of(family.metrics);
+    if (gate_ == nullptr) gate_ = completeness_of(all_metrics_);
+    gate_passed_ = within_margin();
     const auto subjects = subjects_of(family);
     if (!subjects.empty()) return by_subject(family, subjects);
     const bool any = std::ranges::any_of(family.metrics, [&](const auto& m) { return reported(m.metric); });
@@ -66,126 +73,202 @@ class TableBuilder {
   }
 
  private:
+  /// A value of a table, before it becomes text.
+  struct Value {
+    double mean = kNaN;
+    TableCell cell;
+    bool complete = false;  ///< every cell of the pipeline is ok and gives a value
+  };
+
+  const MetricDescription* completeness_of(const std::vector<MetricDescription>& metrics) const {
+    for (const std::string_view name : kCompleteness)
+      for (const auto& metric : metrics)
+        if (metric.metric == name && reported(metric.metric)) return &metric;
+    return nullptr;
+  }
+
+  /// For each pipeline whether its completeness is within the margin of the best.
+  std::vector<bool> within_margin() const {
+    std::vector<bool> passed(results_.pipelines.size(), true);
+    if (gate_ == nullptr) return passed;
+    std::vector<double> costs;
+    for (const auto& pipeline : results_.pipelines) {
+      const auto& all = values_.of(pipeline, {gate_->metric, "all"});
+      costs.push_back(
+          metrics::cost(*gate_, mean_interval(all.empty() ? values_.of(pipeline, {gate_->metric, "mean"}) : all).mean));
+    }
+    double best = kNaN;
+    for (std::size_t i = 0; i < costs.size(); ++i)
+      if (results_.coverage.at(results_.pipelines[i]).complete() && (std::isnan(best) || costs[i] < best))
+        best = costs[i];
+    for (std::size_t i = 0; i < costs.size(); ++i)
+      passed[i] = std::isnan(best) || costs[i] <= best + kCompletenessMargin + kRounding;
+    return passed;
+  }
+
+  Value value_of(const std::string& pipeline, const Key& key, const Display& display) const {
+    const std::vector<double>& seeds = values_.of(pipeline, key);
+    const Coverage& coverage = results_.coverage.at(pipeline);
+    Value value;
+    if (seeds.empty()) {
+      value.cell.text = coverage.ok == 0 ? coverage.status() : "";
+      return value;
+    }
+    const MeanInterval interval = mean_interval(seeds);
+    value.mean = interval.mean;
+    value.cell.text = value_text(interval.mean, display);
+    if (interval.count > 1) value.cell.text += " " + spread_text(interval.half_width(), display);
+    const auto defined = static_cast<std::size_t>(interval.count);
+    if (defined > 0 && defined < seeds.size()) value.cell.text += fmt::format(" ({} of {})", defined, seeds.size());
+    value.complete = coverage.complete() && defined == seeds.size();
+    return value;
+  }
+
+  /// Errors, costs and deviations from a target are marked for pipelines of comparable completeness alone.
+  void mark(const std::vector<TableCell*>& cells, const std::vector<Value>& values, const MetricDescription& metric) {
+    std::vector<double> means;
+    std::vector<bool> eligible;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      means.push_back(values[i].mean);
+      eligible.push_back(values[i].complete && (!gated(metric) || gate_passed_[i]));
+    }
+    mark_best(cells, means, metric, eligible);
+  }
+
+  Display display_of(const MetricDescription& metric) const {
+    double largest = 0.0;
+    bool whole = true;
+    for (const auto& row : results_.rows) {
+      if (row.metric != metric.metric || !std::isfinite(row.value)) continue;
+      largest = std::max(largest, std::fabs(row.value));
+      whole = whole && row.value == std::floor(row.value);
+    }
+    Display display = display_for(metric.unit, largest);
+    if (whole && scenario_.seeds.size() == 1 && display.scale == 1.0 && largest >= 1.0)
+      display.decimals = 0;  // a count
+    return display;
+  }
+
   /// Other than "all", in the order of their first row.
   std::vector<std::string> subjects_of(const Family& family) const {
     std::set<std::string> names;
     for (const auto& metric : family.metrics) names.insert(metric.metric);
     std::vector<std::string> subjects;
-    for (const auto& row : rows_)
-      if (row.subject != "all" && row.scenario == scenario_.name && names.contains(row.metric) &&
-          std::ranges::find(subjects, row.subject) == subjects.end())
+    for (const auto& row : results_.rows)
+      if (row.subject != "all" && names.contains(row.metric) && std::ranges::count(subjects, row.subject) == 0)
         subjects.push_back(row.subject);
     return subjects;
   }
 
-  double largest(const std::string& metric) const {
-    double largest = 0.0;
-    for (const auto& row : rows_)
-      if (row.scenario == scenario_.name && row.metric == metric && std::isfinite(row.value))
-        largest = std::max(largest, std::abs(row.value));
-    return largest;
+  std::string label(const std::string& pipeline) const {
+    const std::string text = results_.coverage.at(pipeline).text();
+    return text.empty() ? pipeline : pipeline + " (" + text + ")";
   }
 
   // Rows: subjects. Columns: per metric, the pipelines.
-  Table by_subject(const Family& family, const std::vector<std::string>& subjects) const {
-    Table table{family.name, scenario_.name + ": " + family.name, caption(), {"line"}, {}, {}};
+  Table by_subject(const Family& family, const std::vector<std::string>& subjects) {
+    Table table{family.name, scenario_.name + ": " + family.name, caption(family), {"line"}, {}, {}};
     for (const auto& subject : subjects) table.rows.push_back({{subject}, {}, false});
     for (const auto& metric : family.metrics) {
       if (!reported(metric.metric, subjects)) continue;
-      const Display display = display_for(metric.unit, largest(metric.metric));
+      const Display display = display_of(metric);
       const std::size_t first = table.columns.size();
-      for (const auto& pipeline : scenario_.pipelines)
-        table.columns.push_back({heading(metric.metric, display), pipeline.name, false});
+      for (const auto& pipeline : results_.pipelines)
+        table.columns.push_back({heading(metric.metric, display), label(pipeline), false});
       for (std::size_t r = 0; r < subjects.size(); ++r) {
         auto& cells = table.rows[r].cells;
-        std::vector<double> ours;
-        for (const auto& pipeline : scenario_.pipelines) {
-          const auto value = values_.find(pipeline.name, {metric.metric, subjects[r]});
-          cells.push_back({value ? value_text(*value, display) : "", false, false});
-          ours.push_back(value ? value->mean : std::numeric_limits<double>::quiet_NaN());
+        std::vector<Value> values;
+        for (const auto& pipeline : results_.pipelines) {
+          values.push_back(value_of(pipeline, {metric.metric, subjects[r]}, display));
+          cells.push_back(values.back().cell);
         }
-        mark_best(pointers(cells, first, ours.size()), ours, metric.direction);
+        std::vector<TableCell*> added;
+        for (std::size_t c = first; c < cells.size(); ++c) added.push_back(&cells[c]);
+        mark(added, values, metric);
       }
     }
     return table;
   }
 
   // Rows: pipelines. Columns: metrics.
-  Table by_pipeline(const Family& family) const {
-    Table table{family.name, scenario_.name + ": " + family.name, caption(), {"pipeline"}, {}, {}};
-    struct Column {
-      const MetricDescription* metric;
-      Display display;
-    };
-    std::vector<Column> columns;
+  Table by_pipeline(const Family& family) {
+    Table table{family.name, scenario_.name + ": " + family.name, caption(family), {"pipeline"}, {}, {}};
+    for (const auto& pipeline : results_.pipelines) table.rows.push_back({{label(pipeline)}, {}, false});
     for (const auto& metric : family.metrics) {
       if (!reported(metric.metric)) continue;
-      columns.push_back({&metric, display_for(metric.unit, largest(metric.metric))});
-      table.columns.push_back({"", heading(metric.metric, columns.back().display), false});
-    }
-    for (const auto& pipeline : scenario_.pipelines) {
-      Table::Row row{{pipeline.name}, {}, false};
-      for (const auto& column : columns) {
-        const Key key{column.metric->metric, "all"};
-        const auto value = values_.find(pipeline.name, key);
-        row.cells.push_back({value ? value_text(*value, column.display) : "", false, false});
+      const Display display = display_of(metric);
+      table.columns.push_back({"", heading(metric.metric, display), false});
+      std::vector<Value> values;
+      for (std::size_t r = 0; r < table.rows.size(); ++r) {
+        values.push_back(value_of(results_.pipelines[r], {metric.metric, "all"}, display));
+        table.rows[r].cells.push_back(values.back().cell);
       }
-      table.rows.push_back(std::move(row));
-    }
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      std::vector<TableCell*> cells;
-      std::vector<double> ours;
-      for (auto& row : table.rows) {
-        const auto value = values_.find(row.heads.front(), {columns[c].metric->metric, "all"});
-        cells.push_back(&row.cells[c]);
-        ours.push_back(value ? value->mean : std::numeric_limits<double>::quiet_NaN());
-      }
-      mark_best(cells, ours, columns[c].metric->direction);
+      std::vector<TableCell*> added;
+      for (auto& row : table.rows) added.push_back(&row.cells.back());
+      mark(added, values, metric);
     }
     return table;
   }
 
-  static std::vector<TableCell*> pointers(std::vector<TableCell>& cells, std::size_t first, std::size_t count) {
-    std::vector<TableCell*> result;
-    for (std::size_t i = 0; i < count; ++i) result.push_back(&cells[first + i]);
-    return result;
-  }
-
   bool reported(const std::string& metric) const {
-    return std::ranges::any_of(rows_,
-                               [&](const SummaryRow& r) { return r.scenario == scenario_.name && r.metric == metric; });
+    return std::ranges::any_of(results_.rows, [&](const SummaryRow& r) { return r.metric == metric; });
   }
 
   // Of any of these subjects: a metric of the whole run has no place among lines.
   bool reported(const std::string& metric, const std::vector<std::string>& subjects) const {
-    return std::ranges::any_of(rows_, [&](const SummaryRow& r) {
-      return r.scenario == scenario_.name && r.metric == metric && std::ranges::count(subjects, r.subject) > 0;
+    return std::ranges::any_of(results_.rows, [&](const SummaryRow& r) {
+      return r.metric == metric && std::ranges::count(subjects, r.subject) > 0;
     });
   }
 
-  std::string caption() const {
-    std::string text = "* best of its kind";
+  /// True if the mark of the metric depends on the completeness of pipelines.
+  bool gated(const MetricDescription& metric) const {
+    return gate_ != nullptr && metric.metric != gate_->metric && metric.direction != Direction::higher_is_better &&
+           metric.direction != Direction::neither;
+  }
+
+  std::string caption(const Family& family) const {
+    std::vector<std::string> parts{"* the best value"};
+    if (std::ranges::any_of(family.metrics, [&](const auto& m) { return gated(m) && reported(m.metric); }))
+      parts.front() += fmt::format("; of errors and costs among pipelines within {} of the best {}",
+                                   kCompletenessMargin, gate_->metric);
+    const bool incomplete =
+        std::ranges::any_of(results_.coverage, [](const auto& of_pipeline) { return !of_pipeline.second.complete(); });
+    if (incomplete) parts.emplace_back("a pipeline with cells that did not end ok has no mark");
     if (scenario_.seeds.size() > 1)
-      text += fmt::format("; mean over {} seeds ± half width of the 95 % interval", scenario_.seeds.size());
-    return text + ".";
+      parts.push_back(fmt::format("mean over {} seeds ± half width of the 95 % interval", scenario_.seeds.size()));
+    parts.insert(parts.end(), results_.notes.begin(), results_.notes.end());
+    for (const auto& note : results_.line_notes)
+      if (std::ranges::any_of(family.metrics,
+                              [&](const auto& m) { return std::ranges::count(note.metrics, m.metric) > 0; }))
+        parts.push_back(note.text);
+    return fmt::format("{}.", fmt::join(parts, "; "));
   }
 
   const Scenario& scenario_;
-  const std::vector<SummaryRow>& rows_;
+  const ComparableRows& results_;
+  std::vector<MetricDescription> all_metrics_;
   Values values_;
+  const MetricDescription* gate_ = nullptr;  ///< the metric of completeness of the table in work; may be absent
+  std::vector<bool> gate_passed_;            ///< for each pipeline
 };
 
 }  // namespace
 
-std::vector<Table> result_tables(const Scenario& scenario, const std::vector<SummaryRow>& rows,
+std::vector<Table> result_tables(const Scenario& scenario, const ComparableRows& results,
                                  const std::vector<std::string>& shown_elsewhere) {
-  const TableBuilder builder(scenario, rows);
-  std::vector<Table> tables;
+  std::vector<Family> families;
+  std::vector<MetricDescription> all_metrics;
   for (const auto& choice : scenario.metrics) {
-    const auto family = Registry<metrics::MetricFamily>::make(choice.module, choice.params);
-    auto described = family->describe();
-    std::erase_if(described, [&](const auto& m) { return std::ranges::count(shown_elsewhere, m.metric) > 0; });
-    if (auto table = builder.build({choice.module, std::move(described)})) tables.push_back(std::move(*table));
+    families.push_back(
+        {choice.module, Registry<metrics::MetricFamily>::make(choice.module, choice.params)->describe()});
+    all_metrics.insert(all_metrics.end(), families.back().metrics.begin(), families.back().metrics.end());
+  }
+  TableBuilder builder(scenario, results, std::move(all_metrics));
+  std::vector<Table> tables;
+  for (auto& family : families) {
+    std::erase_if(family.metrics, [&](const auto& m) { return std::ranges::count(shown_elsewhere, m.metric) > 0; });
+    if (auto table = builder.build(family)) tables.push_back(std::move(*table));
   }
   return tables;
 }

@@ -1,11 +1,23 @@
 // Gathers what a report shows; writes figures and reports.
 #include "harness/report/run_report.hpp"
 
+#include <system_error>
+#include <variant>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/angles.hpp"
+#include "core/error.hpp"
+#include "core/params.hpp"
 #include "harness/analysis/agreement.hpp"
 #include "harness/analysis/agreement_files.hpp"
+#include "harness/analysis/selection.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/hash.hpp"
 #include "harness/report/benchmark_figures.hpp"
 #include "harness/report/benchmark_report.hpp"
+#include "harness/report/plain_text.hpp"
 #include "harness/report/ranking_table.hpp"
 #include "harness/report/report.hpp"
 #include "harness/report/scenario_tables.hpp"
@@ -31,6 +43,29 @@ void write_agreement(const fs::path& run, const ReportInput& input) {
   for (const auto& file : agreement_files(compared)) write_file_atomically(run / "published" / file.name, file.bytes);
 }
 
+/// "SHA-256 ...; 180 beams from -90 deg in steps of 1 deg, the rule for logs without angles".
+std::string source_of(const fs::path& run, const Scenario& scenario, const RecordedInput& recorded) {
+  std::error_code absent;
+  const bool readable = fs::is_regular_file(recorded.log, absent);
+  std::string text = readable ? "SHA-256 " + sha256_of_file(recorded.log) : "the log is no longer there";
+  if (scenario.seeds.empty()) return text;
+  const fs::path file = recording_path(run, scenario.name, scenario.seeds.front()) / "scan.json";
+  if (!fs::is_regular_file(file, absent)) return text;
+  const auto json = nlohmann::json::parse(read_file(file), nullptr, false);
+  if (json.is_discarded() || !json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
+  try {
+    const auto step = recorded.params.find("step_deg");
+    const bool given = step != recorded.params.end() && to_text(step->second) != "0";
+    return text + fmt::format("; {} beams from {:.6g} deg in steps of {:.6g} deg, {}", json.at("beams").get<int>(),
+                              degrees(json.at("angle_min_rad").get<double>()),
+                              degrees(json.at("angle_step_rad").get<double>()),
+                              given ? "as first_angle_deg and step_deg say"
+                                    : "as the log states or by the rule of its format for this number of beams");
+  } catch (const nlohmann::json::exception& error) {
+    throw ConfigError(file.string() + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& scenarios) {
@@ -40,19 +75,24 @@ ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& 
   input.facts = manifest_facts(run);
   input.scenarios = scenarios;
   if (fs::exists(run / "summary.csv")) input.rows = load_summary(run / "summary.csv");
-  for (const auto& key : load_manifest(run).cells) {
+  const Manifest manifest = load_manifest(run);
+  for (const auto& key : manifest.cells) {
     const fs::path cell = cell_path(run, key);
-    CellLine line{key.scenario, key.pipeline, key.seed, "missing", "not run", 0.0, 0.0};
+    CellLine line{key.scenario, key.pipeline, key.seed, "missing", "not run", 0.0, 0.0, was_selected(manifest, key)};
     if (fs::exists(cell / "status.json")) {
       const CellRecord record = load_status(cell);
+      line.selected = true;
       line.status = to_string(record.outcome.status);
-      line.message = record.outcome.message;
+      line.message = plain_line(record.outcome.message);
       line.wall_seconds = record.outcome.wall_seconds;
       line.peak_memory_bytes = record.outcome.peak_memory_bytes;
     }
     input.cells.push_back(std::move(line));
   }
   input.figures = load_figure_index(run);
+  for (const auto& scenario : scenarios)
+    if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
+      input.sources[scenario.name] = source_of(run, scenario, *recorded);
   return input;
 }
 
@@ -76,7 +116,8 @@ std::vector<Table> closing_tables(const ReportInput& input) {
     return {ranking_table(rank_pipelines(input.scenarios, input.rows, *benchmark), *benchmark)};
   std::vector<Table> tables;
   for (const auto& scenario : input.scenarios)
-    for (auto& table : scenario_tables(scenario, input.rows, TableDetail::summary)) tables.push_back(std::move(table));
+    for (auto& table : scenario_tables(scenario, input.rows, input.cells, TableDetail::summary))
+      tables.push_back(std::move(table));
   return tables;
 }
 

@@ -1,25 +1,37 @@
 // Published tables first, our own after them.
 #include "harness/report/scenario_tables.hpp"
 
+#include <algorithm>
+
 #include "harness/analysis/agreement.hpp"
 #include "harness/report/agreement_tables.hpp"
+#include "harness/report/comparable_rows.hpp"
 #include "harness/report/paper_tables.hpp"
 #include "harness/store/summary.hpp"
 
 namespace scanbench::harness {
 
-std::vector<Table> scenario_tables(const Scenario& scenario, const std::vector<SummaryRow>& rows, TableDetail detail) {
-  const auto columns = compare_with_paper(scenario, rows);
+std::vector<Table> scenario_tables(const Scenario& scenario, const std::vector<SummaryRow>& rows,
+                                   const std::vector<CellLine>& cells, TableDetail detail) {
+  const ComparableRows results = comparable_rows(scenario, rows, cells);
+  const Scenario shown = restricted(scenario, results);
+  const auto columns = compare_with_paper(shown, results.rows);
   std::vector<std::string> printed;
   for (const auto& column : columns) printed.push_back(column.metric.metric);
 
-  std::vector<Table> tables = paper_tables(scenario.name, columns);
+  std::vector<std::string> captions = results.notes;
+  for (const auto& note : results.line_notes)
+    if (std::ranges::any_of(note.metrics, [&](const auto& m) { return std::ranges::count(printed, m) > 0; }))
+      captions.push_back(note.text);
+  std::vector<Table> tables = paper_tables(shown.name, columns);
+  for (auto& table : tables)
+    for (const auto& note : captions) table.caption += " " + note + ".";
   const auto append = [&](std::vector<Table> more) {
     for (auto& table : more) tables.push_back(std::move(table));
   };
-  append(agreement_tables(scenario.name, columns));
-  if (detail == TableDetail::departures) append(departure_tables(scenario.name, columns));
-  append(result_tables(scenario, rows, printed));
+  append(agreement_tables(shown.name, columns));
+  if (detail == TableDetail::departures) append(departure_tables(shown.name, columns));
+  append(result_tables(shown, results, printed));
   return tables;
 }
 

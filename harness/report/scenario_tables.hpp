@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "harness/report/page_input.hpp"
 #include "harness/report/results_table.hpp"
 #include "harness/report/table.hpp"
 #include "harness/scenario/scenario.hpp"
@@ -17,6 +18,8 @@ enum class TableDetail {
 };
 
 /// The tables of a paper beside ours, if the scenario names them, and then what the paper does not print.
-std::vector<Table> scenario_tables(const Scenario& scenario, const std::vector<SummaryRow>& rows, TableDetail detail);
+/// `cells` says how the scenario's cells ended: values are compared on those that every pipeline finished.
+std::vector<Table> scenario_tables(const Scenario& scenario, const std::vector<SummaryRow>& rows,
+                                   const std::vector<CellLine>& cells, TableDetail detail);
 
 }  // namespace scanbench::harness

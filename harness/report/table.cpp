@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/report/plain_text.hpp"
+
 namespace scanbench::harness {
 namespace {
 
@@ -24,6 +26,16 @@ std::size_t display_width(const std::string& text) {
 std::string padded(const std::string& text, std::size_t width, bool right) {
   const std::string space(width > display_width(text) ? width - display_width(text) : 0, ' ');
   return right ? space + text : text + space;
+}
+
+// The table without characters that would control a terminal.
+Table plain(Table table) {
+  table.title = plain_line(table.title);
+  for (auto& row : table.rows) {
+    for (auto& head : row.heads) head = plain_line(head);
+    for (auto& cell : row.cells) cell.text = plain_line(cell.text);
+  }
+  return table;
 }
 
 bool has_groups(const Table& table) {
@@ -161,7 +173,7 @@ std::vector<Table> parts_of_width(const Table& table, std::size_t width) {
 
 std::string to_terminal(const Table& table, bool color, std::size_t width) {
   std::string out;
-  for (const auto& part : parts_of_width(table, width))
+  for (const auto& part : parts_of_width(plain(table), width))
     out += (out.empty() ? "" : "\n") + part_to_terminal(part, color);
   return out;
 }
@@ -176,9 +188,11 @@ std::string to_markdown(const Table& table) {
   out += "\n";
   for (const auto& row : table.rows) {
     out += "|";
-    for (const auto& head : row.heads) out += " " + head + " |";
-    for (const auto& cell : row.cells)
-      out += " " + with_spread(cell.best ? "**" + cell.text + "**" : cell.text, cell) + " |";
+    for (const auto& head : row.heads) out += " " + markdown_escaped(head) + " |";
+    for (const auto& cell : row.cells) {
+      const std::string text = markdown_escaped(cell.text);
+      out += " " + with_spread(cell.best ? "**" + text + "**" : text, cell) + " |";
+    }
     out += "\n";
   }
   if (!table.caption.empty()) out += "\n" + table.caption + "\n";

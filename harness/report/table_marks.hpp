@@ -1,6 +1,7 @@
 // How values become cells of a table: the unit and digits they are shown with, and the mark of the best.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,17 +14,26 @@ namespace scanbench::harness {
 struct Display {
   std::string unit;
   double scale = 1.0;
-  int decimals = 2;
+  std::optional<int> decimals = {};  ///< as a paper prints; absent: three significant digits of each value
 };
 
-/// Three significant digits of the largest value; lengths below a metre in centimetres, times below a second in
-/// milliseconds, radians in degrees.
+/// The unit of a column by its largest magnitude: lengths below a metre in centimetres, times below a second in
+/// milliseconds, below a millisecond in microseconds, radians in degrees.
 Display display_for(const std::string& unit, double largest);
+
+/// The value in the unit of `display`; "–" if it is undefined. A value that is not zero is never shown as zero.
+std::string value_text(double value, const Display& display);
+
+/// "± 0.12" with two significant digits, or with the decimals of `display`; empty if the half width is undefined.
+std::string spread_text(double half_width, const Display& display);
 
 /// "name [unit]".
 std::string heading(const std::string& metric, const Display& display);
 
-/// Marks the best of the cells whose values are given (NaN: no value); ties are all best. One value alone is not.
-void mark_best(const std::vector<TableCell*>& cells, const std::vector<double>& values, metrics::Direction direction);
+/// Marks the best of the cells that may be marked. `values` belong to `cells` one by one, NaN: no value; ties are all
+/// best. Nothing is marked if the metric has no best value, fewer than two values are finite, or all are equal.
+/// `eligible`, one entry a cell, excludes cells from the mark; empty: none is excluded.
+void mark_best(const std::vector<TableCell*>& cells, const std::vector<double>& values,
+               const metrics::MetricDescription& metric, const std::vector<bool>& eligible = {});
 
 }  // namespace scanbench::harness

@@ -139,9 +139,11 @@ void refresh_manifest(const fs::path& run) {
 }
 
 std::string version_text() {
-  const std::string commit = version::kCommit;
-  return std::string("scanbench ") + version::kVersion + " (" + commit.substr(0, 12) + ", " + version::kCompiler +
-         ", " + version::kBuildType + ")";
+  // Twelve digits of the commit, and what follows its 40: "-dirty-" with a hash of the code.
+  std::string commit = version::kCommit;
+  if (commit.size() >= 40 && !commit.starts_with("unknown")) commit.erase(12, 28);
+  return std::string("scanbench ") + version::kVersion + " (" + commit + ", " + version::kCompiler + ", " +
+         version::kBuildType + ")";
 }
 
 std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& run) {

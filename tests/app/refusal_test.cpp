@@ -39,6 +39,10 @@ TEST(Refusals, OfTheCommandLineSayWhatIsAllowed) {
   EXPECT_THAT(refusal_in(folder, {"run"}), HasSubstr("FILE"));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--frobnicate"}), HasSubstr("--frobnicate"));
   EXPECT_THAT(refusal_in(folder, {"run", "nowhere.yaml"}), HasSubstr("nowhere.yaml: no such file"));
+  EXPECT_THAT(refusal_in(folder, {"run", "rom.yaml"}), HasSubstr("did you mean 'room.yaml'?"));
+  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--job", "2"}), HasSubstr("did you mean '--jobs'?"));
+  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--no-figure=1"}), HasSubstr("did you mean '--no-figures'?"));
+  EXPECT_THAT(refusal_in(folder, {"run", "\x1b[31mred.yaml"}), Not(HasSubstr("\x1b")));
   for (const char* seed : {"garbage", "-1", "1x", "9007199254740993", "99999999999999999999999"})
     EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--seed", seed}),
                 AllOf(HasSubstr(std::string("'") + seed + "'"), HasSubstr("0 .. 9007199254740992")));

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -49,6 +50,21 @@ TEST(Catalog, ListsEveryKindAndDescribesEveryName) {
   EXPECT_EQ(run({"list", "furniture"}).code, 2);
   EXPECT_EQ(run({"--version"}).code, 0);
   EXPECT_THAT(run({"--help"}).out, HasSubstr("compare"));
+}
+
+TEST(Catalog, TakesPluralsModulesAndSingleMetrics) {
+  EXPECT_EQ(run({"list", "sensors"}).out, run({"list", "sensor"}).out);
+  EXPECT_EQ(run({"list", "metric"}).out, run({"list", "metrics"}).out);
+  EXPECT_THAT(run({"list", "trajectories"}).out, HasSubstr("waypoints"));
+  const auto modules = run({"list", "modules"});
+  EXPECT_EQ(modules.code, 0);
+  EXPECT_THAT(modules.out, AllOf(HasSubstr("iepf"), HasSubstr("mean_shift"), Not(HasSubstr("sick_lms200"))));
+  const auto f1 = run({"describe", "f1"});
+  EXPECT_EQ(f1.code, 0) << f1.err;
+  EXPECT_THAT(f1.out, AllOf(HasSubstr("harmonic mean"), HasSubstr("segments"), HasSubstr("more is better")));
+  EXPECT_THAT(run({"describe", "nees"}).out, HasSubstr("best near 2"));
+  EXPECT_THAT(run({"describe", "recal"}).err, HasSubstr("did you mean 'recall'?"));
+  EXPECT_THAT(run({"--help"}).out, AllOf(HasSubstr("./scanbench test"), HasSubstr("./scanbench build")));
 }
 
 TEST(Check, FindsEveryScenarioOfTheTreeGood) {
@@ -128,6 +144,35 @@ TEST_F(Verbs, AnExportedLogReadsBackToTheSameRangesAndLines) {
   int rows = 0;
   for (std::string line; std::getline(poses, line);) rows += !line.empty() && line.front() != '#';
   EXPECT_EQ(rows, 5);
+}
+
+TEST_F(Verbs, FiguresSaysWhenThereIsNothingToDraw) {
+  folder_.write("plain.yaml", room_with("figures: [environment]\n", ""));
+  ASSERT_EQ(here({"run", "plain.yaml", "--out", "plain", "-q"}).code, 0);
+  const auto outcome = here({"figures", "plain"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("nothing to draw: the scenarios name no figures"));
+  EXPECT_THAT(here({"figures", "run"}).out, AllOf(HasSubstr(".svg"), Not(HasSubstr("nothing"))));
+}
+
+TEST_F(Verbs, ASelectionOfCellsIsNoFailureAndComparesAsComplete) {
+  folder_.write("two.yaml", room_with("metrics:", "  - {name: other, extract: {module: sef}}\nmetrics:"));
+  for (const char* out : {"one", "again"})
+    ASSERT_EQ(here({"run", "two.yaml", "--out", out, "--only", "iepf", "-q", "--no-figures"}).code, 0);
+  EXPECT_THAT(read(folder_ / "one/report.md"), AllOf(HasSubstr("1 of 2 cells selected, all ok"),
+                                                     Not(HasSubstr("did not end well")), Not(HasSubstr("other"))));
+  const auto same = here({"compare", "one", "again"});
+  EXPECT_EQ(same.code, 0) << same.out;
+  EXPECT_THAT(same.out, Not(HasSubstr("INCOMPLETE")));
+}
+
+TEST_F(Verbs, ProgressIntoAFileIsALineEveryTenthOfTheWork) {
+  const auto outcome = here({"run", "room.yaml", "--out", "many", "--no-figures", "--seed",
+                             "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20,21,22,23,24,25"});
+  EXPECT_EQ(outcome.code, 0);
+  const auto lines = std::count(outcome.err.begin(), outcome.err.end(), '\n');
+  EXPECT_GE(lines, 5) << outcome.err;
+  EXPECT_LE(lines, 12) << outcome.err;
 }
 
 TEST_F(Verbs, ScoreOfARunWithAMissingCellIsIncomplete) {

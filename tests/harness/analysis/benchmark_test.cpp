@@ -123,12 +123,37 @@ TEST(Benchmark, TableMarksTheBestOfEveryColumn) {
     if (table.columns[c].head == "σ offset [cm]") {
       EXPECT_EQ(table.rows[0].cells[c].text, "–");
       EXPECT_EQ(table.rows[2].cells[c].text, "2.500");
-      EXPECT_TRUE(table.rows[2].cells[c].best);
+      EXPECT_FALSE(table.rows[2].cells[c].best);  // nothing to compare with, and F1 is 50 points behind
+    }
+    if (table.columns[c].head == "time [µs]") {
+      EXPECT_TRUE(table.rows[0].cells[c].best);  // 1.5 against 4, F1 within 5 points
     }
     if (table.columns[c].head == "F1 − next") {
       EXPECT_THAT(table.rows[0].cells[c].spread, HasSubstr("n.s."));
     }
   }
+}
+
+TEST(Benchmark, TableMarksCostsOfExtractorsThatFindEnoughAndMissNoCell) {
+  auto rows = made_up_rows();
+  for (auto& r : rows)
+    if (r.pipeline == "c" && r.metric == "t_scan") r.value = 0.001;  // the fastest by far, with an F1 of 0.35
+  std::vector<SummaryRow> more;
+  add_rows(more, "a", "efficiency_offset", {1.2, 1.2, 1.2, 1.2});
+  add_rows(more, "b", "efficiency_offset", {0.5, 0.5, 0.5, 0.5});
+  rows.insert(rows.end(), more.begin(), more.end());
+  const auto best_in = [&](const std::vector<SummaryRow>& of, const std::string& head) {
+    const Table table = ranking_table(rank_pipelines(two_scenarios(), of, kSpec), kSpec);
+    std::vector<std::string> names;
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      for (const auto& r : table.rows)
+        if (table.columns[c].head == head && r.cells[c].best) names.push_back(r.heads[1].substr(0, 1));
+    return names;
+  };
+  EXPECT_THAT(best_in(rows, "time [µs]"), ::testing::ElementsAre("b"));
+  EXPECT_THAT(best_in(rows, "offset / bound"), ::testing::ElementsAre("a"));  // 1.2 is nearer to 1 than 0.5
+  std::erase_if(rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
+  EXPECT_THAT(best_in(rows, "time [µs]"), ::testing::ElementsAre("a"));
 }
 
 TEST(Benchmark, FileOfTheRunReadsBack) {

@@ -85,7 +85,7 @@ TEST(Compare, ACellThatFailsNowIsWorseAndOneMissingMakesItIncomplete) {
   fs::remove_all(cell_path(failed, {"s", "a", 2}));
   const Comparison both = compare_runs(good, failed);
   EXPECT_TRUE(both.incomplete);
-  EXPECT_EQ(both.exit_code(), 1);
+  EXPECT_EQ(both.exit_code(), 5);  // neither hides the other
   EXPECT_THROW(compare_runs(good, folder.path()), ConfigError);
 }
 
@@ -104,6 +104,49 @@ TEST(Compare, ARowThatIsGoneMakesItIncompleteAndAValueThatIsGoneIsWorse) {
   EXPECT_EQ(compare_runs(b, a).counts.at(Verdict::only_in_b), 1);
   write_file_atomically(file, std::string(text).replace(at, lines.size(), "test_lines,all,,,5,,\n"));
   EXPECT_EQ(compare_runs(a, b).counts.at(Verdict::worse), 1);
+}
+
+TEST(Compare, OfAnInfiniteValueIsNeverBetter) {
+  const testing::TemporaryFolder folder;
+  const fs::path a = run_with_skip(folder.path() / "a", 0);
+  const fs::path b = run_with_skip(folder.path() / "b", 0);
+  const std::string name = "test_unlabelled,\"a, \"\"b\"\"\",";
+  const auto set_value = [&](const fs::path& run, const std::string& value) {
+    const fs::path file = cell_path(run, {"s", "a", 1}) / "metrics.csv";
+    std::string text = read_file(file);
+    const auto at = text.find(name);
+    ASSERT_NE(at, std::string::npos) << text;
+    const auto from = at + name.size();
+    write_file_atomically(file, text.replace(from, text.find(',', from) - from, value));
+  };
+  const auto verdicts = [&](const std::string& value_a, const std::string& value_b) {
+    set_value(a, value_a);
+    set_value(b, value_b);
+    return compare_runs(a, b).counts;
+  };
+  EXPECT_EQ(verdicts("inf", "-inf").count(Verdict::better), 0U);
+  EXPECT_EQ(verdicts("inf", "-inf").at(Verdict::changed), 1);
+  EXPECT_EQ(verdicts("3", "-inf").at(Verdict::worse), 1);
+  EXPECT_EQ(verdicts("-inf", "3").at(Verdict::better), 1);
+  EXPECT_EQ(verdicts("inf", "inf").at(Verdict::same), 12);
+}
+
+TEST(Compare, OfTwoRunsWithTheSameSelectionIsComplete) {
+  const testing::TemporaryFolder folder;
+  const auto run_only = [&](const char* name, const std::string& only) {
+    run_here({scenario_with("s", {extract_with("a", "test_line"), extract_with("b", "test_line")}, {1, 2})},
+             {.out = folder.path() / name, .only = {only}, .argv = {"scanbench", "run", "s.yaml", "--only", only}});
+    return folder.path() / name;
+  };
+  const fs::path one = run_only("one", "a");
+  const fs::path two = run_only("two", "s/a");
+  const fs::path other = run_only("other", "b");
+  EXPECT_EQ(compare_runs(one, two).exit_code(), 0);
+  EXPECT_EQ(compare_runs(one, two).rows.size(), 2U * 3U);
+  EXPECT_EQ(compare_runs(one, other).exit_code(), 4);
+  fs::remove_all(cell_path(one, {"s", "a", 2}));
+  fs::remove_all(cell_path(two, {"s", "a", 2}));
+  EXPECT_EQ(compare_runs(one, two).exit_code(), 4);  // requested, and missing in both
 }
 
 TEST(Compare, SaysWhenTheRecordingsDiffer) {

@@ -16,7 +16,7 @@ namespace {
 TEST(MeanInterval, IsAtLeastStudentsForANormalSample) {
   // t(0.975, 4) = 2.7764; mean 3, standard deviation sqrt(2.5), n = 5: half width 1.9633.
   const std::array values = {1.0, 2.0, 3.0, 4.0, 5.0};
-  const Interval interval = mean_interval(values);
+  const MeanInterval interval = mean_interval(values);
   EXPECT_DOUBLE_EQ(interval.mean, 3.0);
   EXPECT_LE(interval.low, 3.0 - 1.9632);
   EXPECT_GE(interval.high, 3.0 + 1.9632);
@@ -36,8 +36,8 @@ TEST(MeanInterval, CoversTheTrueMeanOfNormalAndSkewedSamples) {
       a.push_back(rng.normal());
       b.push_back(portable::exp(rng.normal()));
     }
-    const Interval ia = mean_interval(a);
-    const Interval ib = mean_interval(b);
+    const MeanInterval ia = mean_interval(a);
+    const MeanInterval ib = mean_interval(b);
     normal += ia.low <= 0 && 0 <= ia.high;
     const double mean = std::exp(0.5);
     lognormal += ib.low <= mean && mean <= ib.high;

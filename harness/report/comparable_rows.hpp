@@ -1,0 +1,53 @@
+// The values of a scenario that can be compared: of the cells that every pipeline finished, with what is missing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/report/page_input.hpp"
+#include "harness/scenario/scenario.hpp"
+#include "harness/store/summary.hpp"
+
+namespace scanbench::harness {
+
+/// How the cells of one pipeline ended.
+struct Coverage {
+  std::size_t ok = 0;
+  std::size_t all = 0;
+  std::map<std::string, std::size_t> others;  ///< cells by their status, without those that are ok
+  std::size_t unconverged = 0;                ///< ok, but an aligner or matcher has not converged
+
+  bool complete() const { return ok == all; }
+  /// The status of most of the cells that are not ok; empty if all are.
+  std::string status() const;
+  /// "2 of 6 ok, 4 crashed; not converged in 1"; empty if there is nothing to say.
+  std::string text() const;
+};
+
+struct ComparableRows {
+  std::vector<std::string> pipelines;  ///< that were selected, in the scenario's order
+  std::vector<std::uint64_t> seeds;    ///< that every pipeline with a finished cell has finished
+  std::vector<SummaryRow> rows;        ///< of these seeds and pipelines
+  std::map<std::string, Coverage> coverage;
+  std::vector<std::string> notes;  ///< for captions: which seeds the means cover
+  struct LineNote {
+    std::vector<std::string> metrics;
+    std::string text;
+  };
+  std::vector<LineNote> line_notes;  ///< for captions of tables with these metrics: which lines their means cover
+};
+
+/// Restricts the rows of a scenario to the seeds that all pipelines have finished, so that means are over the same
+/// input. If no seed is left, every pipeline keeps the seeds that it has, and a note says so. A row "mean" (over walls)
+/// is computed again from the walls on which every pipeline has a value, for the same reason. `cells` says how cells
+/// ended; without any of the scenario a cell is ok if it has rows.
+ComparableRows comparable_rows(const Scenario& scenario, const std::vector<SummaryRow>& rows,
+                               const std::vector<CellLine>& cells = {});
+
+/// The scenario restricted to the pipelines and seeds of the rows.
+Scenario restricted(Scenario scenario, const ComparableRows& results);
+
+}  // namespace scanbench::harness

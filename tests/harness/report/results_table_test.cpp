@@ -1,0 +1,209 @@
+// What a reader of the tables is told: marks, missing cells, common input, digits.
+#include "harness/report/results_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "harness/report/comparable_rows.hpp"
+#include "harness/report/html_page.hpp"
+#include "harness/report/table_marks.hpp"
+#include "tests/harness/run_support.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+using metrics::Direction;
+using metrics::MetricDescription;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using testing::extract_with;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+Scenario scenario_of(const std::vector<std::string>& pipelines, const std::vector<std::string>& families,
+                     std::vector<std::uint64_t> seeds = {1}) {
+  Scenario scenario;
+  scenario.name = "s";
+  scenario.seeds = std::move(seeds);
+  for (const auto& name : pipelines) scenario.pipelines.push_back(extract_with(name, "test_line"));
+  for (const auto& family : families) scenario.metrics.push_back({"metrics", family, {}});
+  return scenario;
+}
+
+SummaryRow row(const std::string& pipeline, const std::string& metric, double value, std::uint64_t seed = 1,
+               const std::string& subject = "all") {
+  return {"s", pipeline, seed, metric, subject, value, "", 1};
+}
+
+CellLine cell(const std::string& pipeline, std::uint64_t seed, const std::string& status,
+              const std::string& message = "") {
+  return {"s", pipeline, seed, status, message, 0.0, 0.0};
+}
+
+/// The cell of a pipeline (by the beginning of its label) and a metric (by the beginning of its heading).
+const TableCell& at(const Table& table, const std::string& pipeline, const std::string& metric) {
+  for (const auto& r : table.rows)
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      if (r.heads.front().starts_with(pipeline) && table.columns[c].head.starts_with(metric)) return r.cells[c];
+  throw InternalError("the table has no " + pipeline + ", " + metric);
+}
+
+std::vector<bool> marked(const std::vector<double>& values, const MetricDescription& metric,
+                         const std::vector<bool>& eligible = {}) {
+  std::vector<TableCell> cells(values.size());
+  std::vector<TableCell*> pointers;
+  for (auto& c : cells) pointers.push_back(&c);
+  mark_best(pointers, values, metric, eligible);
+  std::vector<bool> best;
+  for (const auto& c : cells) best.push_back(c.best);
+  return best;
+}
+
+TEST(MarkBest, MarksTheValuesNearestToATargetOnEitherSide) {
+  const MetricDescription nees{"nees", "", Direction::target, 0.1, "", false, 2.0};
+  EXPECT_THAT(marked({0.5, 2.25, 1.75, 3.0}, nees), ElementsAre(false, true, true, false));
+  EXPECT_THAT(marked({0.0, 9.0}, nees), ElementsAre(true, false));
+}
+
+TEST(MarkBest, MarksNothingWithoutADirectionACompetitorOrADifference) {
+  const MetricDescription lower{"x", "", Direction::lower_is_better, 0, ""};
+  const MetricDescription neither{"x", "", Direction::neither, 0, ""};
+  const double nan = std::nan("");
+  EXPECT_THAT(marked({1, 2}, neither), ElementsAre(false, false));
+  EXPECT_THAT(marked({1, nan}, lower), ElementsAre(false, false));
+  EXPECT_THAT(marked({1, 1, nan}, lower), ElementsAre(false, false, false));
+  EXPECT_THAT(marked({1, 2, nan}, lower), ElementsAre(true, false, false));
+  EXPECT_THAT(marked({1, 2, 2}, lower, {false, true, true}), ElementsAre(false, true, true));
+  EXPECT_THAT(marked({-std::numeric_limits<double>::infinity(), 2, 3}, lower), ElementsAre(false, true, false));
+}
+
+// Thirty walls: one map has all of them, one has twelve lines and covers a third.
+TEST(ResultTables, GiveAMapThatMissesWallsNoMarkForBeingSmall) {
+  const Scenario scenario = scenario_of({"right", "coarse", "small"}, {"map_truth", "timing"});
+  std::vector<SummaryRow> rows;
+  const auto add = [&](const std::string& pipeline, double covered, double per_wall, double duplicates, double t) {
+    rows.push_back(row(pipeline, "covered_5cm", covered));
+    rows.push_back(row(pipeline, "lines_per_wall", per_wall));
+    rows.push_back(row(pipeline, "duplicates", duplicates));
+    rows.push_back(row(pipeline, "t_scan", t));
+  };
+  add("right", 0.99, 1.1, 3, 30);
+  add("coarse", 0.97, 1.5, 5, 20);
+  add("small", 0.36, 0.4, 0, 10);
+  const auto tables = result_tables(scenario, comparable_rows(scenario, rows));
+  ASSERT_EQ(tables.size(), 2U);
+  for (const char* metric : {"covered_5cm", "lines_per_wall", "duplicates"}) {
+    EXPECT_TRUE(at(tables[0], "right", metric).best) << metric;
+    EXPECT_FALSE(at(tables[0], "small", metric).best) << metric;
+  }
+  EXPECT_TRUE(at(tables[1], "coarse", "t_scan").best);
+  EXPECT_FALSE(at(tables[1], "small", "t_scan").best);
+  EXPECT_THAT(tables[1].caption, HasSubstr("within 0.05 of the best covered_5cm"));
+}
+
+TEST(ResultTables, SayHowManyCellsAPipelineFinishedAndMarkNoneThatDidNotFinishAll) {
+  const Scenario scenario = scenario_of({"good", "fragile", "broken"}, {"segments"}, {1, 2, 3});
+  std::vector<SummaryRow> rows{row("good", "f1", 0.9, 1), row("good", "f1", 0.7, 2), row("good", "f1", 0.1, 3),
+                               row("fragile", "f1", 1.0, 1), row("fragile", "f1", 1.0, 2)};
+  const std::vector<CellLine> cells{
+      cell("good", 1, "ok"),        cell("good", 2, "ok"),        cell("good", 3, "ok"),
+      cell("fragile", 1, "ok"),     cell("fragile", 2, "ok"),     cell("fragile", 3, "crashed"),
+      cell("broken", 1, "timeout"), cell("broken", 2, "timeout"), cell("broken", 3, "timeout")};
+  const ComparableRows results = comparable_rows(scenario, rows, cells);
+  EXPECT_THAT(results.seeds, ElementsAre(1, 2));
+  const auto tables = result_tables(restricted(scenario, results), results);
+  ASSERT_EQ(tables.size(), 1U);
+  EXPECT_THAT(tables[0].rows[1].heads.front(), HasSubstr("2 of 3 ok, 1 crashed"));
+  EXPECT_FALSE(at(tables[0], "fragile", "f1").best);
+  EXPECT_TRUE(at(tables[0], "good", "f1").best);
+  EXPECT_THAT(at(tables[0], "good", "f1").text, HasSubstr("0.800 ±"));  // of seeds 1 and 2, as the other's
+  EXPECT_EQ(at(tables[0], "broken", "f1").text, "timeout");
+  EXPECT_THAT(tables[0].caption, AllOf(HasSubstr("2 of 3 seeds"), HasSubstr("no mark")));
+}
+
+TEST(ResultTables, CountTheSeedsInWhichAValueIsDefined) {
+  const Scenario scenario = scenario_of({"a", "b"}, {"segments"}, {1, 2});
+  const auto tables = result_tables(
+      scenario, comparable_rows(scenario, {row("a", "sigma_angle", 1.0, 1), row("a", "sigma_angle", std::nan(""), 2),
+                                           row("b", "sigma_angle", 2.0, 1), row("b", "sigma_angle", 2.0, 2)}));
+  EXPECT_THAT(at(tables.at(0), "a", "sigma_angle").text, HasSubstr("(1 of 2)"));
+  EXPECT_FALSE(at(tables.at(0), "a", "sigma_angle").best);
+}
+
+TEST(ComparableRows, AverageOverTheLinesOnWhichEveryPipelineHasAValue) {
+  const Scenario scenario = scenario_of({"a", "b"}, {"borges2000"});
+  std::vector<SummaryRow> rows;
+  const auto add = [&](const std::string& pipeline, const std::vector<double>& lines, double mean) {
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      rows.push_back(row(pipeline, "n_lines", lines[i], 1, "wall " + std::to_string(i + 1)));
+    rows.push_back(row(pipeline, "n_lines", mean, 1, "mean"));
+  };
+  add("a", {1.0, 1.5, std::nan("")}, 1.25);
+  add("b", {2.0, 3.0, 10.0}, 5.0);
+  const ComparableRows results = comparable_rows(scenario, rows);
+  for (const auto& r : results.rows) {
+    if (r.subject == "mean") {
+      EXPECT_EQ(r.value, r.pipeline == "a" ? 1.25 : 2.5);
+    }
+  }
+  ASSERT_EQ(results.line_notes.size(), 1U);
+  EXPECT_THAT(results.line_notes[0].text, AllOf(HasSubstr("n_lines"), HasSubstr("without wall 3")));
+}
+
+TEST(ComparableRows, LeaveOutPipelinesThatWereNotSelected) {
+  const Scenario scenario = scenario_of({"a", "b"}, {"segments"});
+  std::vector<CellLine> cells{cell("a", 1, "ok"), cell("b", 1, "missing", "not run")};
+  cells[1].selected = false;
+  const ComparableRows results = comparable_rows(scenario, {row("a", "f1", 0.5)}, cells);
+  EXPECT_THAT(results.pipelines, ElementsAre("a"));
+  EXPECT_THAT(results.notes, IsEmpty());
+  for (const auto& text : {html_status(cells), markdown_status(cells)})
+    EXPECT_THAT(text, AllOf(HasSubstr("1 of 2 cells selected, all ok"), Not(HasSubstr("not run"))));
+}
+
+TEST(ResultTables, SayWhichAlignersHaveNotConverged) {
+  const Scenario scenario = scenario_of({"a", "b"}, {"segments"});
+  const std::vector<CellLine> cells{cell("a", 1, "ok", "align: 1 max_iterations"), cell("b", 1, "ok")};
+  const ComparableRows results = comparable_rows(scenario, {row("a", "f1", 0.5), row("b", "f1", 0.4)}, cells);
+  EXPECT_EQ(result_tables(scenario, results).at(0).rows[0].heads.front(), "a (not converged)");
+  EXPECT_EQ(result_tables(scenario, results).at(0).rows[1].heads.front(), "b");
+  for (const auto& text : {html_status(cells), markdown_status(cells)})
+    EXPECT_THAT(text, AllOf(HasSubstr("align: 1 max_iterations"), HasSubstr("all 2 cells ok")));
+}
+
+TEST(Display, ShowsThreeDigitsOfEveryValueAndNoValueAsZero) {
+  const Display metres = display_for("m", 12.0);
+  EXPECT_EQ(metres.unit, "m");
+  EXPECT_EQ(value_text(12.0, metres), "12.0");
+  EXPECT_EQ(value_text(0.0012, metres), "0.00120");
+  EXPECT_EQ(value_text(0.0, metres), "0");
+  EXPECT_EQ(value_text(-0.5, metres), "-0.500");
+  EXPECT_EQ(value_text(1538.0, metres), "1538");
+  EXPECT_EQ(value_text(std::nan(""), metres), "–");
+  EXPECT_EQ(value_text(2e-12, metres), "2.00e-12");
+  EXPECT_EQ(spread_text(0.126, metres), "± 0.13");
+  EXPECT_EQ(spread_text(std::nan(""), metres), "");
+  const Display as_printed{"cm", 100.0, 1};
+  EXPECT_EQ(value_text(0.0123, as_printed), "1.2");
+  EXPECT_EQ(value_text(0.0001, as_printed), "0.0100");
+}
+
+TEST(Display, ShowsSmallTimesInMicroseconds) {
+  for (const auto& [unit, value] : {std::pair{"s", 4.2e-5}, std::pair{"ms", 4.2e-2}, std::pair{"us", 42.0}}) {
+    const Display display = display_for(unit, value);
+    EXPECT_EQ(display.unit, "µs");
+    EXPECT_EQ(value_text(value, display), "42.0");
+  }
+  EXPECT_EQ(display_for("s", 0.5).unit, "ms");
+  EXPECT_EQ(display_for("ms", 12.0).unit, "ms");
+}
+
+}  // namespace
+}  // namespace scanbench::harness
