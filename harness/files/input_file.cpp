@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "harness/files/text_file.hpp"
+#include "harness/files/size_text.hpp"
 
 namespace scanbench::harness {
 namespace {

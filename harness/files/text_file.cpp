@@ -41,17 +41,6 @@ bool is_blank(char c) {
 
 }  // namespace
 
-std::string size_text(double bytes) {
-  static constexpr std::array<const char*, 6> kUnits = {"B", "KiB", "MiB", "GiB", "TiB", "PiB"};
-  std::size_t unit = 0;
-  while (bytes >= 1024.0 && unit + 1 < kUnits.size()) {
-    bytes /= 1024.0;
-    ++unit;
-  }
-  return bytes == std::floor(bytes) ? fmt::format("{:.0f} {}", bytes, kUnits[unit])
-                                    : fmt::format("{:.1f} {}", bytes, kUnits[unit]);
-}
-
 void for_each_text_block(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed,
                          const std::function<void(std::string_view)>& use) {
   const std::string name = path.string();

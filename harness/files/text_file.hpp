@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "harness/files/size_text.hpp"
+
 namespace scanbench::harness {
 
 /// The largest world, or set of lines, that is read.
@@ -24,9 +26,6 @@ void for_each_text_block(const std::filesystem::path& path, std::uint64_t max_by
 /// All bytes of such a file.
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes,
                            std::string_view allowed = "a text file in UTF-8");
-
-/// "8 MiB", "1.5 GiB", "312 B".
-std::string size_text(double bytes);
 
 /// Removes the first line from `rest` and returns it without its line break (\n or \r\n).
 std::string_view take_line(std::string_view& rest);

@@ -8,7 +8,7 @@
 
 #include "algorithms/align/ffs/body.hpp"
 #include "algorithms/align/ffs/force_field.hpp"
-#include "algorithms/align/ffs/simulation.hpp"
+#include "algorithms/align/ffs/virtual_scan.hpp"
 #include "algorithms/align/parts/scan_groups.hpp"
 
 namespace scanbench::align::ffs {

@@ -16,11 +16,6 @@ constexpr double kSettled = 1e-3;     // of sigma_end_m
 constexpr double kLongestStep = 1.0;  // of sigma: a longer one would leave the field that asked for it
 constexpr double kMeetingSigmas = 2.0;
 
-double geometric(double start, double end, int step, int steps) {
-  if (steps <= 1 || step + 1 >= steps) return end;
-  return start * std::pow(end / start, static_cast<double>(step) / (steps - 1));
-}
-
 /// Bodies, where they are, and their placed points.
 class Simulation {
  public:
@@ -127,25 +122,6 @@ std::string sliding_text(const std::vector<std::size_t>& sliding) {
 }
 
 }  // namespace
-
-double Schedule::sigma_at(int iteration) const {
-  return geometric(sigma_start_m, sigma_end_m, iteration, cooling_iterations);
-}
-
-double Schedule::step_at(int iteration) const {
-  return geometric(step_start, step_end, iteration, cooling_iterations);
-}
-
-void Schedule::check() const {
-  const auto refuse = [](const std::string& name, double value, const std::string& limit, double bound) {
-    throw ParamError(name, name + " = " + number_text(value) + " is beyond " + limit + " = " + number_text(bound) +
-                               "; allowed: up to " + limit);
-  };
-  if (sigma_end_m > sigma_start_m) refuse("sigma_end_m", sigma_end_m, "sigma_start_m", sigma_start_m);
-  if (step_end > step_start) refuse("step_end", step_end, "step_start", step_start);
-  if (cooling_iterations > max_iterations)
-    refuse("cooling_iterations", cooling_iterations, "max_iterations", max_iterations);
-}
 
 Alignment simulate(std::span<const Observation> scans, std::span<const Pose2> initial, const Schedule& schedule,
                    const Hypothesize& hypothesize, Trace& trace) {

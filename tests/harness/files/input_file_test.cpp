@@ -8,7 +8,7 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/files/text_file.hpp"
-#include "tests/harness/inputs_support.hpp"
+#include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -13,7 +13,7 @@
 #include "harness/report/comparable_rows.hpp"
 #include "harness/report/html_page.hpp"
 #include "harness/report/table_marks.hpp"
-#include "tests/harness/run_support.hpp"
+#include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "harness/scenario/effective.hpp"
 #include "harness/scenario/scenario_file.hpp"
-#include "tests/harness/inputs_support.hpp"
+#include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {
 namespace {

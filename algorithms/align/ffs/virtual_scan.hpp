@@ -1,0 +1,18 @@
+// The virtual scan: points drawn from suspected lines and rectangles.
+#pragma once
+
+#include <vector>
+
+#include "core/geometry.hpp"
+
+namespace scanbench::align::ffs {
+
+/// A virtual scan (section 4.3): points that attract and do not move. Those of one hypothesis have one number.
+struct VirtualScan {
+  std::vector<Vec2> points;
+  std::vector<Vec2> directions;
+  std::vector<double> weights;
+  std::vector<int> hypotheses;
+};
+
+}  // namespace scanbench::align::ffs
