@@ -21,7 +21,7 @@ namespace {
 using namespace scanbench;
 
 // CLI11 says of `scanbench rnu` only that a subcommand is required.
-std::string parse_trouble(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
   if (dynamic_cast<const CLI::RequiredError*>(&error) == nullptr || !app.get_subcommands().empty() ||
       (!first.empty() && first.front() == '-'))
@@ -54,8 +54,8 @@ int run_program(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    fmt::print(stderr, "scanbench: {}\n(scanbench --help shows the verbs, scanbench VERB --help its options)\n",
-               parse_trouble(app, error, argc, argv));
+    app::say(fmt::format("scanbench: {}\n(scanbench --help shows the verbs, scanbench VERB --help its options)\n",
+                         parse_message(app, error, argc, argv)));
     return app::kBadInput;
   }
   const int code = action();
@@ -66,23 +66,24 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  app::open_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of write(), with a message, not our death
   try {
     return run_program(argc, argv);
   } catch (const ConfigError& error) {
-    fmt::print(stderr, "scanbench: {}\n", error.what());
+    app::say(fmt::format("scanbench: {}\n", error.what()));
     return app::kBadInput;
   } catch (const app::Interrupted&) {
-    fmt::print(stderr, "\nscanbench: interrupted\n");
+    app::say("\nscanbench: interrupted\n");
     return app::kInterrupted;
   } catch (const std::system_error& error) {  // standard output or a folder that the system refuses us
-    fmt::print(stderr, "scanbench: {}\n", error.what());
+    app::say(fmt::format("scanbench: {}\n", error.what()));
     return app::kBadInput;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "scanbench: out of memory\n");
+    app::say("scanbench: out of memory\n");
     return app::kBadInput;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "scanbench: internal error, please report it: {}\n", error.what());
+    app::say(fmt::format("scanbench: internal error, please report it: {}\n", error.what()));
     return app::kOurBug;
   }
 }

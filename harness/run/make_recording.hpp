@@ -1,4 +1,4 @@
-// From a scenario to its recording.
+// Makes the recording of a scenario.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,7 @@
 
 namespace scanbench::harness {
 
-/// Checks what loading leaves until a run: that the path is clear of walls, and that the memory suffices. Throws
-/// ConfigError.
+/// Checks what loading does not: that the path is clear of walls, and that the memory suffices. Throws ConfigError.
 void check_scenario(const Scenario& scenario);
 
 /// The recording of a scenario for one seed: simulates, or reads the log (the seed is then unused).
