@@ -45,7 +45,7 @@ std::string unknown_option(const CLI::App& app, int argc, char** argv) {
 }
 
 // CLI11 says of `scanbench rnu` only that a subcommand is required.
-std::string parse_trouble(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
     if (const std::string option = unknown_option(app, argc, argv); !option.empty()) return option;
   const std::string first = argc > 1 ? argv[1] : "";
@@ -83,8 +83,8 @@ int run_program(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    fmt::print(stderr, "scanbench: {}\n(scanbench --help shows the verbs, scanbench VERB --help its options)\n",
-               harness::plain_text(parse_trouble(app, error, argc, argv)));
+    app::say(fmt::format("scanbench: {}\n(scanbench --help shows the verbs, scanbench VERB --help its options)\n",
+                         harness::plain_text(parse_message(app, error, argc, argv))));
     return app::kBadInput;
   }
   const int code = action();
@@ -95,23 +95,24 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  app::open_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of write(), with a message
   try {
     return run_program(argc, argv);
   } catch (const ConfigError& error) {
-    fmt::print(stderr, "scanbench: {}\n", harness::plain_text(error.what()));
+    app::say(fmt::format("scanbench: {}\n", harness::plain_text(error.what())));
     return app::kBadInput;
   } catch (const app::Interrupted&) {
-    fmt::print(stderr, "\nscanbench: interrupted\n");
+    app::say("\nscanbench: interrupted\n");
     return app::kInterrupted;
   } catch (const std::system_error& error) {  // standard output or a folder that the system refuses us
-    fmt::print(stderr, "scanbench: {}\n", harness::plain_text(error.what()));
+    app::say(fmt::format("scanbench: {}\n", harness::plain_text(error.what())));
     return app::kBadInput;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "scanbench: out of memory\n");
+    app::say("scanbench: out of memory\n");
     return app::kBadInput;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "scanbench: internal error, please report it: {}\n", harness::plain_text(error.what()));
+    app::say(fmt::format("scanbench: internal error, please report it: {}\n", harness::plain_text(error.what())));
     return app::kOurBug;
   }
 }

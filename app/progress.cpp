@@ -1,13 +1,15 @@
-// Everything goes to standard error, so that standard output stays a result that can be piped.
+// Progress on standard error, so that standard output stays a result that can be piped.
 #include "app/progress.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string_view>
 
 namespace scanbench::app {
@@ -25,17 +27,45 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
+void say(const std::string& text) noexcept {
+  // Without a reader a pipe raises SIGPIPE: held back here, and removed where it was raised.
+  sigset_t pipe, before;
+  sigemptyset(&pipe);
+  sigaddset(&pipe, SIGPIPE);
+  sigprocmask(SIG_BLOCK, &pipe, &before);
+  std::string_view rest = text;
+  bool broken = false;
+  while (!rest.empty()) {
+    const ssize_t n = ::write(STDERR_FILENO, rest.data(), rest.size());
+    if (n < 0 && errno == EINTR) continue;
+    broken = n < 0 && errno == EPIPE;
+    if (n <= 0) break;
+    rest.remove_prefix(static_cast<std::size_t>(n));
+  }
+  const timespec now{};
+  if (broken && sigismember(&before, SIGPIPE) == 0) sigtimedwait(&pipe, nullptr, &now);
+  sigprocmask(SIG_SETMASK, &before, nullptr);
+}
+
+void open_standard_streams() noexcept {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);  // takes the lowest number; writing to it fails
+}
+
 InterruptGuard::InterruptGuard() {
   struct sigaction action {};
   action.sa_handler = [](int) { interrupted = 1; };
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, &old_int_);
   sigaction(SIGTERM, &action, &old_term_);
+  sigaction(SIGHUP, nullptr, &old_hangup_);
+  if (old_hangup_.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // `nohup` ignores it
 }
 
 InterruptGuard::~InterruptGuard() {
   sigaction(SIGINT, &old_int_, nullptr);
   sigaction(SIGTERM, &old_term_, nullptr);
+  sigaction(SIGHUP, &old_hangup_, nullptr);
 }
 
 void Progress::update(double share, const std::string& what) {
@@ -49,7 +79,7 @@ void Progress::update(double share, const std::string& what) {
       share > 0.02 && share < 1.0 && elapsed > 2 ? ", " + duration_text(elapsed * (1 - share) / share) + " left" : "";
   if (style_ == Style::lines) {
     if (what.empty() || (share - share_ < 0.1 && now - last_ < std::chrono::minutes(1))) return;
-    fmt::print(stderr, "{:3.0f} %{}{}  {}\n", 100.0 * share, left, failed, what);
+    say(fmt::format("{:3.0f} %{}{}  {}\n", 100.0 * share, left, failed, what));
     share_ = share;
     last_ = now;
     return;
@@ -59,18 +89,17 @@ void Progress::update(double share, const std::string& what) {
   const int filled = static_cast<int>(share * kWidth);
   std::string bar;
   for (int i = 0; i < kWidth; ++i) bar += i < filled ? "█" : "░";
-  fmt::print(stderr, "\r\x1b[K{} {:3.0f} %{}{}  {}", bar, 100.0 * share, left, failed, what.substr(0, 60));
-  std::fflush(stderr);
+  say(fmt::format("\r\x1b[K{} {:3.0f} %{}{}  {}", bar, 100.0 * share, left, failed, what.substr(0, 60)));
   drawn_ = true;
 }
 
 void Progress::note(const std::string& line) {
   if (style_ == Style::silent) return;
-  fmt::print(stderr, "{}{}\n", drawn_ ? "\r\x1b[K" : "", line);
+  say(fmt::format("{}{}\n", drawn_ ? "\r\x1b[K" : "", line));
 }
 
 void Progress::finish() {
-  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  if (drawn_) say("\r\x1b[K");
   drawn_ = false;
 }
 

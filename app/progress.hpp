@@ -11,8 +11,15 @@ namespace scanbench::app {
 /// The user asked us to stop.
 struct Interrupted {};
 
-/// While one lives, SIGINT and SIGTERM end the work at the next Progress::update(), which throws Interrupted, so that
-/// what is being written is finished or removed.
+/// Writes to standard error, like fmt::print(stderr, ...), but never fails: a log file on a full disk or a pipe that
+/// nobody reads must not end a run.
+void say(const std::string& text) noexcept;
+
+/// Opens what a caller has closed of standard input, output and error, so that no file of ours gets its number.
+void open_standard_streams() noexcept;
+
+/// While one exists, SIGINT, SIGTERM and SIGHUP end the work at the next Progress::update(), which throws Interrupted,
+/// so that what is being written is finished or removed.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -23,6 +30,7 @@ class InterruptGuard {
  private:
   struct sigaction old_int_ {};
   struct sigaction old_term_ {};
+  struct sigaction old_hangup_ {};
 };
 
 class Progress {

@@ -30,13 +30,26 @@ struct Options {
   bool quiet = false;
 };
 
+/// A recording alone would replace the results of a run that share its default folder.
+void refuse_to_replace_cells(const fs::path& out) {
+  if (!fs::exists(out / "manifest.json")) return;
+  const std::size_t cells = harness::load_manifest(out).cells.size();
+  if (cells > 0)
+    throw ConfigError(
+        fmt::format("{} holds a run of {} cell{}, which simulate would remove; give another folder "
+                    "(--out), or remove that one",
+                    out.string(), cells, cells == 1 ? "" : "s"));
+}
+
 int simulate(const Options& options, const std::vector<std::string>& argv) {
   std::string name;
   auto scenarios = load_inputs({options.file}, options.sets, &name);
   give_seeds(scenarios, options.seeds);
+  const fs::path out = (options.out.empty() ? fs::path("out") / name : fs::path(options.out)).lexically_normal();
+  refuse_to_replace_cells(out);
   const InterruptGuard guard;
   Progress progress(progress_style(options.quiet));
-  harness::RunTarget target(options.out.empty() ? fs::path("out") / name : fs::path(options.out), false);
+  harness::RunTarget target(out, false);
   harness::Manifest manifest{"running", harness::utc_now(), "", argv, {}, {}};
   std::vector<std::string> printed;
   try {

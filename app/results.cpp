@@ -17,6 +17,7 @@
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_files.hpp"
 #include "harness/store/run_folder.hpp"
+#include "harness/store/run_lock.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -30,6 +31,8 @@ std::vector<harness::Scenario> scenarios_for(const fs::path& run, const std::vec
 
 int score(const fs::path& run, const std::vector<std::string>& files, bool quiet) {
   const auto scenarios = scenarios_for(run, files);
+  const harness::RunLock lock(run);
+  harness::refuse_linked_folders(run);
   const InterruptGuard guard;
   Progress progress(progress_style(quiet));
   const std::size_t cells = harness::score_run(
@@ -47,6 +50,8 @@ int score(const fs::path& run, const std::vector<std::string>& files, bool quiet
 
 int figures(const fs::path& run, const std::vector<std::string>& files, bool pdf, bool quiet) {
   const auto scenarios = scenarios_for(run, files);
+  const harness::RunLock lock(run);
+  harness::refuse_linked_folders(run);
   const InterruptGuard guard;
   Progress progress(progress_style(quiet));
   harness::draw_run_figures(run, scenarios, pdf,
@@ -64,7 +69,10 @@ int figures(const fs::path& run, const std::vector<std::string>& files, bool pdf
 }
 
 int report(const fs::path& run) {
-  harness::write_reports(run, harness::load_report_input(run, harness::load_run_scenarios(run)));
+  const auto scenarios = harness::load_run_scenarios(run);
+  const harness::RunLock lock(run);
+  harness::refuse_linked_folders(run);
+  harness::write_reports(run, harness::load_report_input(run, scenarios));
   fmt::print("{}\n{}\n", (run / "report.html").string(), (run / "report.md").string());
   return kGood;
 }

@@ -5,10 +5,14 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <optional>
+
 #include <nlohmann/json.hpp>
 
 #include "app/inputs.hpp"
 #include "app/progress.hpp"
+#include "core/error.hpp"
 #include "harness/report/page_input.hpp"
 #include "harness/report/plain_text.hpp"
 #include "harness/report/run_report.hpp"
@@ -59,8 +63,30 @@ void note_cell(Progress& progress, const harness::CellResult& cell) {
   const auto& outcome = cell.record.outcome;
   if (outcome.status == harness::CellStatus::ok) return;
   progress.failure();
-  progress.note(fmt::format("{}: {}: {}", harness::to_string(cell.key), to_string(outcome.status),
-                            harness::plain_line(outcome.message)));
+  progress.note(fmt::format("{}: {}: {}", harness::to_string(cell.key),
+                            cell.done ? to_string(outcome.status) : "missing", harness::plain_line(outcome.message)));
+}
+
+/// Draws the figures of a run, unless the user wants none, and writes its report.
+harness::ReportInput write_report(const harness::RunResult& result, const Options& options, Progress& progress) {
+  const auto scenarios = harness::load_run_scenarios(result.out);
+  if (!options.no_figures)
+    harness::draw_run_figures(result.out, scenarios, false, [&](double share, const std::string& what) {
+      progress.update(0.95 + 0.05 * share, "figure " + what);
+    });
+  auto report = harness::load_report_input(result.out, scenarios);
+  harness::write_reports(result.out, report);
+  return report;
+}
+
+/// How many cells are missing, why the first one is, and what that means for an earlier run.
+std::string missing_text(const harness::RunResult& result) {
+  const auto is_missing = [](const harness::CellResult& cell) { return !cell.done; };
+  const auto first = std::ranges::find_if(result.cells, is_missing);
+  return fmt::format("scanbench: {} of {} cells are missing; {}: {}{}\n",
+                     std::ranges::count_if(result.cells, is_missing), result.cells.size(),
+                     harness::to_string(first->key), harness::plain_line(first->record.outcome.message),
+                     result.old_run_kept ? "; the earlier run in " + result.out.string() + " stays as it was" : "");
 }
 
 int run(const Options& options, const std::vector<std::string>& argv) {
@@ -70,7 +96,7 @@ int run(const Options& options, const std::vector<std::string>& argv) {
   give_seeds(scenarios, options.seeds);
   for (const auto& scenario : scenarios)
     for (const auto& note : scenario.notes)
-      if (!options.quiet) fmt::print(stderr, "{}: note: {}\n", scenario.name, note);
+      if (!options.quiet) say(fmt::format("{}: note: {}\n", scenario.name, note));
 
   Progress progress(progress_style(options.quiet));
   harness::RunOptions run_options;
@@ -86,28 +112,29 @@ int run(const Options& options, const std::vector<std::string>& argv) {
     const double total = static_cast<double>(now.total);
     progress.update(total > 0 ? 0.95 * static_cast<double>(now.done) / total : 0.0, now.what);
   };
+  std::optional<harness::ReportInput> report;
+  run_options.finish = [&](const harness::RunResult& result) {
+    const InterruptGuard guard;
+    try {
+      report = write_report(result, options, progress);
+    } catch (const ConfigError& error) {
+      if (result.exit_code() != kIncomplete) throw;  // else the disk is full for the report too
+      say(fmt::format("scanbench: {}\n", error.what()));
+    }
+  };
   const harness::RunResult result = harness::run(scenarios, run_options);
+  progress.finish();
   if (result.interrupted) {
-    progress.finish();
-    fmt::print(stderr, "scanbench: interrupted; what is finished stays in {} if the run was new (--resume goes on)\n",
-               result.out.string());
+    say(fmt::format("scanbench: interrupted; what is finished stays in {} if the run was new (--resume goes on)\n",
+                    result.out.string()));
     return kInterrupted;
   }
-
-  const InterruptGuard guard;
-  const auto ran = harness::load_run_scenarios(result.out);
-  if (!options.no_figures)
-    harness::draw_run_figures(result.out, ran, false, [&](double share, const std::string& what) {
-      progress.update(0.95 + 0.05 * share, "figure " + what);
-    });
-  const auto report = harness::load_report_input(result.out, ran);
-  harness::write_reports(result.out, report);
-  progress.finish();
+  if (result.exit_code() == kIncomplete) say(missing_text(result));
 
   if (options.json) {
     print_json(result);
-  } else if (!options.quiet) {
-    print_tables(report);
+  } else if (!options.quiet && report) {
+    print_tables(*report);
     fmt::print("{}\n", (result.out / "report.html").string());
   }
   return result.exit_code();
@@ -124,7 +151,9 @@ void add_run(Context& context) {
   verb->add_option("--seed", options->seeds, "seeds in place of the file's, separated by commas")->delimiter(',');
   verb->add_option("-j,--jobs", options->jobs, "cells at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   verb->add_option("--set", options->sets, "KEY=VALUE: a value in place of the file's (dotted keys)")->take_all();
-  verb->add_option("--only", options->only, "only these scenarios, pipelines or scenario/pipeline")->delimiter(',');
+  verb->add_option("--only", options->only,
+                   "only these scenarios, pipelines or scenario/pipeline; the other cells of an earlier run stay")
+      ->delimiter(',');
   verb->add_flag("--resume", options->resume, "keep the cells that have not changed");
   verb->add_flag("--trace", options->journal, "write the intermediate results of the algorithms (trace.csv)");
   verb->add_flag("--no-figures", options->no_figures, "draw nothing");

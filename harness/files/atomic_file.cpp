@@ -11,13 +11,18 @@
 
 #include "core/error.hpp"
 #include "harness/files/input_file.hpp"
+#include "harness/files/system_error.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
 namespace {
 
+/// A file that is absent or may not be read is an error of the input; everything else is the system's.
 [[noreturn]] void refuse(const std::string& verb, const fs::path& path, int error) {
-  throw ConfigError("cannot " + verb + " " + path.string() + ": " + std::strerror(error));
+  const std::string message = "cannot " + verb + " " + path.string() + ": " + std::strerror(error);
+  const bool of_system = verb != "read" || error == EIO || error == EMFILE || error == ENFILE || error == ENOMEM;
+  if (of_system) throw SystemError(message);
+  throw ConfigError(message);
 }
 
 /// A file descriptor that closes itself.

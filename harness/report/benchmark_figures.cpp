@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "core/registry.hpp"
 #include "harness/analysis/error_bins.hpp"
 #include "harness/files/atomic_file.hpp"
@@ -108,6 +109,14 @@ std::vector<std::pair<double, std::string>> round_ticks(double low, double high)
   return ticks;
 }
 
+/// Throws ConfigError if the run has no such scenario: its benchmark.json is then of another run.
+const Scenario& example_of(const std::vector<Scenario>& scenarios, const BenchmarkSpec& spec) {
+  const auto found = std::ranges::find(scenarios, spec.example, &Scenario::name);
+  if (found == scenarios.end())
+    throw ConfigError("benchmark.json names the example '" + spec.example + "', which is no scenario of this run");
+  return *found;
+}
+
 class Drawer {
  public:
   Drawer(const fs::path& run, const std::vector<Scenario>& scenarios, const BenchmarkSpec& spec, bool pdf)
@@ -116,7 +125,7 @@ class Drawer {
         pdf_(pdf),
         rows_(load_summary(run / "summary.csv")),
         seeds_(seeds_of(rows_)),
-        example_(*std::ranges::find(scenarios, spec.example, &Scenario::name)) {
+        example_(example_of(scenarios, spec)) {
     for (const auto& ranked : rank_pipelines(scenarios, rows_, spec)) names_.push_back(ranked.name);
   }
 

@@ -10,8 +10,8 @@
 
 namespace scanbench::harness {
 
-/// SHA-256 of the input of a scenario: world bytes, sensor, trajectory, odometry, tilt; or log bytes, format and how it
-/// is read. Throws ConfigError if the log cannot be read.
+/// SHA-256 of the input of a scenario: its sections in the effective scenario, and the bytes of a log or line file. It
+/// is the same for a scenario and for its effective.yaml read back. Throws ConfigError if the file cannot be read.
 std::string input_address(const Scenario& scenario);
 
 /// SHA-256 over everything that a cell's bytes depend on: the input, the seed, the pipeline's resolved parameters, the

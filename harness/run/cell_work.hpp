@@ -1,4 +1,4 @@
-// What a child process does for a run, and the files that it leaves in a folder under construction.
+// The work of one cell, done in a child process: runs a pipeline and writes its files into an unfinished folder.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// From a scenario to its recording.
+// Makes the recording of a scenario.
 #pragma once
 
 #include <cstdint>

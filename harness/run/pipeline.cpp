@@ -41,6 +41,31 @@ Listener written_into(Journal& journal) {
   };
 }
 
+constexpr double kFarthest_m = 1e6;  // no scanner and no building is larger
+
+bool is_near(const Vec2& p) {
+  return p.cwiseAbs().maxCoeff() < kFarthest_m;
+}
+
+/// What is wrong with one line; empty if nothing is. Lines that are given in place of scans have no beams and may be of
+/// any size.
+std::string fault_of(const LineFeature& line, int beams) {
+  if (!line.segment.a.allFinite() || !line.segment.b.allFinite() || !std::isfinite(line.line.rho) ||
+      !std::isfinite(line.line.alpha))
+    return "is not finite";
+  if (line.covariance && !line.covariance->allFinite()) return "has a covariance that is not finite";
+  if (line.points < 0) return "has " + std::to_string(line.points) + " points";
+  if (!std::isfinite(line.rms_m) || line.rms_m < 0) return "has an rms that is not finite or negative";
+  if (beams == 0) return "";
+  const auto exists = [&](int beam) { return beam >= 0 && beam < beams; };
+  if (!exists(line.first_beam) || !exists(line.last_beam))
+    return "goes from beam " + std::to_string(line.first_beam) + " to beam " + std::to_string(line.last_beam) +
+           "; allowed: 0 .. " + std::to_string(beams - 1);
+  if (!is_near(line.segment.a) || !is_near(line.segment.b)) return "has an end point beyond 1e6 m";
+  if (line.segment.a == line.segment.b) return "has no length";
+  return "";
+}
+
 void check_lines(const ScanLines& lines, int beams, std::size_t frame) {
   const auto refuse = [&](const std::string& what) {
     throw InvalidResult("extract, frame " + std::to_string(frame) + ": " + what);
@@ -51,12 +76,8 @@ void check_lines(const ScanLines& lines, int beams, std::size_t frame) {
     if (label < -1 || label >= static_cast<int>(lines.lines.size()))
       refuse("label " + std::to_string(label) + " with " + std::to_string(lines.lines.size()) + " lines");
   for (std::size_t i = 0; i < lines.lines.size(); ++i) {
-    const LineFeature& line = lines.lines[i];
-    if (!line.segment.a.allFinite() || !line.segment.b.allFinite() || !std::isfinite(line.line.rho) ||
-        !std::isfinite(line.line.alpha))
-      refuse("line " + std::to_string(i) + " is not finite");
-    if (line.covariance && !line.covariance->allFinite())
-      refuse("the covariance of line " + std::to_string(i) + " is not finite");
+    if (const std::string fault = fault_of(lines.lines[i], beams); !fault.empty())
+      refuse("line " + std::to_string(i) + " " + fault);
   }
 }
 
@@ -70,9 +91,12 @@ void check_map(const LineMap& map, const std::string& slot) {
     if (!map.lines[i].segment.a.allFinite() || !map.lines[i].segment.b.allFinite() ||
         !map.lines[i].covariance.allFinite())
       throw InvalidResult(slot + ": map line " + std::to_string(i) + " is not finite");
+  for (std::size_t i = 0; i < map.lines.size(); ++i)
+    if (map.lines[i].members < 0 || map.lines[i].points < 0)
+      throw InvalidResult(slot + ": map line " + std::to_string(i) + " has a negative number of members or points");
 }
 
-/// One pass over the slots behind `extract`.
+/// One pass over the slots after `extract`.
 class Chain {
  public:
   Chain(const ScanSet& scans, PipelineResult& result, const Listener& listener)
@@ -231,7 +255,7 @@ std::vector<ScanLines> given_lines(const ScanSet& scans) {
 PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Journal* journal) {
   const bool given = scans.has_given_lines();
   if (const auto fault = chain_fault(pipeline, !given)) throw ConfigError(fault->message);
-  const std::span<const ModuleChoice> behind_lines = std::span(pipeline.slots).subspan(given ? 0 : 1);
+  const std::span<const ModuleChoice> after_lines = std::span(pipeline.slots).subspan(given ? 0 : 1);
   std::unique_ptr<LineExtractor> extractor;
   if (!given) extractor = Registry<LineExtractor>::make(pipeline.slots.front().module, pipeline.slots.front().params);
   const auto all_lines = [&](const Listener& listener) {
@@ -246,7 +270,7 @@ PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Jou
   all_lines(stopwatch);
 
   Chain chain(scans, run.result, stopwatch);
-  for (const ModuleChoice& slot : behind_lines) chain.run(slot);
+  for (const ModuleChoice& slot : after_lines) chain.run(slot);
   run.remarks = chain.remarks();
 
   if (journal != nullptr) {
@@ -254,7 +278,7 @@ PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Jou
     PipelineResult again;
     again.lines = all_lines(listener);
     Chain journaled(scans, again, listener);
-    for (const ModuleChoice& slot : behind_lines) journaled.run(slot);
+    for (const ModuleChoice& slot : after_lines) journaled.run(slot);
   }
   return run;
 }

@@ -15,9 +15,9 @@ struct PipelineRun {
   std::string remarks;  ///< outcomes other than `converged`, with counts: "match: 2 no_match, 1 degenerate"
 };
 
-/// `extract` runs on every frame, unless the scan set holds lines in place of scans: the chain then begins behind it.
+/// `extract` runs on every frame, unless the scan set holds lines in place of scans: the chain then begins after it.
 /// `align` gets all scans and their odometry; `match` chains consecutive scans, each
-/// guess being the odometry between them (which stands where the matcher says no_match); `map` gets scan after scan
+/// guess being the odometry between them (which is kept where the matcher says no_match); `map` gets scan after scan
 /// with its pose; `merge` gets the lines and the valid points placed in the world. Poses are those of `align` or
 /// `match`, else the odometry.
 ///

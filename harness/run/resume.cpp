@@ -1,4 +1,4 @@
-// Trust after a look: address, recording, then the bytes of every file.
+// Decides which cells of an earlier run can be reused: by address, recording, then the bytes of every file.
 #include "harness/run/resume.hpp"
 
 #include <algorithm>
@@ -14,35 +14,45 @@
 namespace scanbench::harness {
 namespace fs = std::filesystem;
 
-StandingCells::StandingCells(fs::path run) : run_(std::move(run)), hashes_(listed_hashes(run_)) {}
+EarlierCells::EarlierCells(fs::path run) : run_(std::move(run)), hashes_(listed_hashes(run_)) {}
 
-std::optional<StandingCell> StandingCells::find(const CellKey& key, const std::string& address,
-                                                const PipelineSpec& pipeline, const TraceChoice& trace) {
+std::optional<EarlierCell> EarlierCells::find(const CellKey& key, const std::string& address,
+                                              const PipelineSpec& pipeline, const TraceChoice& trace) {
   const fs::path folder = cell_path(run_, key);
   try {
     CellRecord record = load_status(folder);
     if (record.outcome.status != CellStatus::ok || record.address != address) return std::nullopt;
     const auto frames = recorded_frames(key.scenario, key.seed);
-    if (!frames || !files_stand(key, pipeline, trace, *frames)) return std::nullopt;
-    return StandingCell{std::move(record), load_metrics(folder)};
+    if (!frames || !files_are_whole(key, pipeline, trace, *frames)) return std::nullopt;
+    return EarlierCell{std::move(record), load_metrics(folder)};
   } catch (const ConfigError&) {
     return std::nullopt;  // absent or damaged: it is made again
   }
 }
 
-std::optional<std::size_t> StandingCells::recorded_frames(const std::string& scenario, std::uint64_t seed) {
+bool EarlierCells::is_ok(const CellKey& key) const {
+  try {
+    return load_status(cell_path(run_, key)).outcome.status == CellStatus::ok;
+  } catch (const ConfigError&) {
+    return false;
+  }
+}
+
+std::optional<std::size_t> EarlierCells::recorded_frames(const std::string& scenario, std::uint64_t seed) {
   const auto [found, is_new] = recordings_.try_emplace({scenario, seed});
   if (!is_new) return found->second;
   try {
-    found->second = load_recording(recording_path(run_, scenario, seed)).observed.frames.size();
+    const fs::path folder = recording_path(run_, scenario, seed);
+    const std::size_t frames = load_recording(folder).observed.frames.size();
+    if (hashes_agree(folder) != false) found->second = frames;
   } catch (const ConfigError&) {
     // Absent or damaged: it is made again.
   }
   return found->second;
 }
 
-bool StandingCells::files_stand(const CellKey& key, const PipelineSpec& pipeline, const TraceChoice& trace,
-                                std::size_t frames) const {
+bool EarlierCells::files_are_whole(const CellKey& key, const PipelineSpec& pipeline, const TraceChoice& trace,
+                                   std::size_t frames) const {
   const fs::path folder = cell_path(run_, key);
   const bool merge = has_slot(pipeline, "merge");
   const bool places = std::ranges::any_of(pipeline.slots, [](const auto& slot) { return slot.kind != "extract"; });
@@ -51,13 +61,18 @@ bool StandingCells::files_stand(const CellKey& key, const PipelineSpec& pipeline
         std::pair("map.csv", merge || has_slot(pipeline, "map")), std::pair("poses.csv", places && frames > 0)})
     if (written && !fs::exists(folder / file)) return false;
 
+  if (const auto agree = hashes_agree(folder)) return *agree;
+  return load_result(folder).lines.size() == frames;
+}
+
+std::optional<bool> EarlierCells::hashes_agree(const fs::path& folder) const {
   const std::string prefix = folder.lexically_relative(run_).generic_string() + "/";
-  bool listed = false;
+  std::optional<bool> agree;
   for (auto file = hashes_.lower_bound(prefix); file != hashes_.end() && file->first.starts_with(prefix); ++file) {
     if (sha256_of_file(run_ / file->first) != file->second) return false;
-    listed = true;
+    agree = true;
   }
-  return listed || load_result(folder).lines.size() == frames;
+  return agree;
 }
 
 }  // namespace scanbench::harness

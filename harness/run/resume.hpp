@@ -1,4 +1,4 @@
-// What still stands of a run that is resumed: cells made of the same input by the same program, with whole files.
+// The cells of an earlier run that can be reused: made of the same input by the same program, with whole files.
 #pragma once
 
 #include <filesystem>
@@ -15,28 +15,34 @@
 
 namespace scanbench::harness {
 
-struct StandingCell {
+struct EarlierCell {
   CellRecord record;
   std::vector<metrics::MetricRow> metrics;
 };
 
-class StandingCells {
+class EarlierCells {
  public:
-  /// Reads the hashes in the run's manifest: to be made before that is written anew.
-  explicit StandingCells(std::filesystem::path run);
+  /// Reads the hashes in the run's manifest: must be constructed before that is written anew.
+  explicit EarlierCells(std::filesystem::path run);
 
-  /// The cell, if it is ok, has this address and the recording of its scenario and seed stands. All files that the
+  /// The cell, if it is ok, has this address, and the recording of its scenario and seed is whole. All files that the
   /// manifest lists must have their SHA-256; where a killed run has left no list, those that the pipeline writes must
   /// be there, readable, and fit each other and the recording.
-  std::optional<StandingCell> find(const CellKey& key, const std::string& address, const PipelineSpec& pipeline,
-                                   const TraceChoice& trace);
+  std::optional<EarlierCell> find(const CellKey& key, const std::string& address, const PipelineSpec& pipeline,
+                                  const TraceChoice& trace);
+
+  /// True if the cell has ended well, whatever it was made of.
+  bool is_ok(const CellKey& key) const;
 
  private:
   /// Number of frames; none if the recording is absent or not what its hash says.
   std::optional<std::size_t> recorded_frames(const std::string& scenario, std::uint64_t seed);
+  /// Have all files of the folder the hashes that the manifest lists? Nothing if it lists none of them. Throws
+  /// ConfigError for a file that cannot be read.
+  std::optional<bool> hashes_agree(const std::filesystem::path& folder) const;
   /// Throws ConfigError for a file that cannot be read.
-  bool files_stand(const CellKey& key, const PipelineSpec& pipeline, const TraceChoice& trace,
-                   std::size_t frames) const;
+  bool files_are_whole(const CellKey& key, const PipelineSpec& pipeline, const TraceChoice& trace,
+                       std::size_t frames) const;
 
   std::filesystem::path run_;
   std::map<std::string, std::string> hashes_;  ///< by path relative to the run

@@ -1,4 +1,4 @@
-// What a run is asked to do, how far it is, and how it ended.
+// What a run is to do, its progress, and how it ended.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@
 
 namespace scanbench::harness {
 
-/// What became of one cell.
+/// How one cell ended.
 struct CellResult {
   CellKey key;
-  bool done = false;    ///< its folder stands in the run; false: missing
-  bool reused = false;  ///< resumed: it stood there already, made of the same input by the same program
+  bool done = false;    ///< its folder is in the run; false: missing
+  bool reused = false;  ///< taken from an earlier run: made of the same input by the same program
   CellRecord record;
 };
 
@@ -29,23 +29,28 @@ struct RunProgress {
   const CellResult* cell = nullptr;  ///< the cell that has just ended, if one has
 };
 
+struct RunResult {
+  std::filesystem::path out;      ///< RunOptions::out without "." and ".."
+  std::vector<CellResult> cells;  ///< selected ones, in the order of summary.csv
+  bool interrupted = false;
+  bool old_run_kept = false;  ///< interrupted or with missing cells: it did not replace the earlier run in its folder
+  /// 0 all cells ok; 3 some are not; 4 some are missing; 130 interrupted.
+  int exit_code() const;
+};
+
 struct RunOptions {
   std::filesystem::path out;
-  int jobs = 1;                        ///< children at once
-  std::vector<std::string> only = {};  ///< names of scenarios or pipelines, or "scenario/pipeline"; empty: all
+  int jobs = 1;  ///< children at once
+  /// Names of scenarios or pipelines, or "scenario/pipeline"; empty: all. An earlier run in the folder keeps its other
+  /// cells.
+  std::vector<std::string> only = {};
   bool resume = false;
   bool journal = false;                ///< the whole trace.csv in every cell; else the rows that the figures draw from
   std::vector<std::string> argv = {};  ///< for the manifest
   std::optional<BenchmarkSpec> benchmark = {};
   std::function<void(const RunProgress&)> progress = {};
-};
-
-struct RunResult {
-  std::filesystem::path out;
-  std::vector<CellResult> cells;  ///< selected ones, in the order of summary.csv
-  bool interrupted = false;
-  /// 0 all cells ok; 3 some are not; 4 some are missing; 130 interrupted.
-  int exit_code() const;
+  /// Called when all cells have ended and the run is in its place, while its folder is still locked: draws and reports.
+  std::function<void(const RunResult&)> finish = {};
 };
 
 }  // namespace scanbench::harness

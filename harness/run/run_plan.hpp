@@ -33,7 +33,7 @@ struct RunPlan {
 };
 
 /// All cells, whether selected or not; points into `scenarios`. Throws ConfigError for options that select nothing or
-/// make no sense, and for names that cannot be folders or stand twice.
+/// make no sense, and for names that cannot be folders or are given twice.
 RunPlan plan_run(const std::vector<Scenario>& scenarios, const RunOptions& options);
 
 /// Does `options.only` choose this cell?

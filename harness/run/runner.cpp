@@ -1,4 +1,4 @@
-// The schedule of a run: groups of cells that share a recording, at most `jobs` children at once.
+// The schedule of a run: cells in groups that share a recording, at most `jobs` children at once.
 #include "harness/run/runner.hpp"
 
 #include <algorithm>
@@ -6,9 +6,11 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/system_error.hpp"
 #include "harness/run/cell_work.hpp"
 #include "harness/run/make_recording.hpp"
 #include "harness/run/resume.hpp"
@@ -55,40 +57,45 @@ class Run {
       cell.result.record.address = planned.address;
       cell.plan = std::move(planned);
     }
-    target_ = std::make_unique<RunTarget>(options.out, options.resume);
-    if (target_->resumed()) standing_.emplace(target_->path());
+    target_ = std::make_unique<RunTarget>(options.out, options.resume || !options.only.empty());
+    if (target_->resumed()) earlier_.emplace(target_->path());
   }
 
   RunResult execute() {
     try {
-      write_start();
       reuse_finished_cells();
+      refuse_to_drop_cells();
+      write_start();
+      report("", nullptr);
       work();
     } catch (...) {
-      pool_.kill_all();  // before the folders that the children write go
+      pool_->kill_all();  // before the folders that the children write are removed
       throw;
     }
-    const bool interrupted = pool_.interrupted();
-    pool_.kill_all();
+    const bool interrupted = pool_->interrupted();
+    pool_->kill_all();
     refuse_if_all_input_is_bad(interrupted);
-    return end(interrupted);
+    RunResult result = end(interrupted);
+    pool_.reset();  // from here on an interrupt is the caller's
+    if (!interrupted && !result.old_run_kept && options_.finish) options_.finish(result);
+    return result;
   }
 
  private:
   Group& group_of(const Cell& cell) { return groups_[cell.plan.group]; }
 
   void work() {
-    while (!pool_.interrupted()) {
-      while (pool_.running() < static_cast<std::size_t>(options_.jobs) && start_next()) {
+    while (!pool_->interrupted()) {
+      while (pool_->running() < static_cast<std::size_t>(options_.jobs) && start_next()) {
       }
-      if (pool_.running() == 0) break;
-      for (auto& finished : pool_.wait()) {
+      if (pool_->running() == 0) break;
+      for (auto& finished : pool_->wait()) {
         if (finished.id < cells_.size())
           finish_cell(cells_[finished.id], finished.outcome);
         else
           finish_recording(groups_[finished.id - cells_.size()], finished.outcome);
       }
-      write_summary(false);
+      write_summary_now_and_then();
     }
   }
 
@@ -100,17 +107,21 @@ class Run {
     for (const auto& scenario : scenarios_) manifest_.scenarios.push_back(scenario.name);
     for (const auto& cell : cells_) manifest_.cells.push_back(cell.result.key);
     write_manifest(run, manifest_);  // first of all files: with it the folder is ours
-    if (options_.benchmark) write_file_atomically(run / "benchmark.json", benchmark_json(*options_.benchmark));
+    if (options_.benchmark)
+      write_file_atomically(run / "benchmark.json", benchmark_json(*options_.benchmark));
+    else
+      remove_file(run / "benchmark.json");  // of an earlier run
     write_run_scenarios(run, scenarios_, services_.effective_yaml);
   }
 
-  /// Cells that stand there with the same address and are ok stay; the others of the selection wait to be run. Cells
-  /// outside the selection only lend their rows to the summary.
+  /// Cells of an earlier run that are ok and have the same address are kept; the others of the selection wait to be
+  /// run. Cells outside the selection only add their rows to the summary.
   void reuse_finished_cells() {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       Cell& cell = cells_[i];
-      if (standing_) try_to_reuse(cell);
-      if (!selected(options_, cell.result.key)) continue;
+      const bool is_selected = selected(options_, cell.result.key);
+      if (earlier_ && (options_.resume || !is_selected)) try_to_reuse(cell);
+      if (!is_selected) continue;
       ++total_;
       if (cell.result.reused) {
         ++done_;
@@ -119,12 +130,30 @@ class Run {
         ++group_of(cell).unfinished;
       }
     }
-    report("", nullptr);
+  }
+
+  /// A selection keeps the other cells of the earlier run. Those that belong to other input, or that another build of
+  /// the program made, cannot be kept, and must not vanish either.
+  void refuse_to_drop_cells() {
+    if (!earlier_ || options_.only.empty()) return;
+    std::string first;
+    std::size_t count = 0;
+    for (const CellKey& key : load_manifest(target_->path()).cells) {
+      const auto cell = std::ranges::find(cells_, key, [](const Cell& c) { return c.result.key; });
+      if (cell != cells_.end() && (cell->result.reused || selected(options_, key))) continue;
+      if (!earlier_->is_ok(key)) continue;
+      if (count++ == 0) first = to_string(key);
+    }
+    if (count > 0)
+      throw ConfigError(options_.out.string() + " holds an earlier run, and --only cannot keep " +
+                        std::to_string(count) + " of its cells (" + first +
+                        " is the first): this run has other input or parameters, or is made by another build; run all "
+                        "cells, or give another folder");
   }
 
   void try_to_reuse(Cell& cell) {
     const auto found =
-        standing_->find(cell.result.key, cell.result.record.address, *cell.plan.pipeline, cell.plan.trace);
+        earlier_->find(cell.result.key, cell.result.record.address, *cell.plan.pipeline, cell.plan.trace);
     if (!found) return;
     cell.summary = summary_lines(cell.result.key, found->metrics);
     cell.result.record = found->record;
@@ -153,17 +182,22 @@ class Run {
     try {
       group.staged.emplace(recording_path(target_->path(), group.plan.scenario->name, group.plan.seed));
     } catch (const ConfigError& e) {
-      skip_cells(group, {.message = e.what()});
+      skip_cells(group, {.message = e.what(), .system_error = true});
       return;
     }
-    const int threads = std::max(1, options_.jobs - static_cast<int>(pool_.running()));
+    const int threads = std::max(1, options_.jobs - static_cast<int>(pool_->running()));
     report("recording " + group.plan.scenario->name + "/" + std::to_string(group.plan.seed), nullptr);
-    pool_.start(cells_.size() + index,
-                [&] {
-                  return write_recording(group.staged->path(),
-                                         services_.recording(*group.plan.scenario, group.plan.seed, threads));
-                },
-                {group.plan.scenario->limits.seconds, group.plan.scenario->limits.memory_bytes, threads});
+    try {
+      pool_->start(cells_.size() + index,
+                   [&] {
+                     return write_recording(group.staged->path(),
+                                            services_.recording(*group.plan.scenario, group.plan.seed, threads));
+                   },
+                   {group.plan.scenario->limits.seconds, group.plan.scenario->limits.memory_bytes, threads});
+    } catch (const SystemError& e) {
+      group.staged.reset();
+      skip_cells(group, {.message = e.what(), .system_error = true});
+    }
   }
 
   void finish_recording(Group& group, WorkerOutcome outcome) {
@@ -175,6 +209,8 @@ class Run {
         ready_.insert(ready_.end(), group.waiting.begin(), group.waiting.end());
         group.staged.reset();
         return;
+      } catch (const SystemError& e) {
+        outcome = {.message = e.what(), .system_error = true};
       } catch (const std::exception& e) {
         outcome = {.status = CellStatus::failed, .message = e.what()};
       }
@@ -185,15 +221,19 @@ class Run {
 
   void skip_cells(Group& group, const WorkerOutcome& outcome) {
     if (outcome.bad_input && first_bad_input_.empty()) first_bad_input_ = outcome.message;
-    other_trouble_ = other_trouble_ || !outcome.bad_input;
+    has_other_failure_ = has_other_failure_ || !outcome.bad_input;
     const std::string message =
         "there is no recording: " + std::string(to_string(outcome.status)) + ": " + outcome.message;
     for (const std::size_t index : group.waiting) {
-      if (stage(cells_[index])) finish_cell(cells_[index], {.status = CellStatus::skipped, .message = message});
+      Cell& cell = cells_[index];
+      if (outcome.system_error)
+        mark_missing(cell, outcome.message);
+      else if (stage(cell))
+        finish_cell(cell, {.status = CellStatus::skipped, .message = message});
     }
   }
 
-  /// The new recording takes the old one's place only if it is another one.
+  /// The new recording replaces the old one only if it differs.
   static void place_recording(Group& group, const std::string& hash) {
     try {
       if (recording_hash(load_recording(group.staged->target())) == hash) return;
@@ -206,17 +246,25 @@ class Run {
   void start_cell(std::size_t index) {
     Cell& cell = cells_[index];
     const Scenario& scenario = *cell.plan.scenario;
-    other_trouble_ = true;
+    has_other_failure_ = true;
     if (!stage(cell)) return;
-    pool_.start(index,
-                [&] {
-                  return make_cell(cell.staged->path(), scenario, *cell.plan.pipeline, cell.plan.trace,
-                                   *group_of(cell).recording);
-                },
-                {scenario.limits.seconds, scenario.limits.memory_bytes, 1});
+    try {
+      pool_->start(index,
+                   [&] {
+                     return make_cell(cell.staged->path(), scenario, *cell.plan.pipeline, cell.plan.trace,
+                                      *group_of(cell).recording);
+                   },
+                   {scenario.limits.seconds, scenario.limits.memory_bytes, 1});
+    } catch (const SystemError& e) {
+      mark_missing(cell, e.what());
+    }
   }
 
   void finish_cell(Cell& cell, const WorkerOutcome& outcome) {
+    if (outcome.system_error) {
+      mark_missing(cell, outcome.message);
+      return;
+    }
     cell.result.record.outcome = outcome;
     try {
       if (outcome.status != CellStatus::ok) cell.staged->clear();
@@ -226,9 +274,10 @@ class Run {
       cell.staged->commit();
       cell.result.done = true;
     } catch (const ConfigError& e) {
-      give_up(cell, e.what());
+      mark_missing(cell, e.what());
+      return;
     }
-    leave(cell);
+    finish(cell);
   }
 
   /// Makes the cell's folder under construction. False: it cannot be made, and the cell is missing.
@@ -237,20 +286,21 @@ class Run {
       cell.staged.emplace(cell_path(target_->path(), cell.result.key));
       return true;
     } catch (const ConfigError& e) {
-      give_up(cell, e.what());
-      leave(cell);
+      mark_missing(cell, e.what());
       return false;
     }
   }
 
-  /// The disk is full, say: the cell is missing and the run incomplete, but the others may still succeed.
-  static void give_up(Cell& cell, const std::string& reason) {
+  /// The system refused something: the disk is full, say. The run is then incomplete, but other cells may succeed.
+  void mark_missing(Cell& cell, const std::string& reason) {
     cell.result.record.outcome.status = CellStatus::failed;
     cell.result.record.outcome.message = reason;
+    cell.result.done = false;
     cell.summary.clear();
+    finish(cell);
   }
 
-  void leave(Cell& cell) {
+  void finish(Cell& cell) {
     cell.staged.reset();
     ++done_;
     Group& group = group_of(cell);
@@ -262,11 +312,18 @@ class Run {
     if (options_.progress) options_.progress({done_, total_, what, cell});
   }
 
-  /// At most once a second while cells come in; the last call writes in any case.
-  void write_summary(bool last) {
+  /// At most once a second while cells end. On a full disk the run goes on: the last summary counts.
+  void write_summary_now_and_then() {
     const auto now = std::chrono::steady_clock::now();
-    if (!last && now - summary_written_ < std::chrono::seconds(1)) return;
+    if (now - summary_written_ < std::chrono::seconds(1)) return;
     summary_written_ = now;
+    try {
+      write_summary();
+    } catch (const SystemError&) {
+    }
+  }
+
+  void write_summary() {
     std::string text = summary_header();
     for (const auto& cell : cells_) text += cell.summary;
     write_file_atomically(target_->path() / "summary.csv", text);
@@ -274,41 +331,49 @@ class Run {
 
   void refuse_if_all_input_is_bad(bool interrupted) {
     const bool any_reused = std::ranges::any_of(cells_, [](const Cell& c) { return c.result.reused; });
-    if (interrupted || first_bad_input_.empty() || other_trouble_ || any_reused) return;
+    if (interrupted || first_bad_input_.empty() || has_other_failure_ || any_reused) return;
     target_->abandon();
     throw ConfigError(first_bad_input_);
   }
 
   RunResult end(bool interrupted) {
-    RunResult result{.out = options_.out, .cells = {}, .interrupted = interrupted};
+    RunResult result{.out = options_.out.lexically_normal(), .cells = {}, .interrupted = interrupted};
+    bool missing = false;
     for (auto& cell : cells_) {
       cell.staged.reset();
-      if (selected(options_, cell.result.key)) result.cells.push_back(cell.result);
+      if (!selected(options_, cell.result.key)) continue;
+      missing = missing || !cell.result.done;
+      result.cells.push_back(cell.result);
     }
     for (auto& group : groups_) group.staged.reset();
-    write_summary(true);
-    manifest_.state = interrupted ? "interrupted" : "complete";
+    result.old_run_kept = (missing || interrupted) && target_->replaces();
+    if (result.old_run_kept) {
+      target_->abandon();
+      return result;
+    }
+    write_summary();
+    manifest_.state = interrupted ? "interrupted" : missing ? "incomplete" : "complete";
     manifest_.end = utc_now();
     write_manifest(target_->path(), manifest_);
-    if (!interrupted) target_->finish();
+    target_->finish();
     return result;
   }
 
   const std::vector<Scenario>& scenarios_;
   const RunOptions& options_;
   const RunServices& services_;
-  WorkerPool pool_;  ///< lives longest: no interrupt comes between us and the removal of what is not finished
+  std::optional<WorkerPool> pool_{std::in_place};  ///< destroyed last: no interrupt before unfinished files are removed
   std::vector<Group> groups_;
   std::unique_ptr<RunTarget> target_;
-  std::optional<StandingCells> standing_;  ///< of a run that is resumed
-  std::vector<Cell> cells_;                ///< after target_: unfinished folders go before the run's folder does
+  std::optional<EarlierCells> earlier_;  ///< of a run that is resumed
+  std::vector<Cell> cells_;              ///< after target_: unfinished folders are removed before the run's folder
   std::deque<std::size_t> ready_;
   std::size_t next_group_ = 0;
   std::size_t done_ = 0;
   std::size_t total_ = 0;
   Manifest manifest_;
   std::string first_bad_input_;
-  bool other_trouble_ = false;  ///< something was tried, or failed, for another reason than bad input
+  bool has_other_failure_ = false;  ///< a cell was started, or something failed for another reason than bad input
   std::chrono::steady_clock::time_point summary_written_{};
 };
 

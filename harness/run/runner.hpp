@@ -13,7 +13,7 @@
 
 namespace scanbench::harness {
 
-/// How a run gets at what it does not do itself; tests put their own in.
+/// What a run does not do itself; tests replace it.
 struct RunServices {
   std::function<Recording(const Scenario&, std::uint64_t seed, int threads)> recording;
   std::function<std::string(const Scenario&)> effective_yaml;
@@ -21,7 +21,7 @@ struct RunServices {
 
 /// Must be called while the process has one thread (it forks). Cells that fail are rows of the result, not exceptions.
 /// Throws ConfigError for options that select nothing, names that cannot be folders, an output folder that is not ours
-/// or cannot be written, and if no recording can be made because the scenarios are wrong: nothing is left behind then.
+/// or cannot be written, and if no recording can be made because the scenarios are wrong: nothing remains then.
 RunResult run_with(const std::vector<Scenario>& scenarios, const RunOptions& options, const RunServices& services);
 
 /// With simulation and logs (harness/run/make_recording.hpp).

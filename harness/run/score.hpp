@@ -33,10 +33,10 @@ Scores score_cell(const std::vector<ModuleChoice>& families, const Recording& re
 std::string metric_table_csv(const metrics::MetricTable& table);
 
 /// Scores the finished cells of a run again, with the metrics of the given scenarios, and rewrites metrics.csv,
-/// the tables (those of an earlier score that are no longer asked for go), summary.csv and the manifest's list. Returns
-/// how many cells were scored. Throws ConfigError if a cell's scenario is not among them or a file is missing.
-/// `progress` is told of each cell before it is scored; nothing is written before all are, so that whatever it throws
-/// leaves the run as it was.
+/// the tables (those of an earlier score that are no longer requested are removed), summary.csv and the manifest's
+/// list. Returns how many cells were scored. Throws ConfigError if a cell's scenario is not among them or a file is
+/// missing. `progress` is told of each cell before it is scored; nothing is written before all are, so that whatever it
+/// throws leaves the run as it was.
 std::size_t score_run(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
                       const std::function<void(double, const std::string&)>& progress = {});
 

@@ -1,4 +1,4 @@
-// fork, setrlimit, pipes, wait4.
+// Child processes by fork(): limits, pipes, signals.
 #include "harness/run/worker.hpp"
 
 #include <algorithm>
@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <iterator>
 #include <new>
 #include <thread>
 
@@ -23,6 +25,7 @@
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/system_error.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SCANBENCH_UNDER_SANITIZER 1
@@ -33,10 +36,18 @@
 namespace scanbench::harness {
 namespace {
 
-constexpr std::size_t kTail = 4096;  // bytes kept of what a child prints
+constexpr std::size_t kTail = 4096;               // bytes kept of what a child prints
+constexpr std::size_t kMessageLimit = 16 * 1024;  // bytes kept of an exception's message
+constexpr std::size_t kReportLimit = 8 << 20;     // bytes that a child may report
+constexpr int kBlocksAtOnce = 64;                 // read of one pipe before the others get their turn
+constexpr double kKillDeadline = 5.0;             // seconds until a killed child that does not end is given up
+constexpr int kInterrupts[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t interrupt_seen = 0;
-struct sigaction old_int, old_term;
+bool pool_exists = false;  // signal handlers belong to the process: one pool at a time
+std::array<struct sigaction, std::size(kInterrupts)> old_actions;
+struct sigaction old_child_action;
+sigset_t held;  // the interrupts that a pool handles
 sigset_t old_mask;
 
 void on_interrupt(int) {
@@ -49,11 +60,15 @@ double wall_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-void limit(int resource, double value) {
+/// Sets the soft limit, and the hard one `margin` above it, so that the task cannot raise what it is held to.
+void limit(int resource, double value, double margin = 0.0) {
+  if (!(value + margin < 1e18)) return;
   rlimit current{};
   getrlimit(static_cast<__rlimit_resource_t>(resource), &current);
-  current.rlim_cur = static_cast<rlim_t>(std::min(value, static_cast<double>(current.rlim_max)));
-  if (value < 1e18) setrlimit(static_cast<__rlimit_resource_t>(resource), &current);
+  const auto largest = static_cast<double>(current.rlim_max);
+  current.rlim_cur = static_cast<rlim_t>(std::min(value, largest));
+  current.rlim_max = static_cast<rlim_t>(std::min(value + margin, largest));
+  setrlimit(static_cast<__rlimit_resource_t>(resource), &current);
 }
 
 /// Address space in use, from the first number of /proc/self/statm.
@@ -65,7 +80,7 @@ double address_space_bytes() {
 
 constexpr std::string_view kOutOfMemory = "an allocation failed (std::bad_alloc)\n";
 
-/// The new-handler of a child: the last that is certain to run before std::bad_alloc, whatever becomes of it.
+/// The new-handler of a child: runs before std::bad_alloc is thrown, even if nothing catches it.
 void say_out_of_memory() {
   [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, kOutOfMemory.data(), kOutOfMemory.size());
   std::set_new_handler(nullptr);
@@ -74,12 +89,20 @@ void say_out_of_memory() {
 void set_limits(const WorkerLimits& limits) {
   std::set_new_handler(say_out_of_memory);
   limit(RLIMIT_CORE, 0);
-  // Behind the wall-clock limit, for the case that the parent cannot act.
+  // Above the limit of wall time, for the case that the parent cannot act. SIGXCPU comes first, SIGKILL at the margin.
   const double cores = std::max(1U, std::thread::hardware_concurrency());
-  limit(RLIMIT_CPU, std::ceil(limits.seconds) * cores + 2.0);
+  limit(RLIMIT_CPU, std::ceil(limits.seconds) * cores + 2.0, 2.0);
   // Each thread reserves address space for its stack and its heap arena without using it.
   const double reserve = 144.0 * 1024 * 1024 * (limits.threads > 1 ? limits.threads : 0);
   if (!SCANBENCH_UNDER_SANITIZER) limit(RLIMIT_AS, address_space_bytes() + limits.memory_bytes + reserve);
+}
+
+/// The start of an exception's message: a module may write one of any length.
+std::string shortened(std::string text) {
+  if (text.size() <= kMessageLimit) return text;
+  const std::string rest = std::to_string(text.size() - kMessageLimit);
+  text.resize(kMessageLimit);
+  return text + " [" + rest + " more bytes]";
 }
 
 /// What goes through the pipe: one character for the status, then the message.
@@ -89,28 +112,49 @@ std::string perform(const std::function<std::string()>& task) {
   } catch (const std::bad_alloc&) {
     return "m";
   } catch (const InvalidResult& e) {
-    return std::string("i") + e.what();
+    return shortened(std::string("i") + e.what());
+  } catch (const SystemError& e) {
+    return shortened(std::string("s") + e.what());
+  } catch (const std::filesystem::filesystem_error& e) {
+    return shortened(std::string("s") + e.what());
   } catch (const ConfigError& e) {
-    return std::string("c") + e.what();
+    return shortened(std::string("c") + e.what());
   } catch (const InternalError& e) {
-    return std::string("finternal error: ") + e.what();
+    return shortened(std::string("finternal error: ") + e.what());
   } catch (const std::exception& e) {
-    return std::string("f") + e.what();
+    return shortened(std::string("f") + e.what());
   } catch (...) {
     return "fan exception that is no std::exception";
   }
 }
 
-[[noreturn]] void live_as_child(const std::function<std::string()>& task, const WorkerLimits& limits, int report,
-                                int output) {
+/// Leaves the child its output, its report as descriptor 3, and an empty standard input: what it starts itself then
+/// cannot hold the lock of the run's folder, the pipes of other children or the user's terminal. Returns 3.
+int keep_only(int report, int output) {
+  constexpr int kReport = STDERR_FILENO + 1;
+  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  // The pipes may have any numbers: both are moved out of the way first.
+  const int from = ::fcntl(report, F_DUPFD_CLOEXEC, kReport + 1);
+  const int to = ::fcntl(output, F_DUPFD_CLOEXEC, kReport + 1);
+  if (from < 0 || to < 0 || nothing < 0) _exit(3);
+  dup2(nothing, STDIN_FILENO);
+  dup2(to, STDOUT_FILENO);
+  dup2(to, STDERR_FILENO);
+  dup3(from, kReport, O_CLOEXEC);
+  ::close_range(kReport + 1, ~0U, 0);
+  return kReport;
+}
+
+[[noreturn]] void live_as_child(const std::function<std::string()>& task, const WorkerLimits& limits, pid_t parent,
+                                int report, int output) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  if (getppid() != parent) _exit(3);  // it has ended before it could send the signal
+  for (const int signal : kInterrupts)
+    if (sigismember(&held, signal) == 1) std::signal(signal, SIG_DFL);
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of write(), with a message
   sigprocmask(SIG_SETMASK, &old_mask, nullptr);
-  dup2(output, STDOUT_FILENO);
-  dup2(output, STDERR_FILENO);
+  report = keep_only(report, output);
   set_limits(limits);
   const std::string text = perform(task);
   std::fflush(nullptr);
@@ -124,10 +168,10 @@ std::string perform(const std::function<std::string()>& task) {
   _exit(0);
 }
 
-/// Reads what is there. False at the end.
+/// Reads what is there, up to a number of blocks: a child that writes without end must not keep us. False at the end.
 bool drain(int fd, std::string& text) {
   std::array<char, 1 << 14> block{};
-  while (true) {
+  for (int i = 0; i < kBlocksAtOnce; ++i) {
     const ssize_t n = ::read(fd, block.data(), block.size());
     if (n > 0) {
       text.append(block.data(), static_cast<std::size_t>(n));
@@ -136,6 +180,27 @@ bool drain(int fd, std::string& text) {
     } else if (errno != EINTR) {
       return errno == EAGAIN;
     }
+  }
+  return true;
+}
+
+/// Kills a child and its process group. The child itself may have left that group.
+void kill_child(pid_t pid) {
+  ::kill(-pid, SIGKILL);
+  ::kill(pid, SIGKILL);
+}
+
+bool has_ended(pid_t pid) {
+  siginfo_t info{};  // the child stays as it is until wait4(): its number cannot be used again before
+  return ::waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == pid;
+}
+
+/// Waits for a killed child, but not for ever: one that the kernel cannot end now must not hold up the run.
+void reap(pid_t pid) {
+  const double deadline = wall_seconds() + kKillDeadline;
+  while (::waitpid(pid, nullptr, WNOHANG) == 0 && wall_seconds() < deadline) {
+    const timespec pause{0, 1000000};
+    ::nanosleep(&pause, nullptr);
   }
 }
 
@@ -149,6 +214,7 @@ struct WorkerPool::Worker {
   double seconds;
   double start;
   bool killed_for_time = false;
+  bool killed_for_report = false;
   bool report_open = true;
   bool output_open = true;
   std::string report_text = {};
@@ -158,6 +224,11 @@ struct WorkerPool::Worker {
     if (report_open) report_open = drain(report, report_text);
     if (output_open) output_open = drain(output, output_text);
     if (output_text.size() > 2 * kTail) output_text.erase(0, output_text.size() - kTail);
+    if (report_text.size() > kReportLimit && !killed_for_report) {
+      killed_for_report = true;
+      report_open = false;
+      kill_child(pid);
+    }
   }
 
   WorkerOutcome outcome(int wait_status, const rusage& usage) const {
@@ -168,6 +239,11 @@ struct WorkerPool::Worker {
     result.wall_seconds = wall_seconds() - start;
     result.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
     result.peak_memory_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
+    if (killed_for_report) {
+      result.status = CellStatus::failed;
+      result.message = "reported more than " + std::to_string(kReportLimit) + " bytes";
+      return result;
+    }
     const bool exited = WIFEXITED(wait_status) && WEXITSTATUS(wait_status) == 0 && !report_text.empty();
     if (exited) {
       result.message = report_text.substr(1);
@@ -185,6 +261,7 @@ struct WorkerPool::Worker {
         default:
           result.status = CellStatus::failed;
           result.bad_input = report_text.front() == 'c';
+          result.system_error = report_text.front() == 's';
       }
     } else if (WIFSIGNALED(wait_status)) {
       describe_signal(WTERMSIG(wait_status), result);
@@ -208,7 +285,7 @@ struct WorkerPool::Worker {
       result.status = CellStatus::out_of_memory;
       result.message = "killed by the system, most likely for want of memory";
     } else {
-      // A bad_alloc that met a noexcept ends by abort(): say_out_of_memory() has left its word.
+      // A bad_alloc that met a noexcept ends by abort(): say_out_of_memory() has written its line.
       const bool memory = output_text.find(kOutOfMemory) != std::string::npos;
       result.status = memory ? CellStatus::out_of_memory : CellStatus::crashed;
       result.message = "ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
@@ -217,23 +294,32 @@ struct WorkerPool::Worker {
 };
 
 WorkerPool::WorkerPool() {
+  SCANBENCH_ASSERT(!pool_exists);
+  pool_exists = true;
   interrupt_seen = 0;
-  struct sigaction action {};
-  action.sa_handler = on_interrupt;
-  sigaction(SIGINT, &action, &old_int);
-  sigaction(SIGTERM, &action, &old_term);
-  sigset_t held;
   sigemptyset(&held);
-  sigaddset(&held, SIGINT);
-  sigaddset(&held, SIGTERM);
+  for (std::size_t i = 0; i < std::size(kInterrupts); ++i) {
+    sigaction(kInterrupts[i], nullptr, &old_actions[i]);
+    // `nohup` starts us with SIGHUP ignored: it stays so.
+    if (kInterrupts[i] == SIGHUP && old_actions[i].sa_handler == SIG_IGN) continue;
+    struct sigaction action {};
+    action.sa_handler = on_interrupt;
+    sigaction(kInterrupts[i], &action, nullptr);
+    sigaddset(&held, kInterrupts[i]);
+  }
+  // Where SIGCHLD is ignored, as a parent may have left it to us, ended children vanish and nobody can wait for them.
+  struct sigaction standard {};
+  standard.sa_handler = SIG_DFL;
+  sigaction(SIGCHLD, &standard, &old_child_action);
   sigprocmask(SIG_BLOCK, &held, &old_mask);
 }
 
 WorkerPool::~WorkerPool() {
   kill_all();
   sigprocmask(SIG_SETMASK, &old_mask, nullptr);
-  sigaction(SIGINT, &old_int, nullptr);
-  sigaction(SIGTERM, &old_term, nullptr);
+  for (std::size_t i = 0; i < std::size(kInterrupts); ++i) sigaction(kInterrupts[i], &old_actions[i], nullptr);
+  sigaction(SIGCHLD, &old_child_action, nullptr);
+  pool_exists = false;
 }
 
 std::size_t WorkerPool::running() const {
@@ -244,27 +330,30 @@ bool WorkerPool::interrupted() const {
   // While pipes keep having something to read, ppoll() returns before it delivers a signal: ask for it.
   sigset_t pending;
   sigpending(&pending);
-  return interrupt_seen != 0 || sigismember(&pending, SIGINT) == 1 || sigismember(&pending, SIGTERM) == 1;
+  return interrupt_seen != 0 || std::ranges::any_of(kInterrupts, [&](int signal) {
+           return sigismember(&held, signal) == 1 && sigismember(&pending, signal) == 1;
+         });
 }
 
 void WorkerPool::start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits) {
   int report[2];
   int output[2];
-  if (::pipe2(report, O_CLOEXEC) != 0) throw ConfigError(std::string("cannot start a worker: ") + std::strerror(errno));
+  if (::pipe2(report, O_CLOEXEC) != 0) throw SystemError(std::string("cannot start a worker: ") + std::strerror(errno));
   if (::pipe2(output, O_CLOEXEC) != 0) {
     ::close(report[0]);
     ::close(report[1]);
-    throw ConfigError(std::string("cannot start a worker: ") + std::strerror(errno));
+    throw SystemError(std::string("cannot start a worker: ") + std::strerror(errno));
   }
   std::fflush(nullptr);  // or the child would print our buffers once more
+  const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
-  if (pid == 0) live_as_child(task, limits, report[1], output[1]);
+  if (pid == 0) live_as_child(task, limits, parent, report[1], output[1]);
   ::close(report[1]);
   ::close(output[1]);
   if (pid < 0) {
     ::close(report[0]);
     ::close(output[0]);
-    throw ConfigError(std::string("cannot start a worker: ") + std::strerror(errno));
+    throw SystemError(std::string("cannot start a worker: ") + std::strerror(errno));
   }
   setpgid(pid, pid);  // in both processes: whoever comes first
   fcntl(report[0], F_SETFL, O_NONBLOCK);
@@ -292,16 +381,17 @@ std::vector<WorkerPool::Finished> WorkerPool::wait() {
       w.read_pipes();
       if (!w.killed_for_time && wall_seconds() > w.start + w.seconds) {
         w.killed_for_time = true;
-        ::kill(-w.pid, SIGKILL);
+        kill_child(w.pid);
       }
-      int status = 0;
-      rusage usage{};
-      if (::wait4(w.pid, &status, WNOHANG, &usage) != w.pid) {
+      if (!has_ended(w.pid)) {
         ++i;
         continue;
       }
-      w.read_pipes();
       ::kill(-w.pid, SIGKILL);  // what the task may have started itself
+      w.read_pipes();           // what they still hold: less than is read at once
+      int status = 0;
+      rusage usage{};
+      ::wait4(w.pid, &status, 0, &usage);
       ::close(w.report);
       ::close(w.output);
       finished.push_back({w.id, w.outcome(status, usage)});
@@ -312,9 +402,9 @@ std::vector<WorkerPool::Finished> WorkerPool::wait() {
 }
 
 void WorkerPool::kill_all() {
-  for (const auto& w : workers_) ::kill(-w.pid, SIGKILL);
+  for (const auto& w : workers_) kill_child(w.pid);
   for (const auto& w : workers_) {
-    ::waitpid(w.pid, nullptr, 0);
+    reap(w.pid);
     ::close(w.report);
     ::close(w.output);
   }

@@ -17,9 +17,10 @@ struct WorkerLimits {
   int threads = 1;            ///< the task starts up to this many
 };
 
-/// Runs tasks in forked children. The parent must have one thread only when start() is called. While a pool lives,
-/// SIGINT and SIGTERM are held back and seen only by wait(); the children are process groups of their own, so that an
-/// interrupt at the terminal reaches the parent alone, and die with it.
+/// Runs tasks in forked children. The parent must have one thread only when start() is called. While a pool exists,
+/// SIGINT, SIGTERM and SIGHUP are blocked and seen only by wait(). Each child is a process group of its own, so that an
+/// interrupt at the terminal reaches the parent alone; it has an empty standard input and none of the parent's open
+/// files; it is killed when the parent ends. One pool may exist at a time.
 class WorkerPool {
  public:
   WorkerPool();
@@ -33,10 +34,11 @@ class WorkerPool {
   };
 
   /// Forks. In the child the task runs, its result goes through a pipe, and the process ends without destructors of the
-  /// parent's objects. Throws ConfigError if the system refuses another process.
+  /// parent's objects. A result of more than 8 MiB is a failure. Throws SystemError if the system refuses another
+  /// process.
   void start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits);
   std::size_t running() const;
-  /// Blocks until a child has ended, or somebody interrupts: then interrupted() is true and the list may be empty.
+  /// Blocks until a child has ended, or an interrupt: then interrupted() is true and the list may be empty.
   std::vector<Finished> wait();
   bool interrupted() const;
   void kill_all();

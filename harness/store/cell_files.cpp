@@ -10,6 +10,7 @@
 #include "harness/files/csv.hpp"
 #include "harness/files/npy.hpp"
 #include "harness/files/text_file.hpp"
+#include "harness/store/json_file.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
@@ -80,9 +81,15 @@ void write_lines(const fs::path& cell, const std::vector<ScanLines>& scans) {
   write_staged_file(cell / "labels.npy", npy_bytes(labels, scans.size(), beams));
 }
 
+/// Only the header states their number: no byte of the file belongs to them.
+constexpr std::size_t kMostFramesWithoutBeams = 1000000;
+
 std::vector<ScanLines> load_lines(const fs::path& cell) {
   const fs::path file = cell / "lines.csv";
   const auto labels = parse_npy_int32(read_file(cell / "labels.npy"), cell / "labels.npy");
+  if (labels.columns == 0 && labels.rows > kMostFramesWithoutBeams)
+    throw ConfigError((cell / "labels.npy").string() + ": " + std::to_string(labels.rows) +
+                      " frames without beams; allowed: at most " + std::to_string(kMostFramesWithoutBeams));
   std::vector<ScanLines> scans(labels.rows);
   for (std::size_t k = 0; k < labels.rows; ++k) {
     const auto row = labels.values.begin() + static_cast<std::ptrdiff_t>(k * labels.columns);
@@ -147,18 +154,18 @@ std::string status_json(const CellRecord& record) {
 
 CellRecord load_status(const fs::path& cell) {
   const fs::path file = cell / "status.json";
-  const Json json = Json::parse(read_file(file), nullptr, false);
-  if (json.is_discarded() || !json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
-  try {
-    return {{.status = cell_status_from(json.at("status").get<std::string>()),
-             .message = json.at("message"),
-             .wall_seconds = json.at("wall_seconds"),
-             .cpu_seconds = json.at("cpu_seconds"),
-             .peak_memory_bytes = json.at("peak_memory_bytes")},
-            json.value("address", "")};
-  } catch (const std::exception& e) {
-    throw ConfigError(file.string() + ": " + e.what());
-  }
+  return with_json_of(file, [&](const Json& json) -> CellRecord {
+    try {
+      return {{.status = cell_status_from(json.at("status").get<std::string>()),
+               .message = json.at("message"),
+               .wall_seconds = json.at("wall_seconds"),
+               .cpu_seconds = json.at("cpu_seconds"),
+               .peak_memory_bytes = json.at("peak_memory_bytes")},
+              json.value("address", "")};
+    } catch (const ConfigError& e) {
+      throw ConfigError(file.string() + ": " + e.what());
+    }
+  });
 }
 
 void write_result(const fs::path& cell, const PipelineSpec& pipeline, const PipelineResult& result) {

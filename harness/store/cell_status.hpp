@@ -27,7 +27,8 @@ struct WorkerOutcome {
   double wall_seconds = 0.0;
   double cpu_seconds = 0.0;
   double peak_memory_bytes = 0.0;
-  bool bad_input = false;  ///< failed with a ConfigError: something that a user can mend
+  bool bad_input = false;     ///< failed with a ConfigError: something that a user can correct
+  bool system_error = false;  ///< failed with a SystemError, like a full disk: the cell is missing
 };
 
 }  // namespace scanbench::harness

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
+#include "harness/store/json_file.hpp"
 #include "scanbench_version.hpp"  // included here and nowhere else: it changes with every commit
 
 namespace scanbench::harness {
@@ -55,8 +56,8 @@ Json load_json(const fs::path& run) {
   const fs::path file = run / "manifest.json";
   std::error_code absent;
   if (!fs::exists(file, absent)) throw ConfigError(run.string() + ": not the folder of a run: it has no manifest.json");
-  Json json = Json::parse(read_file(file), nullptr, false);
-  if (json.is_discarded() || !json.is_object() || json.value("program", Json()) != "scanbench")
+  Json json = load_json_object(file);
+  if (json.value("program", Json()) != "scanbench")
     throw ConfigError(file.string() + ": not the manifest of a scanbench run");
   if (json.value("schema", Json()) != 1)
     throw ConfigError(file.string() + ": schema is " + json.value("schema", Json()).dump() + "; allowed: 1");
@@ -110,6 +111,7 @@ Manifest load_manifest(const fs::path& run) {
   const Json json = load_json(run);
   try {
     Manifest manifest{json.at("state"), json.at("start"), json.at("end"), json.at("argv"), json.at("scenarios"), {}};
+    for (const auto& scenario : manifest.scenarios) check_name("scenario", scenario);
     for (const auto& cell : json.at("cells")) {
       manifest.cells.push_back({cell.at("scenario"), cell.at("pipeline"), cell.at("seed")});
       check_name("scenario", manifest.cells.back().scenario);
@@ -117,7 +119,7 @@ Manifest load_manifest(const fs::path& run) {
     }
     return manifest;
   } catch (const Json::exception& e) {
-    throw ConfigError((run / "manifest.json").string() + ": " + e.what());
+    refuse_json(run / "manifest.json", e);
   }
 }
 
@@ -128,7 +130,7 @@ std::map<std::string, std::string> listed_hashes(const fs::path& run) {
     for (const auto& file : json.at("artefacts")) hashes.emplace(file.at("path"), file.at("sha256"));
     return hashes;
   } catch (const Json::exception& e) {
-    throw ConfigError((run / "manifest.json").string() + ": " + e.what());
+    refuse_json(run / "manifest.json", e);
   }
 }
 
@@ -146,7 +148,7 @@ std::string version_text() {
          version::kBuildType + ")";
 }
 
-std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& run) {
+std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& run) try {
   const Json json = load_json(run);
   std::string command;
   for (const auto& word : json.value("argv", Json::array()))
@@ -164,6 +166,8 @@ std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& 
           {"libraries", used},
           {"processor", text("cpu")},
           {"files", "effective.yaml holds every parameter; manifest.json the SHA-256 of every file"}};
+} catch (const Json::exception& e) {
+  refuse_json(run / "manifest.json", e);
 }
 
 }  // namespace scanbench::harness

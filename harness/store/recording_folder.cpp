@@ -12,6 +12,7 @@
 #include "harness/files/csv.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/files/npy.hpp"
+#include "harness/store/json_file.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
@@ -173,13 +174,7 @@ void check_truth(const Recording& recording) {
   SCANBENCH_ASSERT(recording.truth->wall_ids.size() == cells);
 }
 
-Json parse_scan_json(const fs::path& file) {
-  Json json = Json::parse(read_file(file), nullptr, false);
-  if (json.is_discarded() || !json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
-  return json;
-}
-
-SensorModel sensor_from(const Json& json, const fs::path& file) {
+SensorModel sensor_from(const Json& json, const fs::path& file) try {
   SensorModel sensor;
   sensor.name = json.value("sensor_name", "");
   sensor.source = json.value("sensor_source", "");
@@ -196,6 +191,8 @@ SensorModel sensor_from(const Json& json, const fs::path& file) {
     for (const auto& [key, member] : kNoiseNumbers)
       if (noise->contains(key)) sensor.noise.*member = number_of(*noise, key, file);
   return sensor;
+} catch (const Json::exception& e) {
+  refuse_json(file, e);
 }
 
 template <class T>
@@ -248,7 +245,7 @@ std::string save_recording(const fs::path& folder, const Recording& recording) {
 
 Recording load_recording(const fs::path& folder) {
   const fs::path scan_file = folder / "scan.json";
-  Json scan = parse_scan_json(scan_file);
+  Json scan = load_json_object(scan_file);
   Recording recording;
   recording.observed.sensor = sensor_from(scan, scan_file);
   const auto beams = static_cast<std::size_t>(recording.observed.sensor.geometry.beams());
@@ -260,6 +257,9 @@ Recording load_recording(const fs::path& folder) {
   const CsvTable frames(bytes_of("frames.csv"), folder / "frames.csv",
                         {"frame", "t_s", "odom_x_m", "odom_y_m", "odom_yaw_rad"});
   const std::size_t count = frames.rows();
+  if (scan.contains("frames") && number_of(scan, "frames", scan_file) != static_cast<double>(count))
+    throw ConfigError(scan_file.string() + ": frames is " + scan["frames"].dump() + "; frames.csv has " +
+                      std::to_string(count));
   NpyArray<double> rotations;
   const bool exact = fs::exists(folder / "rotations.npy");
   if (exact) {
@@ -270,6 +270,7 @@ Recording load_recording(const fs::path& folder) {
   check_shape(ranges, count, beams, folder / "ranges.npy");
   for (std::size_t k = 0; k < count; ++k) {
     if (frames.index(k, "frame") != static_cast<int>(k)) frames.refuse(k, "frames must be numbered 0, 1, 2, ...");
+    if (!std::isfinite(frames.number(k, "t_s"))) frames.refuse(k, "t_s is not finite");
     const auto row = ranges.values.begin() + static_cast<std::ptrdiff_t>(k * beams);
     const double* rotation = exact ? &rotations.values[4 * k] : nullptr;
     recording.observed.frames.push_back({frames.number(k, "t_s"),
@@ -313,7 +314,7 @@ Recording load_recording(const fs::path& folder) {
 }
 
 std::string stated_recording_hash(const fs::path& folder) {
-  return parse_scan_json(folder / "scan.json").value("content_hash", "");
+  return with_json_of(folder / "scan.json", [](const Json& json) { return json.value("content_hash", ""); });
 }
 
 }  // namespace scanbench::harness

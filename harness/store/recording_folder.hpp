@@ -22,7 +22,7 @@ std::string recording_hash(const Recording& recording);
 /// Writes the files into an existing, empty folder (a StagedFolder's). Returns the content hash.
 std::string write_recording(const std::filesystem::path& folder, const Recording& recording);
 
-/// The folder appears whole; what stood there before is replaced. Returns the content hash. Throws ConfigError.
+/// The folder appears whole; one that was there before is replaced. Returns the content hash. Throws ConfigError.
 std::string save_recording(const std::filesystem::path& folder, const Recording& recording);
 
 /// Throws ConfigError, naming the file, if one is missing or malformed or the bytes do not have the content hash of

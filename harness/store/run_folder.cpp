@@ -2,6 +2,7 @@
 #include "harness/store/run_folder.hpp"
 
 #include <algorithm>
+#include <system_error>
 
 #include <vector>
 
@@ -26,6 +27,18 @@ void check_name(const std::string& what, const std::string& name) {
       name.find('\0') != std::string::npos || name.size() > 200)
     throw ConfigError("the name of a " + what + " is '" + name +
                       "'; it names a folder: allowed are 1 to 200 characters, no '/', no leading '.'");
+}
+
+void refuse_linked_folders(const fs::path& run) {
+  const auto refuse_link = [](const fs::path& path) {
+    if (fs::is_symlink(path) && fs::is_directory(path))
+      throw ConfigError(path.string() + " is a symbolic link; the folders of a run must be folders of its own");
+  };
+  for (const char* name : {"cells", "effective", "figures", "published", "recordings", "scenarios"}) {
+    refuse_link(run / name);
+    std::error_code absent;
+    for (const auto& entry : fs::recursive_directory_iterator(run / name, absent)) refuse_link(entry.path());
+  }
 }
 
 bool is_run_file(const fs::path& relative) {

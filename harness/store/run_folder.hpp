@@ -22,6 +22,9 @@ std::filesystem::path recording_path(const std::filesystem::path& run, const std
 /// Throws ConfigError unless the name can be a folder's name on its own: not empty, no '/', no leading '.'.
 void check_name(const std::string& what, const std::string& name);
 
+/// Throws ConfigError if a folder that a run writes into is a symbolic link: its files would be written elsewhere.
+void refuse_linked_folders(const std::filesystem::path& run);
+
 /// True for the paths, relative to the run folder, that a run, its figures and its reports write.
 bool is_run_file(const std::filesystem::path& relative);
 

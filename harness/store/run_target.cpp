@@ -1,18 +1,12 @@
 // Replacement and locking of run folders.
 #include "harness/store/run_target.hpp"
 
-#include <cerrno>
-#include <charconv>
-#include <csignal>
-#include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include "core/error.hpp"
+#include "harness/files/system_error.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_folder.hpp"
 
@@ -20,24 +14,28 @@ namespace scanbench::harness {
 namespace fs = std::filesystem;
 namespace {
 
-/// Temporary folders that a killed run left beside `out`: named after a process that no longer lives.
+/// True for an empty folder, and for one that a run left that was killed before its manifest was there.
+bool holds_only_temporaries(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (!is_temporary_name(entry.path().filename().string())) return false;
+  return !error;
+}
+
+/// Temporary folders that a killed run left beside `out`. We hold the lock of `out`: nobody is at work in them.
 void remove_stale_siblings(const fs::path& out) {
   const std::string prefix = "." + out.filename().string() + ".tmp-";
   std::error_code ignored;
   std::vector<fs::path> stale;
   for (const auto& entry : fs::directory_iterator(out.parent_path(), ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(prefix) || !entry.is_directory(ignored)) continue;
-    int pid = 0;
-    const auto [end, error] = std::from_chars(name.data() + prefix.size(), name.data() + name.size(), pid);
-    if (error != std::errc{} || end != name.data() + name.size() || pid <= 0) continue;
-    const bool ours = fs::exists(entry.path() / "manifest.json", ignored) || fs::is_empty(entry.path(), ignored);
-    if (ours && ::kill(pid, 0) != 0 && errno == ESRCH) stale.push_back(entry.path());
+    const fs::path& path = entry.path();
+    if (!path.filename().string().starts_with(prefix) || !fs::is_directory(entry.symlink_status(ignored))) continue;
+    if (fs::exists(path / "manifest.json", ignored) || holds_only_temporaries(path)) stale.push_back(path);
   }
   for (const auto& path : stale) fs::remove_all(path, ignored);
 }
 
-/// Unfinished files and folders of a killed run inside its folder. We hold the lock: nobody is at work on them.
+/// Removes unfinished files and folders of a killed run inside its folder. We hold the lock: nobody is at work on them.
 void remove_temporaries(const fs::path& run) {
   std::vector<fs::path> found;
   for (auto it = fs::recursive_directory_iterator(run); it != fs::recursive_directory_iterator(); ++it) {
@@ -49,8 +47,8 @@ void remove_temporaries(const fs::path& run) {
   for (const auto& path : found) fs::remove_all(path, ignored);
 }
 
-/// What no run writes goes along, by a hard link where the file system has them.
-void carry_along(const fs::path& from, const fs::path& to) {
+/// Takes over what no run writes, by a hard link where the file system has them. Throws ConfigError, naming the file.
+void carry_along(const fs::path& from, const fs::path& to) try {
   for (auto it = fs::recursive_directory_iterator(from); it != fs::recursive_directory_iterator(); ++it) {
     const fs::path relative = it->path().lexically_relative(from);
     if (is_temporary_name(relative.filename().string())) {
@@ -67,6 +65,9 @@ void carry_along(const fs::path& from, const fs::path& to) {
     if (!it->is_symlink()) fs::create_hard_link(it->path(), to / relative, error);
     if (it->is_symlink() || error) fs::copy(it->path(), to / relative, fs::copy_options::copy_symlinks);
   }
+} catch (const fs::filesystem_error& e) {
+  throw SystemError(e.path1().string() + " is no file of a run and cannot be taken over into the new one: " +
+                    e.code().message() + "; remove it, or give another folder");
 }
 
 }  // namespace
@@ -81,28 +82,24 @@ RunTarget::RunTarget(fs::path out, bool resume) : out_(fs::absolute(out).lexical
   }
   if (fs::exists(out_, error) && !fs::is_directory(out_, error))
     throw ConfigError(out_.string() + " is a file; the folder of a run must be a folder of its own");
-  const bool empty = !fs::is_directory(out_, error) || fs::is_empty(out_, error);
+  const bool empty = !fs::is_directory(out_, error) || holds_only_temporaries(out_);
   if (!empty && !fs::exists(out_ / "manifest.json"))
     throw ConfigError(out_.string() +
                       " is not empty and has no manifest.json, so it is no run of ours and is left alone");
-  if (!empty) load_manifest(out_);  // refuses somebody else's manifest.json
+  if (!empty) load_manifest(out_);  // refuses a manifest.json that is not ours
   for (fs::path folder = out_; folder.has_relative_path() && !fs::exists(folder, error); folder = folder.parent_path())
     first_made_ = folder;
   make_folders(out_);
-  lock_ = ::open(out_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) throw ConfigError("cannot read " + out_.string() + ": " + std::strerror(errno));
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    ::close(lock_);
-    throw ConfigError("another run is at work in " + out_.string());
-  }
+  lock_.emplace(out_);
   remove_stale_siblings(out_);
   resumed_ = resume && !empty;
-  if (resumed_) remove_temporaries(out_);
-  if (!empty && !resume) staged_.emplace(out_);
-}
-
-RunTarget::~RunTarget() {
-  ::close(lock_);
+  if (resumed_) refuse_linked_folders(out_);
+  if (resumed_ || empty) remove_temporaries(out_);
+  if (empty || resume) return;
+  staged_.emplace(out_);
+  carry_along(out_, staged_->path());  // here, so that what cannot be taken over is known before hours of work
+  staged_->clear();
+  staged_lock_.emplace(staged_->path());
 }
 
 void RunTarget::finish() {
@@ -110,6 +107,7 @@ void RunTarget::finish() {
   carry_along(out_, staged_->path());
   staged_->commit();
   staged_.reset();
+  lock_ = std::move(staged_lock_);
 }
 
 void RunTarget::abandon() {

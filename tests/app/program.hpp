@@ -93,7 +93,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  void interrupt() const { kill(pid_, SIGINT); }
+  void interrupt(int signal = SIGINT) const { kill(pid_, signal); }
 
   /// Waits until the condition holds. False: the program ended before, or a minute passed.
   template <class Condition>

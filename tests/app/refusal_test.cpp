@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "tests/app/program.hpp"
 
 namespace scanbench::app_test {
@@ -172,19 +174,20 @@ TEST(OutputFolder, OnADiskThatIsFullHoldsNoHalfWrittenFileAndTheOldRunStays) {
   const std::string run_it = places::program().string() + " run room.yaml -q --out run";
   ASSERT_EQ(run({"run", "room.yaml", "-q", "--out", "run"}, {}, folder.path()).code, 0);
   const auto before = files(folder.path());
-  // The limit cuts files at 1 KiB (the manifest), 4 KiB (the recording).
-  for (const char* limit : {"1", "4"}) {
+  // The limit cuts files at 1 KiB (the manifest: nothing begins), 4 KiB (the recording: all cells are missing).
+  for (const auto& [limit, code] : {std::pair("1", 2), std::pair("4", 4)}) {
     const auto outcome = Child({"/bin/bash", "-c", std::string("ulimit -f ") + limit + "; " + run_it + " --set seed=2"},
                                {}, folder.path())
                              .wait();
-    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(outcome.code, code) << outcome.err;
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("cannot write"), HasSubstr("File too large")));
     EXPECT_THAT(differences(before, files(folder.path())), IsEmpty());
   }
   fs::remove_all(folder / "run");
   const auto fresh = Child({"/bin/bash", "-c", "ulimit -f 4; " + run_it}, {}, folder.path()).wait();
-  EXPECT_EQ(fresh.code, 2) << fresh.err;
-  EXPECT_FALSE(fs::exists(folder / "run"));
+  EXPECT_EQ(fresh.code, 4) << fresh.err;
+  EXPECT_THAT(half_written(folder.path()), IsEmpty());
+  EXPECT_EQ(run({"run", "room.yaml", "-q", "--out", "run", "--resume"}, {}, folder.path()).code, 0);
 }
 
 TEST(OutputFolder, OfAnInterruptedSimulationVanishes) {

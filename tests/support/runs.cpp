@@ -9,6 +9,7 @@
 #include <set>
 
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
@@ -114,6 +115,13 @@ struct WrongLabels {
 };
 struct Leave {
   void operator()(ScanLines&) const { ::_exit(0); }
+};
+/// From then on the process can write nothing, as on a full disk.
+struct FillDisk {
+  void operator()(ScanLines&) const {
+    const rlimit none{0, 0};
+    ::setrlimit(RLIMIT_FSIZE, &none);
+  }
 };
 
 struct PointsRow {
@@ -255,7 +263,8 @@ const bool registered =
     add<LineExtractor, Misbehaving<Hang>>("test_hang") && add<LineExtractor, Misbehaving<Eat>>("test_eat") &&
     add<LineExtractor, Misbehaving<Throw>>("test_throw") &&
     add<LineExtractor, Misbehaving<WrongLabels>>("test_wrong_labels") &&
-    add<LineExtractor, Misbehaving<Leave>>("test_leave") && add<SegmentMerger, MergeAll>("test_merge") &&
+    add<LineExtractor, Misbehaving<Leave>>("test_leave") &&
+    add<LineExtractor, Misbehaving<FillDisk>>("test_full_disk") && add<SegmentMerger, MergeAll>("test_merge") &&
     add<Aligner, ShiftAll>("test_shift") && add<ScanMatcher, OneAhead>("test_ahead") &&
     add<Mapper, PoseMapper>("test_mapper") && add<metrics::MetricFamily, TestMetrics>("test_metrics") &&
     add<metrics::MetricFamily, NeedsAMap>("test_needs_map") && add<render::Figure, Traced>("test_traced");

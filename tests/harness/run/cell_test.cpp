@@ -11,7 +11,11 @@
 #include "harness/files/csv.hpp"
 #include "harness/run/cell_address.hpp"
 #include "harness/run/pipeline.hpp"
+#include "harness/scenario/effective.hpp"
+#include "harness/scenario/scenario_file.hpp"
+#include "harness/scenario/sections.hpp"
 #include "harness/store/cell_status.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
@@ -170,9 +174,9 @@ TEST(CellAddress, ChangesWithEverythingThatTheResultDependsOn) {
   others[1].pipelines[0].slots[0].params["skip"] = std::string("1");
   others[2].metrics.pop_back();
   std::get<SimulatedInput>(others[3].input).world.walls = {{"w", {Vec2(0, 0), Vec2(1, 0)}}};
-  std::get<SimulatedInput>(others[4].input).odometry.rotation_per_rad = 0.1;
+  std::get<SimulatedInput>(others[4].input).odometry_params["rotation_deg_per_deg"] = 0.1;
   std::get<SimulatedInput>(others[5].input).trajectory.params["scans"] = std::int64_t{3};
-  std::get<SimulatedInput>(others[6].input).tilt.pitch_sigma_rad = 0.1;
+  std::get<SimulatedInput>(others[6].input).tilt_params["pitch_sigma_deg"] = 0.1;
   for (const auto& other : others) EXPECT_NE(address(other), address(base));
   EXPECT_NE(address(base, 2), address(base, 1));
   Scenario renamed = base;
@@ -180,17 +184,15 @@ TEST(CellAddress, ChangesWithEverythingThatTheResultDependsOn) {
   EXPECT_EQ(address(renamed), address(base));
 }
 
-TEST(CellAddress, ChangesWithLinesTheirFramesTheCopiesAndTheTruth) {
+TEST(CellAddress, ChangesWithTheCopiesOfLinesAndTheirTruth) {
   Scenario base = testing::scenario_with("s", {});
   LinesInput input;
   input.world.emplace().walls = {{"a", {{0, 0}, {1, 0}}}};
   input.params = {{"copies", std::int64_t{3}}};
-  input.frames = {{{{0, 0}, {1, 0}}, {{0, 1}, {1, 1}}}};
-  std::vector<LinesInput> others(4, input);
+  std::vector<LinesInput> others(3, input);
   others[0].world.reset();
   others[1].params["copies"] = std::int64_t{4};
-  others[2].frames[0][1].b.x() = 2;
-  others[3].frames = {{{{0, 0}, {1, 0}}}, {{{0, 1}, {1, 1}}}};
+  others[2].world->walls[0].segment.b.x() = 2;
   base.input = input;
   for (const auto& other : others) {
     Scenario changed = base;
@@ -199,11 +201,42 @@ TEST(CellAddress, ChangesWithLinesTheirFramesTheCopiesAndTheTruth) {
   }
 }
 
+TEST(CellAddress, FollowsTheBytesOfALineFileAndNotItsPath) {
+  const testing::TemporaryFolder folder;
+  const auto address = [&](const std::string& name, const std::string& bytes) {
+    Scenario scenario = testing::scenario_with("s", {});
+    LinesInput input;
+    input.file = folder.path() / name;
+    scenario.input = input;
+    write_file_atomically(input.file, bytes);
+    return input_address(scenario);
+  };
+  EXPECT_EQ(address("a.csv", "1"), address("b.csv", "1"));
+  EXPECT_NE(address("a.csv", "1"), address("a.csv", "2"));
+}
+
+TEST(CellAddress, OfAScenarioWithAWorldFileIsThatOfItsEffectiveScenario) {
+  const testing::TemporaryFolder folder;
+  const fs::path world = places::source_dir() / "scenarios/worlds/borges15.yaml";
+  write_file_atomically(folder.path() / "s.yaml",
+                        "schema: 1\nworld: {file: " + world.string() +
+                            "}\nsensor: {preset: ladar_2d30}\n"
+                            "trajectory: {kind: waypoints, points_m: {A: [6.45, 3.15], B: [4.6, 1.5]}, scans: 3}\n"
+                            "pipelines:\n  - {name: a, extract: {module: test_line}}\nmetrics: [test_metrics]\n");
+  const Scenario scenario = load_scenario(folder.path() / "s.yaml");
+  write_file_atomically(folder.path() / "effective.yaml", effective_yaml(scenario));
+  const Scenario effective = load_scenario(folder.path() / "effective.yaml");
+  EXPECT_EQ(input_address(scenario), input_address(effective));
+  EXPECT_EQ(cell_address("", scenario.metrics, scenario.pipelines[0], 1, {}),
+            cell_address("", effective.metrics, effective.pipelines[0], 1, {}));
+}
+
 TEST(CellAddress, FollowsTheBytesOfALog) {
   const testing::TemporaryFolder folder;
   Scenario scenario = testing::scenario_with("s", {});
   RecordedInput input;
   input.log = folder.path() / "log";
+  for (const auto& spec : recorded_sensor_specs()) input.sensor_params[spec.name] = 0.0;
   scenario.input = input;
   EXPECT_THROW(input_address(scenario), ConfigError);
   write_file_atomically(folder.path() / "log", "1");

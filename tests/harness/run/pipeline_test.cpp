@@ -4,9 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <set>
+#include <tuple>
 
 #include "core/error.hpp"
+#include "core/modules.hpp"
+#include "core/registry.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/run/stopwatch.hpp"
 #include "tests/support/runs.hpp"
@@ -28,6 +33,75 @@ PipelineRun run_slots(const std::vector<std::pair<std::string, std::string>>& sl
   pipeline.name = "p";
   for (const auto& [kind, module] : slots) pipeline.slots.push_back({kind, module, {}});
   return run_pipeline(pipeline, recording().observed, journal);
+}
+
+/// One line that keeps the contract but for one thing.
+class FaultyLine final : public LineExtractor {
+ public:
+  struct Params {
+    int fault = 0;
+    static auto fields() { return std::tuple{field("fault", &Params::fault, at_least(0), "", "which")}; }
+  };
+  explicit FaultyLine(const Params& params) : params_(params) {}
+  ScanLines extract(const Scan& scan, Trace&) const override {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    ScanLines result;
+    result.labels.assign(static_cast<std::size_t>(scan.beams()), -1);
+    LineFeature line{.segment = {{0, 0}, {1, 0}}, .line = {}, .covariance = {}};
+    line.first_beam = 0;
+    line.last_beam = scan.beams() - 1;
+    switch (params_.fault) {
+      case 1:
+        line.first_beam = -1;
+        break;
+      case 2:
+        line.last_beam = scan.beams();
+        break;
+      case 3:
+        line.last_beam = std::numeric_limits<int>::max();
+        break;
+      case 4:
+        line.points = -1;
+        break;
+      case 5:
+        line.rms_m = nan;
+        break;
+      case 6:
+        line.rms_m = -0.1;
+        break;
+      case 7:
+        line.segment.b = line.segment.a;
+        break;
+      case 8:
+        line.segment.b = Vec2(1e308, 0);
+        break;
+      case 9:
+        line.segment.b = Vec2(0, nan);
+        break;
+      default:
+        break;
+    }
+    result.lines.push_back(line);
+    return result;
+  }
+
+ private:
+  Params params_;
+};
+const bool registered = Registry<LineExtractor>::add<FaultyLine>(
+    {.name = "test_faulty_line", .summary = "of the tests", .reference = "none"});
+
+TEST(Pipeline, RefusesALineThatBreaksTheContract) {
+  ASSERT_TRUE(registered);
+  for (std::int64_t fault = 0; fault <= 9; ++fault) {
+    SCOPED_TRACE(fault);
+    const PipelineSpec pipeline = testing::extract_with("p", "test_faulty_line", {{"fault", fault}});
+    if (fault == 0) {
+      EXPECT_NO_THROW(run_pipeline(pipeline, recording().observed));
+    } else {
+      EXPECT_THROW(run_pipeline(pipeline, recording().observed), InvalidResult);
+    }
+  }
 }
 
 TEST(Pipeline, WithExtractAloneGivesLinesOfEveryFrameAndNoPoses) {

@@ -7,16 +7,19 @@
 #include <functional>
 #include <set>
 
+#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/files/hash.hpp"
+#include "harness/files/system_error.hpp"
 #include "harness/run/run_options.hpp"
 #include "harness/run/score.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
+#include "harness/store/run_lock.hpp"
 #include "harness/store/run_target.hpp"
 #include "tests/support/runs.hpp"
 
@@ -339,6 +342,122 @@ TEST(Runner, ACellThatCannotBeWrittenMakesTheRunIncomplete) {
   EXPECT_EQ(result.exit_code(), 4);
   EXPECT_FALSE(cell_of(result, "s/a/1").done);
   EXPECT_TRUE(cell_of(result, "s/b/1").reused);
+}
+
+TEST(Runner, AnErrorOfTheSystemMakesACellMissingAndKeepsTheOldRun) {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  run_here({scenario_with("s", {extract_with("a", "test_line"), extract_with("b", "test_line")})}, {.out = out});
+  const auto before = testing::listing(folder.path());
+  const auto bytes = testing::artefacts(out);
+  const std::vector<Scenario> full{
+      scenario_with("s", {extract_with("a", "test_line"), extract_with("b", "test_full_disk")})};
+  int drawn = 0;
+  const RunResult result = run_here(full, {.out = out, .finish = [&](const RunResult&) { ++drawn; }});
+  EXPECT_EQ(result.exit_code(), 4);
+  EXPECT_TRUE(result.old_run_kept);
+  EXPECT_EQ(drawn, 0);
+  EXPECT_FALSE(cell_of(result, "s/b/1").done);
+  EXPECT_THAT(cell_of(result, "s/b/1").record.outcome.message, HasSubstr("File too large"));
+  EXPECT_EQ(testing::listing(folder.path()), before);
+  EXPECT_EQ(testing::artefacts(out), bytes);
+
+  // Nothing is lost in a new folder: what has succeeded stays, and only the rest is run again.
+  const RunResult fresh = run_here(full, {.out = folder.path() / "new"});
+  EXPECT_EQ(fresh.exit_code(), 4);
+  EXPECT_FALSE(fresh.old_run_kept);
+  EXPECT_FALSE(fs::exists(folder.path() / "new/cells/s/b/1"));
+  EXPECT_EQ(nlohmann::json::parse(read_file(folder.path() / "new/manifest.json"))["state"], "incomplete");
+  EXPECT_TRUE(cell_of(run_here(full, {.out = folder.path() / "new", .resume = true}), "s/a/1").reused);
+}
+
+TEST(Runner, ARecordingThatTheSystemRefusesMakesItsCellsMissing) {
+  const testing::TemporaryFolder folder;
+  RunServices broken = testing::services();
+  broken.recording = [](const Scenario& s, std::uint64_t seed, int) -> Recording {
+    if (s.name == "one") throw SystemError("the disk is full");
+    return testing::random_recording(seed, 5, 16, true);
+  };
+  const RunResult result = run_with(two_scenarios(), {.out = folder.path() / "r"}, broken);
+  EXPECT_EQ(result.exit_code(), 4);
+  EXPECT_FALSE(cell_of(result, "one/a/1").done);
+  EXPECT_EQ(cell_of(result, "one/a/1").record.outcome.message, "the disk is full");
+  EXPECT_TRUE(cell_of(result, "two/a/1").done);
+}
+
+TEST(Runner, ASelectionKeepsTheOtherCellsOfAnEarlierRun) {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  std::vector<Scenario> scenarios{scenario_with("s", {extract_with("a", "test_line"), extract_with("b", "test_line")})};
+  run_here(scenarios, {.out = out});
+  const auto before = testing::artefacts(out);
+  const RunResult result = run_here(scenarios, {.out = out, .only = {"a"}});
+  ASSERT_EQ(result.cells.size(), 1u);
+  EXPECT_FALSE(result.cells[0].reused);
+  EXPECT_EQ(testing::artefacts(out), before);
+
+  // What belongs to other input can neither stay nor be dropped without a word.
+  scenarios[0].pipelines[1].slots[0].params["skip"] = std::int64_t{2};
+  EXPECT_THROW(run_here(scenarios, {.out = out, .only = {"a"}}), ConfigError);
+  EXPECT_THROW(run_here({scenario_with("t", {extract_with("a", "test_line")})}, {.out = out, .only = {"a"}}),
+               ConfigError);
+  EXPECT_EQ(testing::artefacts(out), before);
+  EXPECT_EQ(run_here(scenarios, {.out = out, .only = {"b"}}).exit_code(), 0);
+}
+
+TEST(Runner, WithoutABenchmarkRemovesThatOfAnEarlierRun) {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  run_here(two_scenarios(), {.out = out, .benchmark = BenchmarkSpec{.about = "", .baseline = "one", .example = "one"}});
+  EXPECT_TRUE(fs::exists(out / "benchmark.json"));
+  run_here({scenario_with("other", {extract_with("a", "test_line")})}, {.out = out, .resume = true});
+  EXPECT_FALSE(fs::exists(out / "benchmark.json"));
+}
+
+TEST(Runner, UsesAFolderThatHoldsNothingButTemporaryFilesOfAKilledRun) {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  make_folders(out);
+  write_staged_file(out / ".manifest.json.tmp-1", "{");
+  EXPECT_EQ(run_here({scenario_with("s", {extract_with("a", "test_line")})}, {.out = out}).exit_code(), 0);
+  EXPECT_FALSE(fs::exists(out / ".manifest.json.tmp-1"));
+}
+
+TEST(Runner, RemovesWhatAKilledRunLeftBesideItWhoeverHasItsProcessNumberNow) {
+  const testing::TemporaryFolder folder;
+  const fs::path stale = folder.path() / (".r.tmp-" + std::to_string(::getppid()));
+  make_folders(stale);
+  write_staged_file(stale / ".manifest.json.tmp-1", "{");
+  run_here({scenario_with("s", {extract_with("a", "test_line")})}, {.out = folder.path() / "r"});
+  EXPECT_FALSE(fs::exists(stale));
+}
+
+TEST(Runner, NamesOneFolderHoweverItsPathIsWritten) {
+  const testing::TemporaryFolder folder;
+  make_folders(folder.path() / "elsewhere/deep");
+  fs::create_directory_symlink(folder.path() / "elsewhere/deep", folder.path() / "x");
+  const RunResult result =
+      run_here({scenario_with("s", {extract_with("a", "test_line")})}, {.out = folder.path() / "x/../y"});
+  EXPECT_EQ(result.out, folder.path() / "y");
+  EXPECT_TRUE(fs::exists(result.out / "summary.csv"));
+  EXPECT_FALSE(fs::exists(folder.path() / "elsewhere/y"));
+}
+
+TEST(Runner, HoldsItsLockUntilReportsAreWritten) {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  const std::vector<Scenario> scenarios{scenario_with("s", {extract_with("a", "test_line")})};
+  int refused = 0;
+  for (const bool replaces : {false, true}) {
+    SCOPED_TRACE(replaces);
+    run_here(scenarios, {.out = out, .finish = [&](const RunResult& result) {
+                           EXPECT_TRUE(fs::exists(result.out / "summary.csv"));
+                           EXPECT_THROW(RunLock{out}, ConfigError);
+                           ++refused;
+                         }});
+    EXPECT_NO_THROW(RunLock{out});
+  }
+  EXPECT_EQ(refused, 2);
 }
 
 TEST(Runner, TwoRunsInOneFolderAtATimeAreRefused) {

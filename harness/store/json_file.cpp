@@ -1,0 +1,43 @@
+// Checks of size, depth and kind around the JSON parser.
+#include "harness/store/json_file.hpp"
+
+#include <cstdint>
+#include <string>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "harness/files/atomic_file.hpp"
+
+namespace scanbench::harness {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
+constexpr int kDeepest = 32;  // our files have four levels; copies of a value recurse over all of them
+
+}  // namespace
+
+Json load_json_object(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (fs::exists(status) && !fs::is_regular_file(status)) throw ConfigError(file.string() + ": not a regular file");
+  if (const auto size = fs::file_size(file, error); !error && size > kLargestFile)
+    throw ConfigError(file.string() + ": has " + std::to_string(size) +
+                      " bytes; allowed: " + std::to_string(kLargestFile));
+  const auto check_depth = [&](int depth, Json::parse_event_t, Json&) {
+    if (depth > kDeepest)
+      throw ConfigError(file.string() + ": nested deeper than " + std::to_string(kDeepest) + " levels");
+    return true;
+  };
+  Json json = Json::parse(read_file(file), check_depth, false);
+  if (!json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
+  return json;
+}
+
+void refuse_json(const fs::path& file, const Json::exception& error) {
+  throw ConfigError(file.string() + ": " + error.what());
+}
+
+}  // namespace scanbench::harness
