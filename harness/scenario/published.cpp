@@ -71,15 +71,15 @@ void check_published(const Scenario& scenario) {
       throw ConfigError(fmt::format("{}:{}: {}", scenario.published_file.string(), value.line, message));
     };
     methods.insert(value.method);
+    if (std::isnan(value.value)) continue;  // a rating, which no metric computes
     const auto metric = units.find(value.metric);
     if (metric == units.end()) {
       std::vector<std::string> known;
       for (const auto& [name, unit] : units) known.push_back(name);
       refuse("no metric is called " + quoted_excerpt(value.metric) + known_names(value.metric, known));
     }
-    const bool is_rating = std::isnan(value.value);
     const bool is_cm = value.unit == "cm" && metric->second == "m";
-    if (!is_rating && !is_cm && value.unit != metric->second)
+    if (!is_cm && value.unit != metric->second)
       refuse(fmt::format("unit is {}; allowed for {}: '{}'{}, or rating", quoted_excerpt(value.unit), value.metric,
                          metric->second, metric->second == "m" ? ", 'cm'" : ""));
   }

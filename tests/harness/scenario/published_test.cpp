@@ -34,7 +34,7 @@ class Published : public testing::Test {
 };
 
 TEST_F(Published, AGoodFileIsTakenWithOrWithoutAByteOrderMark) {
-  EXPECT_EQ(refusal(head_ + "n_lines,a,LT,1.28,\neps,a,LT,0.39,cm\n"), "");
+  EXPECT_EQ(refusal(head_ + "n_lines,a,LT,1.28,\neps_rho,a,LT,0.39,cm\n"), "");
   EXPECT_EQ(refusal("\xEF\xBB\xBF" + head_ + "n_lines,a,LT,1.28,\n"), "");
   EXPECT_EQ(refusal(head_ + "n_lines,a,LT,++,rating\n"), "");
 }
@@ -55,9 +55,9 @@ TEST_F(Published, WrongFilesAreRefusedWhenTheScenarioIsRead) {
 }
 
 TEST_F(Published, CentimetresBecomeMetres) {
-  const auto values = load_published(folder_.write("p.csv", head_ + "eps,a,LT,0.39,cm\nn_lines,a,LT,++,rating\n"));
+  const auto values = load_published(folder_.write("p.csv", head_ + "eps_rho,a,LT,0.39,cm\nn_lines,a,LT,++,rating\n"));
   ASSERT_EQ(values.size(), 2U);
-  EXPECT_EQ(values[0].value, 0.0039);
+  EXPECT_DOUBLE_EQ(values[0].value, 0.0039);
   EXPECT_EQ(values[0].printed, "0.39");
   EXPECT_TRUE(std::isnan(values[1].value));
 }

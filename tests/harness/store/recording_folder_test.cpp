@@ -135,7 +135,7 @@ TEST(RecordingFolder, ReportsDamageByFile) {
     if (name == "ranges.npy") ranges = bytes;
   ranges.back() = static_cast<char>(ranges.back() ^ 1);
   EXPECT_THAT(message("ranges.npy", ranges), HasSubstr("damaged"));
-  EXPECT_THAT(message("ranges.npy", ""), HasSubstr("ranges.npy: No such file"));
+  EXPECT_THAT(message("ranges.npy", ""), HasSubstr("ranges.npy: no such file"));
   EXPECT_THAT(message("true_ranges.npy", npy_bytes(std::vector<double>(8), 2, 4)),
               HasSubstr("expected frames x beams"));
   EXPECT_THAT(message("wall_ids.npy", npy_bytes(std::vector<std::int32_t>(12, 9), 3, 4)), HasSubstr("wall 9"));

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/inputs.hpp"
-#include "harness/files/text_file.hpp"
+#include "harness/files/atomic_file.hpp"
 #include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {
@@ -11,7 +11,7 @@ namespace {
 void run_folder(const std::filesystem::path& folder, void (*run)(std::string_view)) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    EXPECT_NO_THROW(run(read_text_file(entry.path(), 1 << 20))) << entry.path();
+    EXPECT_NO_THROW(run(read_file(entry.path()))) << entry.path();
     ++count;
   }
   EXPECT_GT(count, 5) << folder;
