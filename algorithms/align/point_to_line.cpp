@@ -1,10 +1,10 @@
-// Multi-scan point-to-line ICP: the points of every scan on the lines of all others. The registration of one scan is
-// the segment-point method of Siadat et al. 1997, section 7, with every scan in the place of the map.
-// docs/algorithms/point_to_line.md tells what is minimised and why it departs from the text.
+// point_to_line: multi-scan point-to-line ICP. The points of every scan are registered on the lines of all others. The
+// registration of one scan is the segment-point method of Siadat et al. 1997, section 7, with every scan in the place
+// of the map. docs/algorithms/point_to_line.md has the objective and the departures from the text.
 //
-// Answers for difficult input: no scan or one is converged where it is. A scan without partners (no returns, or no
-// lines near them) keeps its odometry step from the scan before it, and makes the status degenerate; if no scan has
-// any, the poses come back as they were, no_match.
+// Answers for difficult input: no scan or one scan keeps its pose, converged. A scan without partners (no returns, or
+// no lines near them) keeps its odometry step from the scan before it, and the status is degenerate. If no scan has a
+// partner, the poses are those given, no_match.
 #include <algorithm>
 #include <cmath>
 
@@ -49,15 +49,16 @@ class PointToLine final : public Aligner {
     static auto fields() {
       return std::tuple{
           field("gate_m", &Params::gate_m, between(1e-6, 1e6), "m",
-                "largest distance of a point from its line at first; halves from step to step"),
+                "largest distance of a point from its line in the first step; it halves from step to step"),
           field("final_gate_m", &Params::final_gate_m, between(1e-6, 1e6), "m",
-                "down to this; weights of pairs fall to 0 there (Tukey)"),
+                "smallest value of gate_m; the weight of a pair is 0 at the gate (Tukey)"),
           field("margin_m", &Params::margin_m, between(0, 1e6), "m",
-                "how far a point may lie beyond the ends of its line"),
+                "largest distance of a point beyond the ends of its line"),
           field("max_angle_deg", &Params::max_angle_deg, between(0, 180), "deg",
-                "largest angle between a line and the line that the point supports in its own scan; 180: any"),
+                "largest angle between a line and the line that the point supports in its own scan; 180 disables "
+                "the limit"),
           field("max_rounds", &Params::max_rounds, between(1, 1e6), "",
-                "steps of all poses together at most; fewer once none moves 0.1 mm or 1e-5 rad")};
+                "largest number of steps of all poses together; they end when none moves 0.1 mm or 1e-5 rad")};
     }
   };
 
@@ -118,7 +119,7 @@ Alignment PointToLine::align(std::span<const Observation> scans, std::span<const
     align::PartnerRules rules = rules_;
     rules.gate_m = gates_.at(round);
     last = align::joint_step(shapes, rules, longest, poses);
-    converged = gates_.narrow(round) && last.largest.small();
+    converged = gates_.is_narrowest(round) && last.largest.negligible();
     trace.row(RoundRow{round, rules.gate_m, last.pairs, last.rms_m, last.largest.shift_m, last.largest.turn_rad});
   }
 
@@ -134,7 +135,7 @@ Alignment PointToLine::align(std::span<const Observation> scans, std::span<const
 
 [[maybe_unused]] const bool registered = Registry<Aligner>::add<PointToLine>(
     {.name = "point_to_line",
-     .summary = "the points of every scan on the lines of all others: point-to-line ICP of all poses together",
+     .summary = "point-to-line ICP of all poses together: the points of every scan on the lines of all others",
      .reference = "Siadat et al. 1997, section 7 (segment-point), with every scan in the place of the map"});
 
 }  // namespace

@@ -11,8 +11,9 @@
 namespace scanbench::align {
 namespace {
 
-// Of the largest diagonal entry. Scans that determine each other but not their place as a group would make the matrix
-// singular; the gradient has nothing along such motions, and the damping keeps it so.
+// Damping relative to the largest diagonal entry. Scans that determine each other, but not their place as a group,
+// would make the matrix singular. The gradient along such motions is zero, so the damped solution does not move the
+// group.
 constexpr double kDamping = 1e-9;
 
 /// Normal equations of all scans in blocks of three unknowns.
@@ -32,7 +33,7 @@ class JointEquations {
     row_[j] += weight * row_i * row_j.transpose();
   }
 
-  /// After the last pair with readings of scan i.
+  /// Call after the last pair with readings of scan i.
   void finish(std::size_t i) {
     for (std::size_t j = 0; j < row_.size(); ++j) {
       if (row_[j].isZero(0.0)) continue;
@@ -42,7 +43,7 @@ class JointEquations {
     }
   }
 
-  /// Motions of all scans, that of the first zero; `lowest_rank` among the others.
+  /// Motions of all scans; that of the first is zero. Lowers `lowest_rank` to the smallest rank among the others.
   std::vector<Eigen::Vector3d> solve(int& lowest_rank) const;
 
  private:
@@ -114,8 +115,8 @@ JointStep joint_step(std::span<const ScanShape> scans, const PartnerRules& rules
         if (i == j) return;
         const Vec2 normal = perpendicular(line.direction);
         const double weight = tukey_weight(distance, rules.gate_m);
-        equations.add(i, row_of(normal, seen.point, seen.sensor, scans[i].lever_m), j,
-                      -row_of(normal, seen.point, world_from_sensor[j].translation(), scans[j].lever_m), distance,
+        equations.add(i, jacobian_row(normal, seen.point, seen.sensor, scans[i].lever_m), j,
+                      -jacobian_row(normal, seen.point, world_from_sensor[j].translation(), scans[j].lever_m), distance,
                       weight);
         squares += weight * distance * distance;
         weights += weight;

@@ -1,4 +1,4 @@
-// Shapes of scans, the rank rule and the update of a pose.
+// Shapes of scans, the rank rule, and the update of a pose.
 #include "algorithms/align/point_to_line/pose_equations.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ constexpr double kUnobservable = 1e-3;  // of the largest eigenvalue
 constexpr double kFarthestM = 1e9;
 constexpr double kShortestLeverM = 1e-3;
 
-bool near(const Vec2& p) {
+bool usable(const Vec2& p) {
   return p.allFinite() && p.cwiseAbs().maxCoeff() <= kFarthestM;
 }
 
@@ -26,11 +26,12 @@ bool near(const Vec2& p) {
 ScanShape shape_of(const Observation& observation) {
   ScanShape shape;
   for (const LineFeature& line : observation.lines.lines)
-    if (near(line.segment.a) && near(line.segment.b) && line.segment.length() > 0) shape.lines.push_back(line.segment);
+    if (usable(line.segment.a) && usable(line.segment.b) && line.segment.length() > 0)
+      shape.lines.push_back(line.segment);
   std::vector<double> ranges;
   const ScanPoints valid = valid_points(observation.scan);
   for (std::size_t k = 0; k < valid.size(); ++k) {
-    if (!near(valid.points[k])) continue;
+    if (!usable(valid.points[k])) continue;
     const int label = observation.lines.labels[as_index(valid.beams[k])];
     Vec2 surface = Vec2::Zero();
     if (label >= 0) surface = observation.lines.lines[as_index(label)].segment.direction();
@@ -53,8 +54,9 @@ Observable observable(const Eigen::Matrix3d& normal_matrix) {
 Move move_by(const Eigen::Vector3d& motion, double lever_m, Pose2& world_from_sensor) {
   const Vec2 shift = motion.head<2>();
   const double turn = motion.z() / lever_m;
-  const Pose2 turned = Pose2(0, 0, turn) * Pose2::from_unit({0, 0}, {world_from_sensor.cos(), world_from_sensor.sin()});
-  world_from_sensor = Pose2::from_unit(world_from_sensor.translation() + shift, {turned.cos(), turned.sin()});
+  const Pose2 rotated =
+      Pose2(0, 0, turn) * Pose2::from_unit({0, 0}, {world_from_sensor.cos(), world_from_sensor.sin()});
+  world_from_sensor = Pose2::from_unit(world_from_sensor.translation() + shift, {rotated.cos(), rotated.sin()});
   return {shift.norm(), std::abs(turn)};
 }
 

@@ -1,4 +1,4 @@
-// Iterations of segment-point registration.
+// Gauss-Newton iterations of segment-point registration.
 #include "algorithms/align/point_to_line/register_scan.hpp"
 
 namespace scanbench::align {
@@ -18,7 +18,7 @@ Pose2 register_scan(const ScanShape& scan, const LineGrid& lines, const Pose2& p
     for (const Reading& reading : scan.readings) {
       const Sighting seen = placed(reading, pose);
       lines.for_each_nearest(seen, rules, [&](const PlacedLine& line, double distance) {
-        const Eigen::Vector3d row = row_of(perpendicular(line.direction), seen.point, seen.sensor, scan.lever_m);
+        const Eigen::Vector3d row = jacobian_row(perpendicular(line.direction), seen.point, seen.sensor, scan.lever_m);
         const double weight = tukey_weight(distance, rules.gate_m);
         matrix += weight * row * row.transpose();
         gradient += weight * distance * row;
@@ -27,7 +27,7 @@ Pose2 register_scan(const ScanShape& scan, const LineGrid& lines, const Pose2& p
     const Observable free = observable(matrix);
     const Eigen::VectorXd along = (free.motions.transpose() * gradient).cwiseQuotient(free.eigenvalues);
     const Move move = move_by(-(free.motions * along), scan.lever_m, pose);
-    if (gates.narrow(iteration) && move.small()) break;
+    if (gates.is_narrowest(iteration) && move.negligible()) break;
   }
   return pose;
 }
