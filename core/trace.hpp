@@ -1,5 +1,5 @@
-// The journal of an algorithm: the stages of its work and the rows that it writes down on the way. Both cost next to
-// nothing unless somebody listens.
+// The trace of an algorithm: the stages of its work and rows of intermediate results. Both cost next to nothing without
+// a listener.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace scanbench {
 
-/// Passes stages and rows to whoever listens; a Trace made without arguments passes them to nobody.
+/// Passes stages and rows to a listener, if it has one.
 class Trace {
  public:
   struct Listener {
@@ -22,7 +22,7 @@ class Trace {
   Trace() = default;
   explicit Trace(Listener listener) : listener_(std::move(listener)) {}
 
-  /// Does anybody read the rows? Code that must prepare what it writes asks first.
+  /// Are rows read? Code that must prepare its rows checks this first.
   bool recording() const { return static_cast<bool>(listener_.row); }
   /// A stage of the work begins; the stage before it ends.
   void stage(Stage begun) {

@@ -1,9 +1,9 @@
-// Expectation maximisation over segments whose number is not known: memberships and weighted least squares, with
-// segments split where they do not fit, deleted where nothing supports them and merged where one would do. In the
-// spirit of the extended EM of Latecki & Lakaemper, "Polygonal approximation of laser range data based on perceptual
-// grouping and EM", ICRA 2006; the schedule and the tests below are our own.
+// em: expectation maximisation over segments whose number is not known. Memberships and weighted least squares
+// alternate; segments are split where they do not fit, deleted where nothing supports them, and merged where one line
+// fits both. In the spirit of the extended EM of Latecki & Lakaemper, "Polygonal approximation of laser range data
+// based on perceptual grouping and EM", ICRA 2006; the schedule and the tests below are our own.
 //
-// The order of the beams only makes the first segments; after that a wall across the seam of a full turn is one wall.
+// The order of the beams is used for the first segments only, so a wall across the seam of a full turn is one wall.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -22,11 +22,11 @@ namespace {
 
 using namespace extract;
 
-constexpr std::size_t kFewest = 4;  // points of a segment while EM runs
-constexpr std::size_t kWindow = 8;  // points over which a misfit is averaged
+constexpr std::size_t kMinPoints = 4;  // of a segment while EM runs
+constexpr std::size_t kWindow = 8;     // points over which a misfit is averaged
 const double kCosMergeAngle = portable::sincos(radians(5.0)).cos;
 
-// A segment as EM sees it: a line and the interval of it that its own points cover.
+// A segment: a line and the interval of it that its own points cover.
 struct Component {
   LineFit line;
   PointMoments moments;  // of its own points
@@ -70,17 +70,17 @@ class Em final : public LineExtractor {
     static auto fields() {
       return std::tuple_cat(
           std::tuple{field("start_m", &Params::start_m, between(1e-4, 100), "m",
-                           "standard deviation of a point about its segment in the first round; also the tolerance of "
-                           "the first segments"),
+                           "standard deviation of a point about its segment in the first round, and tolerance of the "
+                           "first segments"),
                      field("cooling", &Params::cooling, between(0.1, 0.95), "",
-                           "factor of the standard deviation from round to round, down to the sensor's"),
+                           "factor by which the standard deviation decreases per round, down to the sensor's"),
                      field("floor_m", &Params::floor_m, between(1e-6, 1e3), "m",
-                           "smallest standard deviation, for sensors whose noise is not stated"),
+                           "smallest standard deviation, for sensors without stated noise"),
                      field("split_gap_m", &Params::split_gap_m, above(0), "m",
-                           "a segment is split where its points leave a larger gap"),
+                           "largest gap between the points of a segment; it is split at larger ones"),
                      field("merge_gap_m", &Params::merge_gap_m, at_least(0), "m",
-                           "collinear segments are merged if the gap between them is no larger"),
-                     field("max_rounds", &Params::max_rounds, between(1, 1000), "", "rounds at most")},
+                           "largest gap between collinear segments that are merged"),
+                     field("max_rounds", &Params::max_rounds, between(1, 1000), "", "largest number of rounds")},
           support_fields<Params>());
     }
   };
@@ -144,7 +144,8 @@ class Em final : public LineExtractor {
 
   std::vector<Component> first_segments(const ScanPoints& points) const {
     std::vector<Component> components;
-    // Chords split at start_m also break at jumps; breakpoints would make a segment of every outlier of a dense scan.
+    // Splitting chords at start_m also separates surfaces at range jumps. Breakpoints are not used: in a dense scan
+    // they would make a segment of every outlier.
     std::vector<PointRun> pending = runs_between_gaps(points, {});
     while (!pending.empty()) {
       const PointRun run = pending.back();
@@ -157,7 +158,7 @@ class Em final : public LineExtractor {
           continue;
         }
       }
-      if (run.size() < static_cast<int>(kFewest)) continue;
+      if (run.size() < static_cast<int>(kMinPoints)) continue;
       std::vector<int> own(as_index(run.size()));
       std::iota(own.begin(), own.end(), run.first);
       components.push_back(from_points(points.points, std::move(own)));
@@ -166,8 +167,8 @@ class Em final : public LineExtractor {
     return components;
   }
 
-  // E: p(j | i) proportional to exp(-d_ij^2 / 2 s_i^2), with an outlier class of the density at three s.
-  // M: weighted least squares; the interval is that of the points with p > 1/2.
+  // E step: p(j | i) is proportional to exp(-d_ij^2 / 2 s_i^2). An outlier class has the density at 3 s_i.
+  // M step: weighted least squares. A segment's interval is that of its own points, those with p > 1/2.
   static std::vector<int> expect_and_maximise(std::span<const Vec2> points, std::span<const double> s,
                                               std::vector<Component>& components) {
     static const double outlier = portable::exp(-4.5);
@@ -203,7 +204,7 @@ class Em final : public LineExtractor {
     return owner;
   }
 
-  // Cuts at gaps and at misfits; drops what has too few points.
+  // Splits segments at gaps and where they misfit; deletes those with too few points.
   void split(std::span<const Vec2> points, std::span<const double> s, std::vector<Component>& components) const {
     std::vector<Component> kept;
     std::vector<Component> pending(std::make_move_iterator(components.rbegin()),
@@ -211,26 +212,26 @@ class Em final : public LineExtractor {
     while (!pending.empty()) {
       Component c = std::move(pending.back());
       pending.pop_back();
-      if (c.own.size() < kFewest) continue;
-      const std::size_t cut = place_of_cut(points, s, c);
-      if (cut == 0) {
+      if (c.own.size() < kMinPoints) continue;
+      const std::size_t split_at = split_place(points, s, c);
+      if (split_at == 0) {
         kept.push_back(std::move(c));
         continue;
       }
-      const auto middle = c.own.begin() + static_cast<std::ptrdiff_t>(cut);
+      const auto middle = c.own.begin() + static_cast<std::ptrdiff_t>(split_at);
       pending.push_back(from_points(points, {middle, c.own.end()}));
       pending.push_back(from_points(points, {c.own.begin(), middle}));
     }
     components = std::move(kept);
   }
 
-  // The number of points before the cut; 0: none is needed.
-  std::size_t place_of_cut(std::span<const Vec2> points, std::span<const double> s, const Component& c) const {
+  // The number of points before the split; 0: no split is needed.
+  std::size_t split_place(std::span<const Vec2> points, std::span<const double> s, const Component& c) const {
     const auto point = [&](std::size_t k) -> const Vec2& { return points[as_index(c.own[k])]; };
     for (std::size_t k = 1; k < c.own.size(); ++k)
       if (c.along.dot(point(k) - point(k - 1)) > params_.split_gap_m) return k;
-    if (c.own.size() < 2 * kFewest) return 0;
-    double sum = 0.0;  // of |residual| / s over the window that ends at k
+    if (c.own.size() < 2 * kMinPoints) return 0;
+    double sum = 0.0;  // of |residual| / s over the kWindow points up to k
     const auto misfit = [&](std::size_t k) {
       return std::fabs(c.line.normal.dot(point(k)) - c.line.offset) / s[as_index(c.own[k])];
     };
@@ -246,7 +247,8 @@ class Em final : public LineExtractor {
     return as_index(farthest_from_chord(sorted, {0, static_cast<int>(sorted.size()) - 1}).index);
   }
 
-  // Pairs of nearly one direction, overlapping or with a small gap, that one line fits as well as the sensor allows.
+  // Merges pairs of nearly the same direction that overlap or have a small gap, if one line fits both within the
+  // sensor's noise.
   void merge(std::span<const double> sigma, std::vector<Component>& components) const {
     std::vector<bool> gone(components.size(), false);
     for (std::size_t a = 0; a < components.size(); ++a) {
@@ -288,7 +290,7 @@ class Em final : public LineExtractor {
   static void join(Component& a, Component& b) {
     a.moments.add(b.moments);
     const LineFit line = fit_line(a.moments);
-    // The ends of both on the new line; the next round trims them to the points.
+    // The interval covers both; the next round shortens it to the points.
     Component united = a;
     united.line = line;
     united.along = perpendicular(line.normal);
@@ -305,7 +307,7 @@ class Em final : public LineExtractor {
 
 const bool registered = Registry<LineExtractor>::add<Em>(
     {.name = "em",
-     .summary = "Expectation maximisation over segments with split, deletion and merge; their number need not be known",
+     .summary = "expectation maximisation over segments with split, deletion and merge; their number need not be known",
      .reference = "In the spirit of Latecki & Lakaemper 2006, ICRA, extended EM"});
 
 }  // namespace

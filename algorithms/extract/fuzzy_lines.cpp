@@ -31,14 +31,16 @@ class FuzzyLinesModule final : public LineExtractor {
     double min_length_m = 0.0;
     static auto fields() {
       return std::tuple_cat(
-          std::tuple{field("lines", &Params::lines, between(1, 10000), "", "number of lines C, which must be known"),
+          std::tuple{field("lines", &Params::lines, between(1, 10000), "",
+                           "number of lines C, which must be known in advance"),
                      field("fuzzifier", &Params::fuzzifier, above(1), "", "exponent m of the memberships"),
-                     field("penalty", &Params::penalty, "distance to the cluster's centre (g of eq. 4)"),
+                     field("penalty", &Params::penalty, "include the distance to the cluster's centre (g of eq. 4)"),
                      field("rho_tolerance_m", &Params::rho_tolerance_m, at_least(0), "m",
                            "clustering stops when no line moves by more"),
                      field("alpha_tolerance_rad", &Params::alpha_tolerance_rad, between(0, 1.5), "rad",
-                           "clustering stops when no line turns by more"),
-                     field("max_iterations", &Params::max_iterations, between(1, 100000), "", "of the clustering")},
+                           "clustering stops when no line rotates by more"),
+                     field("max_iterations", &Params::max_iterations, between(1, 100000), "",
+                           "largest number of iterations of the clustering")},
           support_fields<Params>());
     }
   };
@@ -52,7 +54,7 @@ class FuzzyLinesModule final : public LineExtractor {
     trace.stage(Stage::pre);
     const ScanPoints in = valid_points(scan);
     trace.stage(Stage::segment);
-    // Initial prototypes: equal runs of points in scan order, as SMF halves its lines.
+    // Initial prototypes: runs of equally many points in scan order.
     const std::span<const Vec2> points(in.points);
     const std::size_t count = std::min(as_index(lines_), points.size());
     std::vector<FuzzyLine> initial;

@@ -1,9 +1,10 @@
-// Hough transform: every point votes for the lines through it on a grid of (angle, distance); the cell with the most
-// votes becomes a line, its points take their votes back, and so on. Duda & Hart 1972, "Use of the Hough transformation
-// to detect lines and curves in pictures"; Nguyen et al., Autonomous Robots 23, 2007, the algorithm "HT".
+// hough: Hough transform. Every point votes for the lines through it on a grid of (angle, distance). The cell with the
+// most votes becomes a line, the votes of its points are removed, and the search is repeated. Duda & Hart 1972, "Use of
+// the Hough transformation to detect lines and curves in pictures"; Nguyen et al., Autonomous Robots 23, 2007, the
+// algorithm "HT".
 //
-// A cell counts with half of its two neighbours in distance, so that a line near the border of two cells is not lost.
-// Its points are the largest stretch without a gap; the line is refitted to them.
+// Half the votes of a cell's two neighbours in distance are added to its own, so that a line near the border of two
+// cells is not lost. The support is the largest stretch of points without a gap; the line is refitted to it.
 #include <algorithm>
 #include <cmath>
 
@@ -19,14 +20,14 @@ namespace {
 
 using namespace extract;
 
-constexpr int kMaxCellsAcross = 4096;  // distances are coarser where the farthest return would need more
+constexpr int kMaxCellsAcross = 4096;  // the step grows if the farthest return needs more
 
 // Votes over (angle in [0, pi), signed distance).
 class Accumulator {
  public:
   Accumulator(int angles, double step_m, double reach_m) : step_m_(step_m) {
     if (2.0 * reach_m / step_m_ > kMaxCellsAcross - 4) step_m_ = 2.0 * reach_m / (kMaxCellsAcross - 4);
-    zero_ = static_cast<int>(std::ceil(reach_m / step_m_)) + 1;  // a spare cell on both sides for the neighbours
+    zero_ = static_cast<int>(std::ceil(reach_m / step_m_)) + 1;  // one more cell on both sides, for the neighbours
     across_ = 2 * zero_ + 1;
     for (int k = 0; k < angles; ++k) {
       const auto [s, c] = portable::sincos(k * kPi / angles);
@@ -48,7 +49,7 @@ class Accumulator {
     Vec2 normal{1, 0};
     double offset = 0.0;
   };
-  /// The lowest angle, then the lowest distance, wins ties.
+  /// Of equal cells the lowest angle wins, then the lowest distance.
   Peak peak() const {
     Peak best;
     for (std::size_t k = 0; k < normals_.size(); ++k) {
@@ -84,9 +85,10 @@ class Hough final : public LineExtractor {
 
     static auto fields() {
       return std::tuple_cat(
-          std::tuple{field("angles", &Params::angles, between(4, 1440), "", "directions of the grid over half a turn"),
+          std::tuple{field("angles", &Params::angles, between(4, 1440), "",
+                           "number of directions of the grid over half a turn"),
                      field("step_m", &Params::step_m, between(1e-4, 10), "m",
-                           "distance between cells; larger where the farthest return would need more than 4096")},
+                           "distance between cells; increased if the farthest return would need more than 4096 cells")},
           consensus_fields<Params>());
     }
   };
@@ -101,7 +103,7 @@ class Hough final : public LineExtractor {
     int lines = 0;
     trace.stage(Stage::segment);
     if (points.size() > 0) lines = group_points(points, tolerance, group);
-    for (int& g : group) g = g == kSpent ? -1 : g;
+    for (int& g : group) g = g == kVotesRemoved ? -1 : g;
     trace.stage(Stage::post);
     ScanLines result =
         lines_of_groups(scan, points, group, lines, Fit::tls, {params_.min_points, params_.min_length_m});
@@ -110,7 +112,7 @@ class Hough final : public LineExtractor {
   }
 
  private:
-  static constexpr int kSpent = 1 << 30;  // votes taken back, but of no line
+  static constexpr int kVotesRemoved = 1 << 30;  // votes are removed, but no line has the point
 
   int group_points(const ScanPoints& points, std::span<const double> tolerance, std::vector<int>& group) const {
     double reach = 0.0;
@@ -118,7 +120,7 @@ class Hough final : public LineExtractor {
     Accumulator votes(params_.angles, params_.step_m, reach);
     for (const Vec2& p : points.points) votes.vote(p, 1);
 
-    // Points between the true line and the centre of its cell: half a cell of distance, half an angle over the range.
+    // The true line may be off the centre of its cell: by half a step, and by half an angle times the range.
     std::vector<double> wide(tolerance.begin(), tolerance.end());
     for (std::size_t i = 0; i < wide.size(); ++i)
       wide[i] += votes.step_m() + points.points[i].norm() * kPi / (2 * params_.angles);
@@ -138,9 +140,9 @@ class Hough final : public LineExtractor {
       if (!support.empty())
         support = refined_support(points.points, tolerance, group, std::move(support), params_.max_gap_m);
       const bool enough = support.size() >= needed;
-      // A peak without enough support is spent too, or it would come up again for ever.
+      // The votes of a peak without enough support are removed too; otherwise it would be found again for ever.
       for (const int i : enough ? support : rough) {
-        group[as_index(i)] = enough ? lines : kSpent;
+        group[as_index(i)] = enough ? lines : kVotesRemoved;
         votes.vote(points.points[as_index(i)], -1);
       }
       if (enough) ++lines;
@@ -153,7 +155,7 @@ class Hough final : public LineExtractor {
 
 const bool registered = Registry<LineExtractor>::add<Hough>(
     {.name = "hough",
-     .summary = "Hough transform: the fullest cell of angle and distance becomes a line, again and again",
+     .summary = "Hough transform: the cell of angle and distance with the most votes becomes a line, repeatedly",
      .reference = "Duda & Hart 1972; Nguyen et al. 2007, Autonomous Robots 23, algorithm HT"});
 
 }  // namespace

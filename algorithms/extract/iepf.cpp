@@ -1,8 +1,8 @@
-// Iterative end point fit (IEPF): the chord of a run of points is broken at the farthest point until all are near.
-// Siadat et al. 1997, section 4 and fig. 6; Borges & Aldon 2000, section 2.2.
+// iepf: iterative end point fit. A run of points is split at the point farthest from its chord until all points are
+// near their chords. Siadat et al. 1997, section 4 and fig. 6; Borges & Aldon 2000, section 2.2.
 //
-// The break point belongs to both halves (p' and p'' of Borges & Aldon): both chords and both fitted lines use it. As
-// support it counts for the second half only, so that supports partition the points.
+// Both halves contain the break point (p' and p'' of Borges & Aldon): both chords and both fitted lines use it. It is
+// in the support of the second half only, so that supports partition the points.
 #include "algorithms/extract/parts/breakpoints.hpp"
 #include "algorithms/extract/parts/chord.hpp"
 #include "core/index.hpp"
@@ -20,7 +20,7 @@ class Iepf final : public LineExtractor {
     double threshold_m = 0.10;
     Growth threshold = Growth::constant;
     double threshold_per_m = 0.01;
-    Fit fit = Fit::tls;  // the least squares that both papers put behind the grouping
+    Fit fit = Fit::tls;  // both papers refit by least squares after the grouping
     bool share_breaks = true;
     int min_points = 2;
     double min_length_m = 0.0;
@@ -32,8 +32,9 @@ class Iepf final : public LineExtractor {
           threshold_fields<Params>(
               "largest distance of a point from the chord of its line",
               "threshold_m, or threshold_m + threshold_per_m * r at the range r of the farthest point"),
-          std::tuple{field("share_breaks", &Params::share_breaks,
-                           "whether both lines at a break point are fitted to it; it supports the second in any case")},
+          std::tuple{
+              field("share_breaks", &Params::share_breaks,
+                    "fit both lines at a break point to it; it is in the support of the second line in either case")},
           fit_field<Params>(), support_fields<Params>(), gap_fields<Params>());
     }
   };
@@ -66,7 +67,7 @@ class Iepf final : public LineExtractor {
         const Farthest far = farthest_from_chord(points.points, run);
         if (far.exceeds(threshold_.at(scan, points.beams[as_index(far.index)]))) {
           pending.push_back({far.index, run.last});
-          pending.push_back({run.first, far.index});  // on top: lines come out in scan order
+          pending.push_back({run.first, far.index});  // on top of the stack: lines are found in scan order
           continue;
         }
       }
@@ -81,7 +82,7 @@ class Iepf final : public LineExtractor {
 
 const bool registered = Registry<LineExtractor>::add<Iepf>(
     {.name = "iepf",
-     .summary = "Iterative end point fit: splits at the point farthest from the chord",
+     .summary = "iterative end point fit: splits at the point farthest from the chord",
      .reference = "Siadat et al. 1997, section 4, fig. 6; Borges & Aldon 2000, section 2.2"});
 
 }  // namespace

@@ -1,9 +1,9 @@
-// Incremental line extraction: a point joins the line under way if the line refitted with it is still straight within
-// the sensor's noise; else it is put back and begins the next line. Nguyen et al., Autonomous Robots 23, 2007, the
-// algorithm "Incremental"; neighbours that turn out collinear are merged, as there.
+// incremental: a point is added to the current line if the line refitted with it is still straight within the sensor's
+// noise; otherwise the point starts the next line. Nguyen et al., Autonomous Robots 23, 2007, the algorithm
+// "Incremental". Collinear neighbours are merged, as in the paper.
 //
-// Straight is: the point itself within `sigmas` standard deviations of the refitted line, and the residuals of all
-// within one and a half (their root mean square over at least 5 points): both cost O(1) per point.
+// A line is straight if the new point is within `sigmas` standard deviations of the refitted line and, from 5 points
+// on, the root mean square of the residuals is within half of that. Both tests take O(1) per point.
 #include "algorithms/extract/parts/contour_extractor.hpp"
 #include "core/index.hpp"
 #include "core/registry.hpp"
@@ -47,7 +47,7 @@ class Incremental final : public ContourExtractor {
 
 const bool registered = Registry<LineExtractor>::add<Incremental>(
     {.name = "incremental",
-     .summary = "Incremental: grows a line while the refit with the next point stays straight",
+     .summary = "Incremental: extends a line while the refit with the next point stays straight",
      .reference = "Nguyen et al. 2007, Autonomous Robots 23, algorithm Incremental"});
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Line regression: a line is fitted to every window of neighbouring points; where the lines of adjacent windows agree
-// within their uncertainty the points belong to one line. Arras & Siegwart 1997, "Feature extraction and scene
+// line_regression: a line is fitted to every window of neighbouring points. Where the lines of adjacent windows agree
+// within their uncertainty, the points are on one line. Arras & Siegwart 1997, "Feature extraction and scene
 // interpretation for map-based navigation and map building", section 2; Nguyen et al., Autonomous Robots 23, 2007, the
 // algorithm "Line-Regression". Collinear neighbours are merged.
 #include <tuple>
@@ -28,11 +28,12 @@ class LineRegression final : public ContourExtractor {
 
     static auto fields() {
       return std::tuple_cat(
-          std::tuple{field("window", &Params::window, between(3, 101), "",
-                           "points of the sliding window; an even number counts as the next odd one"),
-                     field("fidelity", &Params::fidelity, above(0), "",
-                           "largest squared Mahalanobis distance of the lines two half windows on either side of a "
-                           "point from each other, two degrees of freedom")},
+          std::tuple{
+              field("window", &Params::window, between(3, 101), "",
+                    "number of points of the sliding window; an even number counts as the next odd one"),
+              field("fidelity", &Params::fidelity, above(0), "",
+                    "largest squared Mahalanobis distance (two degrees of freedom) between the lines of the half "
+                    "windows before and after a point")},
           contour_fields<Params>());
     }
   };
@@ -44,9 +45,10 @@ class LineRegression final : public ContourExtractor {
         sigmas_(p.sigmas) {}
 
  private:
-  // Squared Mahalanobis distance of the lines of two windows, in (offset at the point between them, angle). The line of
-  // n points with noise s has the variances s^2 / n at its centroid and s^2 / (sum of squares along it) in angle,
-  // uncorrelated there. Windows that do not overlap: their errors are independent.
+  // Squared Mahalanobis distance of the lines of two windows, in (offset at the point between them, angle). The line
+  // through n points with noise s has the variance s^2 / n of its offset at the centroid and s^2 / (sum of squares
+  // along the line) of its angle; the two are uncorrelated at the centroid. The errors of the two windows count as
+  // independent.
   static double disagreement(const LineFit& left, const PointMoments& a, const LineFit& right, const PointMoments& b,
                              const Vec2& between, double sigma) {
     Vec2 n = right.normal;
@@ -69,9 +71,9 @@ class LineRegression final : public ContourExtractor {
 
   void cut(std::span<const Vec2> points, std::span<const double> tolerance, const PointRun& contour,
            std::vector<PointRun>& runs) const override {
-    const int half = window_ / 2 + 1;  // of a window about a point, the point in both halves
+    const int half = window_ / 2 + 1;  // points of half a window; the middle point is in both halves
     const auto window = [&](int first) { return points.subspan(as_index(first), as_index(half)); };
-    // Peaks of disagreement above the threshold are the corners; the highest of each stretch is the break.
+    // A corner is a stretch of disagreement above the threshold; the contour is cut at its peak.
     int first = contour.first;
     int peak = -1;
     double highest = fidelity_;
@@ -100,7 +102,7 @@ class LineRegression final : public ContourExtractor {
     runs.push_back({first, contour.last});
   }
 
-  bool tests_every_point() const override { return false; }  // windows, against each other
+  bool tests_every_point() const override { return false; }  // windows are tested against each other
 
   int window_;
   double fidelity_;
@@ -109,7 +111,7 @@ class LineRegression final : public ContourExtractor {
 
 const bool registered = Registry<LineExtractor>::add<LineRegression>(
     {.name = "line_regression",
-     .summary = "Line regression: breaks where the lines of adjacent windows disagree beyond their uncertainty",
+     .summary = "line regression: breaks where the lines of adjacent windows disagree beyond their uncertainty",
      .reference = "Arras & Siegwart 1997, section 2; Nguyen et al. 2007, Autonomous Robots 23, algorithm "
                   "Line-Regression"});
 

@@ -1,9 +1,9 @@
-// Line tracking (LT): a line grows point by point and ends at the first point too far from the least-squares line of
-// the points before it. Siadat et al. 1997, section 4 and fig. 5; Borges & Aldon 2000, section 2.1.
+// line_tracking: a line is extended point by point and ends at the first point too far from the least-squares line of
+// the points before it (LT). Siadat et al. 1997, section 4 and fig. 5; Borges & Aldon 2000, section 2.1.
 //
-// The papers leave two things open. "Linear regression" is total least squares here: a regression of y on x fails on
-// walls along y, which Siadat's section 6 takes care to avoid. And a range jump alone does not end a line (max_gap_m
-// and max_missing_beams can make it).
+// The papers leave two things open. "Linear regression" is total least squares here, because a regression of y on x
+// fails on walls along y, which Siadat's section 6 avoids as well. A range jump alone does not end a line unless
+// max_gap_m or max_missing_beams is set.
 #include <cmath>
 
 #include "algorithms/extract/parts/breakpoints.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 using namespace extract;
 
-// Sums over the points of the line under way, about its first point: no cancellation, one update per point.
+// Sums over the points of the current line, relative to its first point so that they do not cancel.
 class TrackedLine {
  public:
   explicit TrackedLine(const Vec2& first) : origin_(first) {}
@@ -32,8 +32,8 @@ class TrackedLine {
     syy_ += y * y;
   }
 
-  /// Whether p lies farther than t from the line; from the centroid while the direction is undefined. The direction is
-  /// left unnormalised: two square roots and a division less per point.
+  /// Is p farther than t from the line, or from the centroid while the direction is undefined? The direction is not
+  /// normalised, which saves two square roots and a division per point.
   bool farther(const Vec2& p, double t) const {
     // All second moments times n, all positions times n.
     const double sxx = n_ * sxx_ - sx_ * sx_;
@@ -45,7 +45,7 @@ class TrackedLine {
     const double dy = n_ * (p.y() - origin_.y()) - sy_;
     const double tn = t * n_;
     if (!(root > 0)) return dx * dx + dy * dy > tn * tn;
-    const bool flat = difference >= 0;  // the form of the eigenvector that does not cancel
+    const bool flat = difference >= 0;  // selects the form of the eigenvector without cancellation
     const double ux = flat ? difference + root : 2.0 * sxy;
     const double uy = flat ? 2.0 * sxy : root - difference;
     const double across = ux * dy - uy * dx;
@@ -72,10 +72,11 @@ class LineTracking final : public LineExtractor {
     int max_missing_beams = -1;
 
     static auto fields() {
-      return std::tuple_cat(threshold_fields<Params>(
-                                "a line ends at the first point farther than this from the line of the points before",
-                                "threshold_m, or threshold_m + threshold_per_m * r at the candidate's range r"),
-                            fit_field<Params>(), support_fields<Params>(), gap_fields<Params>());
+      return std::tuple_cat(
+          threshold_fields<Params>(
+              "a line ends at the first point farther than this from the line through the points before it",
+              "threshold_m, or threshold_m + threshold_per_m * r at the candidate's range r"),
+          fit_field<Params>(), support_fields<Params>(), gap_fields<Params>());
     }
   };
 
@@ -91,7 +92,7 @@ class LineTracking final : public LineExtractor {
     for (const PointRun& whole : runs_between_gaps(points, {params_.max_gap_m, params_.max_missing_beams}))
       track(scan, points, whole, runs);
     const SupportRules rules{params_.min_points, params_.min_length_m};
-    // The least-squares line is part of the grouping (Siadat, end of section 3): it is charged to it.
+    // The time of the least-squares line counts for the grouping, of which it is a part (Siadat, end of section 3).
     if (params_.fit == Fit::tls) {
       ScanLines lines = lines_of_runs(scan, points, runs, Fit::tls, rules);
       trace.stage(Stage::post);
@@ -127,7 +128,7 @@ class LineTracking final : public LineExtractor {
 
 const bool registered = Registry<LineExtractor>::add<LineTracking>(
     {.name = "line_tracking",
-     .summary = "Line tracking: grows a least-squares line until a point is too far from it",
+     .summary = "line tracking: extends a least-squares line until a point is too far from it",
      .reference = "Siadat et al. 1997, section 4, fig. 5; Borges & Aldon 2000, section 2.1"});
 
 }  // namespace

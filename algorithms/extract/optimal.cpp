@@ -1,6 +1,6 @@
-// Optimal line extraction: the cut of a scan into lines that describes it in the fewest bits under the sensor's own
-// noise model, each line estimated by maximum likelihood in the coordinates of the beams. Ours; derivation, exactness
-// and results in docs/algorithms/optimal.md.
+// optimal: the division of a scan into lines and clutter that describes it in the fewest bits under the sensor's noise
+// model. Each line is estimated by maximum likelihood in the coordinates of the beams. Our own algorithm; derivation,
+// exactness and results are in docs/algorithms/optimal.md.
 #include <algorithm>
 #include <cmath>
 
@@ -24,14 +24,14 @@ struct DescriptionRow {
   static constexpr auto columns() { return std::tuple{column("length_nats", &DescriptionRow::length_nats)}; }
 };
 
-constexpr int kFewestReadings = 3;  // of a line: two always lie on one
+constexpr int kMinReadings = 3;  // of a line; two readings always lie on one
 
 struct Line {
   PointRun run;
   std::optional<BeamLine> fit;
 };
 
-// One scan on its way: the returns that take part, and what is known about the wall behind each.
+// The extraction of one scan: its returns, the lines so far, and the walls that they imply for each return.
 class Extraction {
  public:
   Extraction(const Scan& scan, const SensorNoise& noise, int max_lines)
@@ -44,15 +44,15 @@ class Extraction {
     trace.stage(Stage::segment);
     segment();
     trace.stage(Stage::fit);
-    // Bearing noise counts as much as the wall is oblique, which is known now.
+    // The effect of bearing noise depends on the obliqueness of the walls, which is known after the first pass.
     if (noise_.bearing_sigma_rad > 0) {
       fit();
-      know_walls();
+      set_walls_from_lines();
       segment();
     }
     fit();
     place_corners();
-    weigh_ends();
+    average_over_ends();
     trace.row(DescriptionRow{cost_});
     return result(rules);
   }
@@ -60,15 +60,15 @@ class Extraction {
  private:
   void segment() {
     const std::vector<SegmentationPoint> in = model_.segmentation_points(walls_);
-    // Where a line ends, and where it begins: most often where the line before ends, counted as half a place. Its two
-    // parameters are LineCost's log(points), half a log each.
+    // A line's code is the place where it ends and half a place for where it begins, which is most often where the line
+    // before ends. LineCost adds half a log(points) for each of the line's two parameters.
     const LineCost line_cost{1.5 * model_.place_cost()};
     const Segmentation best =
         max_lines_ > 0 ? optimal_segmentation_at_most(in, max_lines_) : optimal_segmentation(in, line_cost);
     cost_ = best.cost;
     lines_.clear();
     for (const PointRun& run : best.lines)
-      if (run.size() >= kFewestReadings) lines_.push_back({run, {}});
+      if (run.size() >= kMinReadings) lines_.push_back({run, {}});
   }
 
   std::span<const BeamReading> readings(const PointRun& run) const {
@@ -83,7 +83,7 @@ class Extraction {
     for (Line& line : lines_) line.fit = fit(line.run);
   }
 
-  void know_walls() {
+  void set_walls_from_lines() {
     walls_.assign(model_.size(), {});
     for (const Line& line : lines_) {
       if (!line.fit) continue;
@@ -104,9 +104,9 @@ class Extraction {
     return e * e;
   }
 
-  // Where two walls meet, the corner says which beam sees which wall. The cut with the least misfit takes the readings
-  // that happen to suit each line, and so bends both towards them; the corner does not look at the readings. It is
-  // taken where it costs less than to state the place of the cut.
+  // Where two walls meet, the intersection of their lines determines which beam sees which wall. The cut with the least
+  // misfit gives readings to the line that they happen to fit, which biases both lines; the intersection does not
+  // depend on single readings. It replaces the cut if this costs less than the code of the cut's place.
   void place_corners() {
     for (int pass = 0; pass < 5; ++pass) {
       bool moved = false;
@@ -125,8 +125,7 @@ class Extraction {
     int cut = b.run.first;                                // first point of b
     while (cut <= b.run.last && a_is_nearer(cut) == before) ++cut;
     while (cut > a.run.first && a_is_nearer(cut - 1) != before) --cut;
-    if (cut == b.run.first || cut - a.run.first < kFewestReadings || b.run.last - cut + 1 < kFewestReadings)
-      return false;
+    if (cut == b.run.first || cut - a.run.first < kMinReadings || b.run.last - cut + 1 < kMinReadings) return false;
     double loss = 0.0;
     for (int i = b.run.first; i < cut; ++i) loss += squared_error(*a.fit, i) - squared_error(*b.fit, i);
     for (int i = cut; i < b.run.first; ++i) loss += squared_error(*b.fit, i) - squared_error(*a.fit, i);
@@ -138,8 +137,8 @@ class Extraction {
     return true;
   }
 
-  // What lies beyond an end. Where beams are missing, nothing is known.
-  std::optional<Beyond> beyond(std::size_t k, bool last) const {
+  // What follows an end. Nothing is known across missing beams.
+  std::optional<Adjacent> adjacent(std::size_t k, bool last) const {
     const PointRun& run = lines_[k].run;
     const int own = last ? run.last : run.first;
     const int next = own + (last ? 1 : -1);
@@ -147,25 +146,25 @@ class Extraction {
     if (std::abs(model_.points().beams[as_index(next)] - model_.points().beams[as_index(own)]) > 1) return std::nullopt;
     const std::size_t other = last ? k + 1 : k - 1;
     if (other >= lines_.size() || next < lines_[other].run.first || next > lines_[other].run.last)
-      return Beyond{.line = {}, .readings = {}, .range_m = model_.ranges()[as_index(next)]};
+      return Adjacent{.line = {}, .readings = {}, .range_m = model_.ranges()[as_index(next)]};
     if (!lines_[other].fit) return std::nullopt;
-    return Beyond{.line = lines_[other].fit, .readings = readings(lines_[other].run), .range_m = 0.0};
+    return Adjacent{.line = lines_[other].fit, .readings = readings(lines_[other].run), .range_m = 0.0};
   }
 
-  // The readings at the ends of a line may be those of something else. How often a side joins two walls is learned from
-  // the scan itself: from one that has a side and one that has none, its mean so far, then from what the ends say.
-  void weigh_ends() {
+  // Averages every line over which readings at its ends are its own. The probability of a side is estimated from the
+  // scan: it starts at one side in two junctions and is then the mean over the junctions with that prior.
+  void average_over_ends() {
     std::vector<std::optional<UncertainEnds>> ends(lines_.size());
     double sides = 1.0, junctions = 2.0;
-    const double before = sides / junctions;
+    const double prior = sides / junctions;
     for (std::size_t k = 0; k < lines_.size(); ++k) {
       if (!lines_[k].fit) continue;
-      const std::array out = {beyond(k, false), beyond(k, true)};
-      ends[k].emplace(*lines_[k].fit, readings(lines_[k].run), noise_, out, kFewestReadings);
-      const UncertainLine first_look = ends[k]->average(before);
+      const std::array out = {adjacent(k, false), adjacent(k, true)};
+      ends[k].emplace(*lines_[k].fit, readings(lines_[k].run), noise_, out, kMinReadings);
+      const UncertainLine estimate = ends[k]->average(prior);
       for (std::size_t end = 0; end < 2; ++end) {
         if (!out[end] || !out[end]->line) continue;
-        sides += 0.5 * first_look.side[end];  // seen from both lines
+        sides += 0.5 * estimate.side[end];  // each junction is counted from both lines
         junctions += 0.5;
       }
     }
@@ -224,11 +223,10 @@ class Optimal final : public LineExtractor {
     double min_length_m = 0.0;
     static auto fields() {
       return std::tuple_cat(
-          std::tuple{
-              field("sigma_m", &Params::sigma_m, at_least(0), "m",
-                    "standard deviation of a range where the sensor's own is not to be trusted; 0: the sensor's"),
-              field("max_lines", &Params::max_lines, between(0, 10000), "",
-                    "the best cut into at most so many lines; 0: as many as shorten the description")},
+          std::tuple{field("sigma_m", &Params::sigma_m, at_least(0), "m",
+                           "standard deviation of a range, in place of the sensor's own; 0 uses the sensor's"),
+                     field("max_lines", &Params::max_lines, between(0, 10000), "",
+                           "largest number of lines; 0: as many as shorten the description")},
           support_fields<Params>());
     }
   };
@@ -254,7 +252,8 @@ class Optimal final : public LineExtractor {
 
 const bool registered = Registry<LineExtractor>::add<Optimal>(
     {.name = "optimal",
-     .summary = "shortest description under the sensor's noise model: dynamic programme and maximum likelihood",
+     .summary =
+         "shortest description of the scan under the sensor's noise model: dynamic programme and maximum likelihood",
      .reference = "docs/algorithms/optimal.md; pruning after Killick, Fearnhead & Eckley 2012"});
 
 }  // namespace

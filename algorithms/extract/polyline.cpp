@@ -1,7 +1,7 @@
-// Polylines of greatest likelihood: walls that meet at shared vertices, as few or as many as asked for, all vertices
-// refined together in the coordinates of the beams. The objective is that of Schaefer, Buescher, Luft & Burgard, "A
-// maximum likelihood approach to extract polylines from 2-D laser range scans", IROS 2018, under Gaussian noise; they
-// remove vertices one by one, here a dynamic programme places them. docs/algorithms/polyline.md.
+// polyline: maximum-likelihood polylines, walls that meet at shared vertices. A dynamic programme places the vertices,
+// of which a number may be requested; then all vertices are refined together in the coordinates of the beams. The
+// objective is that of Schaefer, Buescher, Luft & Burgard, "A maximum likelihood approach to extract polylines from 2-D
+// laser range scans", IROS 2018, under Gaussian noise; they remove vertices one by one. docs/algorithms/polyline.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,9 +28,9 @@ struct DescriptionRow {
   static constexpr auto columns() { return std::tuple{column("length_nats", &DescriptionRow::length_nats)}; }
 };
 
-constexpr double kNever = 1e6;     // [nats] for a return that must not be clutter
-constexpr int kMostVertices = 64;  // where the description decides how many
-constexpr int kMostPlaces = 400;   // where vertices may stand before they are refined
+constexpr double kProhibitive = 1e6;  // [nats] for a return that must not be clutter
+constexpr int kMostVertices = 64;     // if the description decides their number
+constexpr int kMostPlaces = 400;      // points that may have a vertex in the search
 constexpr int kSearches = 2;
 constexpr int kClosedSearches = 4;  // from different vertices of the best chain so far
 
@@ -45,7 +45,7 @@ class Extraction {
  public:
   Extraction(const Scan& scan, const SensorNoise& noise, int vertices, bool clutter)
       : scan_(scan), noise_(noise), vertices_(vertices), clutter_(clutter), model_(scan, noise) {
-    // Seen in a mirror, a scanner that turns clockwise turns counter-clockwise.
+    // Mirrored, the scan of a scanner that rotates clockwise is counter-clockwise.
     mirror_ = scan.sensor.geometry.angle_step() < 0 ? -1.0 : 1.0;
   }
 
@@ -55,7 +55,7 @@ class Extraction {
     points_ = model_.segmentation_points({});
     for (SegmentationPoint& p : points_) {
       p.direction.y() *= mirror_;
-      if (!clutter_) p.clutter_cost = kNever;
+      if (!clutter_) p.clutter_cost = kProhibitive;
     }
     for (std::size_t i = 0; i < model_.size(); ++i)
       readings_.push_back({mirror_ * scan_.sensor.geometry.angle(model_.points().beams[i]), model_.ranges()[i],
@@ -72,8 +72,8 @@ class Extraction {
  private:
   using Offsets = std::array<double, 7>;  // in standard deviations
 
-  // Ranges for a vertex at each return: the reading, and the smoothed range or that of a chain found before with some
-  // standard deviations beside it.
+  // Ranges for a vertex at each return: the reading, and a range (smoothed, or of an earlier chain) with offsets of
+  // some standard deviations.
   template <class RangeOfPoint>
   VertexChoices choices_around(const Offsets& offsets, RangeOfPoint range) const {
     VertexChoices choices;
@@ -124,7 +124,7 @@ class Extraction {
     chains_ = std::move(chains);
   }
 
-  // On a grid around the readings, then on one around what was found.
+  // Searches on a grid around the readings, then on one around the chains that were found.
   void search_open() {
     const int most = std::min(vertices_ > 0 ? vertices_ : kMostVertices, static_cast<int>(points_.size()));
     for (int k = 0; k < kSearches; ++k) {
@@ -136,20 +136,19 @@ class Extraction {
     }
   }
 
-  bool goes_all_around() const {
+  bool is_full_turn() const {
     const auto& g = scan_.sensor.geometry;
     return model_.size() == as_index(g.beams()) && std::fabs(g.angle_step()) * g.beams() > kTwoPi - 1e-6;
   }
 
-  // A scan that goes all around may be one chain without ends: as many vertices then make one wall more. Where it
-  // begins must be known, so it is searched from a vertex of the chain before, as far as possible from where that
-  // began.
+  // A scan of a full turn may be one closed chain, which has one wall more than an open one with as many vertices. The
+  // search needs a first vertex: it takes one of the chain before, as far as possible from that chain's first vertex.
   void search_closed() {
-    if (!goes_all_around() || chains_.empty()) return;
+    if (!is_full_turn() || chains_.empty()) return;
     const auto& widest = *std::ranges::max_element(chains_, {}, [](const FittedChain& c) { return c.points.size(); });
     const GridVertex fixed = nearest_point(widest.fit.chain.vertices[widest.fit.chain.vertices.size() / 2]);
     if (vertices_ > 0) return search_closed(vertices_, fixed);
-    // The two ends are one vertex, or none within a wall, and the grid may have made one more.
+    // The two ends of the open chain are one vertex or inside a wall, and the grid may have added a vertex.
     const int open = static_cast<int>(widest.fit.chain.vertices.size());
     for (int v = open - 1; v >= 3; --v) {
       const double before = cost_;
@@ -190,7 +189,7 @@ class Extraction {
     for (int i = first; i <= last; ++i) result.points.push_back(i);
     std::vector<BearingReading> readings(readings_.begin() + first, readings_.begin() + last + 1);
     result.fit = fit_chain(start, readings);
-    if (noise_.bearing_sigma_rad > 0) {  // it counts as much as the walls are oblique, which is known now
+    if (noise_.bearing_sigma_rad > 0) {  // its effect depends on the obliqueness of the walls, which is known now
       for (BearingReading& z : readings) {
         const Chain& chain = result.fit.chain;
         const double bearing = within(chain, z.bearing_rad);
@@ -208,7 +207,7 @@ class Extraction {
     return Vec2(std::cos(v.bearing_rad), mirror_ * std::sin(v.bearing_rad)) / v.inverse_range;
   }
 
-  // Covariance of (offset at the midpoint, angle) of the wall between vertices p and q, seen unmirrored.
+  // Covariance of (offset at the midpoint, angle) of a wall, not mirrored.
   Eigen::Matrix2d wall_covariance(const ChainFit& fit, int wall, const Segment& s, const PolarLine& line) const {
     const int count = static_cast<int>(fit.chain.vertices.size());
     Eigen::Matrix<double, 2, 4> jacobian;
@@ -217,8 +216,8 @@ class Extraction {
     for (int end = 0; end < 2; ++end) {
       const ChainVertex v = fit.chain.vertex(wall + end);
       const Vec2 u(std::cos(v.bearing_rad), mirror_ * std::sin(v.bearing_rad));
-      const Vec2 turn(-std::sin(v.bearing_rad), mirror_ * std::cos(v.bearing_rad));
-      const std::array<Vec2, 2> moves = {turn / v.inverse_range, -u / (v.inverse_range * v.inverse_range)};
+      const Vec2 tangent(-std::sin(v.bearing_rad), mirror_ * std::cos(v.bearing_rad));
+      const std::array<Vec2, 2> moves = {tangent / v.inverse_range, -u / (v.inverse_range * v.inverse_range)};
       for (int k = 0; k < 2; ++k) {
         const bool is_b = s.b.isApprox(place(v));
         jacobian(0, 2 * end + k) = 0.5 * normal.dot(moves[as_index(k)]);
@@ -288,10 +287,10 @@ class Polyline final : public LineExtractor {
     static auto fields() {
       return std::tuple_cat(
           std::tuple{field("vertices", &Params::vertices, between(0, 400), "",
-                           "most vertices of all polylines of a scan together, and how many a closed one has; 0: as "
-                           "many as shorten the description"),
+                           "largest number of vertices of all polylines of a scan together, and the number of a closed "
+                           "one; 0: as many as shorten the description"),
                      field("clutter", &Params::clutter,
-                           "returns may be left to no polyline, at the code length of a range drawn from all")},
+                           "allow returns on no polyline, at the code length of a uniform range")},
           support_fields<Params>());
     }
   };

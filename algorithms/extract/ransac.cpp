@@ -1,8 +1,9 @@
-// RANSAC: lines through random pairs of points, the one with the largest support is kept and its points are taken out,
-// until none has enough. Fischler & Bolles 1981; Nguyen et al., Autonomous Robots 23, 2007, the algorithm "RANSAC".
+// ransac: lines through random pairs of points. The line with the largest support is kept, its points are removed, and
+// the search is repeated until no line has enough support. Fischler & Bolles 1981; Nguyen et al., Autonomous Robots 23,
+// 2007, the algorithm "RANSAC".
 //
-// The second point of a pair is drawn near the first in scan order, since far pairs rarely lie on one wall, and the
-// support of a hypothesis is its largest stretch without a gap. Draws depend on the seed alone.
+// The second point of a pair is drawn near the first in scan order, because distant points are rarely on one wall. The
+// support of a hypothesis is its largest stretch of points without a gap. Random draws depend on the seed alone.
 #include <algorithm>
 #include <cmath>
 
@@ -33,10 +34,11 @@ class Ransac final : public LineExtractor {
 
     static auto fields() {
       return std::tuple_cat(
-          std::tuple{field("seed", &Params::seed, between(0, 2147483647), "", "of the random pairs"),
-                     field("trials", &Params::trials, between(1, 10000), "", "pairs tried for every line"),
-                     field("neighbourhood", &Params::neighbourhood, between(0.001, 1), "",
-                           "the points of a pair are at most this share of the remaining points apart")},
+          std::tuple{
+              field("seed", &Params::seed, between(0, 2147483647), "", "seed of the random pairs"),
+              field("trials", &Params::trials, between(1, 10000), "", "number of pairs tried per line"),
+              field("neighbourhood", &Params::neighbourhood, between(0.001, 1), "",
+                    "largest distance between the points of a pair in scan order, as a share of the remaining points")},
           consensus_fields<Params>());
     }
   };
@@ -96,7 +98,7 @@ class Ransac final : public LineExtractor {
 
 const bool registered = Registry<LineExtractor>::add<Ransac>(
     {.name = "ransac",
-     .summary = "RANSAC: the line of a random pair with the largest support, again and again",
+     .summary = "RANSAC: the line through a random pair of points with the largest support, repeatedly",
      .reference = "Fischler & Bolles 1981; Nguyen et al. 2007, Autonomous Robots 23, algorithm RANSAC"});
 
 }  // namespace

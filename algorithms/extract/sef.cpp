@@ -1,4 +1,4 @@
-// Successive edge following (SEF): a line ends where two neighbouring returns lie too far apart.
+// sef: successive edge following. A line ends where two neighbouring returns are too far apart.
 // Siadat et al. 1997, section 4 and fig. 4 (differences of ranges); Borges & Aldon 2000, section 2.1 (distances of
 // points); Borges & Aldon 2004, section 3.1 (the adaptive threshold).
 #include <cmath>
@@ -21,7 +21,7 @@ class Sef final : public LineExtractor {
  public:
   struct Params {
     Variant variant = Variant::ranges;
-    double threshold_m = 0.12;  // the row of Siadat's tables 1 and 2 that is rated best
+    double threshold_m = 0.12;  // the best row of Siadat's tables 1 and 2
     Threshold threshold = Threshold::constant;
     double threshold_per_m = 0.01;
     double beta_min_rad = radians(10.0);
@@ -36,23 +36,25 @@ class Sef final : public LineExtractor {
       return std::tuple_cat(
           std::tuple{
               choice("variant", &Params::variant, {{Variant::ranges, "ranges"}, {Variant::points, "points"}},
-                     "what is compared with the threshold: the difference of neighbouring ranges (Siadat et al. 1997) "
-                     "or the distance of neighbouring points (Borges & Aldon 2000)"),
+                     "what the threshold limits: the difference of neighbouring ranges (Siadat et al. 1997) or the "
+                     "distance of neighbouring points (Borges & Aldon 2000)"),
               field("threshold_m", &Params::threshold_m, at_least(0), "m",
-                    "largest difference or distance inside a line; not used by the adaptive threshold"),
-              choice("threshold", &Params::threshold,
-                     {{Threshold::constant, "constant"},
-                      {Threshold::linear, "linear"},
-                      {Threshold::incidence, "incidence"},
-                      {Threshold::adaptive, "adaptive"}},
-                     "threshold at the smaller range r of two neighbours: threshold_m; threshold_m + threshold_per_m * "
-                     "r; threshold_m + r * beam step * cot(beta_min_rad), which a plane met at a larger angle does not "
-                     "exceed; or the adaptive breakpoint detector of Borges & Aldon 2004"),
+                    "largest difference or distance within a line; not used by the adaptive threshold"),
+              choice(
+                  "threshold", &Params::threshold,
+                  {{Threshold::constant, "constant"},
+                   {Threshold::linear, "linear"},
+                   {Threshold::incidence, "incidence"},
+                   {Threshold::adaptive, "adaptive"}},
+                  "threshold at the smaller range r of two neighbours. constant: threshold_m; linear: threshold_m + "
+                  "threshold_per_m * r; incidence: threshold_m + r * beam step * cot(beta_min_rad), which a plane at "
+                  "a larger angle to the beam does not exceed; adaptive: the breakpoint detector of Borges & Aldon "
+                  "2004"),
               field("threshold_per_m", &Params::threshold_per_m, at_least(0), "m/m",
-                    "growth of the linear threshold with range"),
+                    "increase of the linear threshold with range"),
               field("beta_min_rad", &Params::beta_min_rad, between(0.001, 1.57), "rad",
-                    "incidence threshold: smallest angle between beam and surface at which a noise-free plane stays "
-                    "whole")},
+                    "incidence threshold: smallest angle between beam and surface at which a noise-free plane is not "
+                    "broken")},
           lambda_field<Params>(), fit_field<Params>(), support_fields<Params>(), gap_fields<Params>());
     }
   };
@@ -131,7 +133,7 @@ class Sef final : public LineExtractor {
 
 const bool registered =
     Registry<LineExtractor>::add<Sef>({.name = "sef",
-                                       .summary = "Successive edge following: breaks where neighbouring ranges jump",
+                                       .summary = "successive edge following: breaks where neighbouring ranges jump",
                                        .reference = "Siadat et al. 1997, section 4, fig. 4; the variant on points: "
                                                     "Borges & Aldon 2000, section 2.1"});
 

@@ -28,21 +28,23 @@ class Smf final : public LineExtractor {
       return std::tuple_cat(
           std::tuple{
               field("sigma_max_m", &Params::sigma_max_m, above(0), "m",
-                    "largest dispersion of a line; the paper takes the sensor's sigma, 1.2 sigma breaks fewer walls"),
+                    "largest dispersion of a line; the paper uses the sensor's sigma, 1.2 sigma breaks fewer walls"),
               field("fuzzifier", &Params::fuzzifier, above(1), "", "exponent m of the memberships"),
-              field("penalty", &Params::penalty, "distance to the cluster's centre in the clustering (g of eq. 4)"),
+              field("penalty", &Params::penalty,
+                    "include the distance to the cluster's centre in the clustering (g of eq. 4)"),
               field("penalty_in_dispersion", &Params::penalty_in_dispersion,
-                    "count g in the dispersion too, as eq. 11 can be read; shatters walls"),
+                    "include g in the dispersion too, as eq. 11 can be read; breaks walls into many pieces"),
               choice("initialisation", &Params::initialisation,
                      {{I::scan_order, "scan_order"}, {I::principal_axis, "principal_axis"}, {I::farthest, "farthest"}},
                      "how a line is halved before it is clustered into two"),
               field("max_gap_m", &Params::max_gap_m, at_least(0), "m",
-                    "no fusion across a longer gap along the line; 0: any"),
+                    "largest gap along a fused line; 0 disables the limit"),
               field("rho_tolerance_m", &Params::rho_tolerance_m, at_least(0), "m",
                     "clustering stops when no line moves by more"),
               field("alpha_tolerance_rad", &Params::alpha_tolerance_rad, between(0, 1.5), "rad",
-                    "clustering stops when no line turns by more"),
-              field("max_iterations", &Params::max_iterations, between(1, 100000), "", "of one clustering")},
+                    "clustering stops when no line rotates by more"),
+              field("max_iterations", &Params::max_iterations, between(1, 100000), "",
+                    "largest number of iterations of one clustering")},
           support_fields<Params>());
     }
   };

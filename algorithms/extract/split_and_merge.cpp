@@ -1,9 +1,9 @@
-// Split-and-merge: contours between adaptive breakpoints are split until every piece is straight within the sensor's
-// noise, then collinear neighbours are merged. Pavlidis & Horowitz 1974; Nguyen et al., Autonomous Robots 23, 2007,
-// the algorithm "Split-and-Merge", with its rule that a break needs two neighbouring points off the same side.
+// split_and_merge: contours between adaptive breakpoints are split until every piece is straight within the sensor's
+// noise, then collinear neighbours are merged. Pavlidis & Horowitz 1974; Nguyen et al., Autonomous Robots 23, 2007, the
+// algorithm "Split-and-Merge", with its rule that a break needs two neighbouring points off the line on the same side.
 //
-// Whether a piece is straight is asked of its least-squares line, where to cut it of its chord: at a corner the
-// least-squares line is as far from the ends as from the vertex, the chord is not.
+// The least-squares line decides whether a piece is straight, and the chord where to split it: at a corner the
+// least-squares line is as far from the ends as from the vertex, but the chord is farthest from the vertex.
 #include "algorithms/extract/parts/chord.hpp"
 #include "algorithms/extract/parts/contour_extractor.hpp"
 #include "core/registry.hpp"
@@ -30,7 +30,7 @@ class SplitAndMerge final : public ContourExtractor {
       }
       const int farthest = farthest_from_chord(points, run).index;
       pending.push_back({farthest + 1, run.last});
-      pending.push_back({run.first, farthest});  // on top: runs come out in scan order
+      pending.push_back({run.first, farthest});  // on top of the stack: runs are found in scan order
     }
   }
 
@@ -41,7 +41,7 @@ class SplitAndMerge final : public ContourExtractor {
 
 const bool registered = Registry<LineExtractor>::add<SplitAndMerge>(
     {.name = "split_and_merge",
-     .summary = "Split-and-merge: splits contours until straight within the noise, merges collinear neighbours",
+     .summary = "split-and-merge: splits contours until straight within the noise, merges collinear neighbours",
      .reference = "Pavlidis & Horowitz 1974; Nguyen et al. 2007, Autonomous Robots 23, algorithm Split-and-Merge"});
 
 }  // namespace

@@ -1,7 +1,7 @@
-// Greedy pairwise merging: the best matching pair of segments is replaced by one that stands for both, until none
-// matches. A baseline without an author: what one writes first.
+// greedy_pairs: the pair of segments that matches best is replaced by one segment, until no pair matches. A baseline
+// without a paper.
 //
-// Unusable lines (not finite, without length, beyond 1e9 m) are dropped; if none is left the status is degenerate. The
+// Unusable lines (not finite, without length, beyond 1e9 m) are dropped; if none is left, the status is degenerate. The
 // map does not depend on the order of the lines or of their ends. More than 20 million pairs of near segments are a
 // ParamError.
 #include <algorithm>
@@ -36,8 +36,8 @@ class GreedyPairs final : public SegmentMerger {
   merge::MatchTolerance rules_;
 };
 
-/// Both ways, each once. Twice the tolerances, because a segment moves and grows when it merges; what is farther is not
-/// compared again.
+/// Per line the lines near it, each once. The tolerances are doubled, because a merged segment moves and grows; lines
+/// farther apart are never compared.
 std::vector<std::vector<std::size_t>> GreedyPairs::neighbours(const std::vector<merge::Representative>& lines) const {
   const merge::MatchTolerance wide{2 * rules_.angle_rad, 2 * rules_.distance_m, 2 * rules_.gap_m + rules_.distance_m};
   const merge::NearSegments near(lines, wide);
@@ -86,24 +86,24 @@ MergeResult GreedyPairs::merge(const MergeInput& input, Trace& trace) const {
       if (i < j) consider(i, j);
 
   trace.stage(Stage::merge);
-  // Every merger is a new node; parents of a node that is alive are itself.
+  // Every merge makes a new node, the parent of the two merged ones. A node that is not merged is its own parent.
   std::vector<std::size_t> parent(nodes.size());
   for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = i;
-  const auto alive = [&](std::size_t i) {
+  const auto current_node = [&](std::size_t i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
   while (!best.empty()) {
     const Pair pair = best.top();
     best.pop();
-    if (parent[pair.a] != pair.a || parent[pair.b] != pair.b) continue;  // one of them is part of another by now
+    if (parent[pair.a] != pair.a || parent[pair.b] != pair.b) continue;  // one of the two is already merged
     const std::size_t node = nodes.size();
     nodes.push_back(merge::united(nodes[pair.a], nodes[pair.b]));
     parent.push_back(node);
     parent[pair.a] = parent[pair.b] = node;
     std::vector<std::size_t> around;
     for (const std::size_t side : {pair.a, pair.b}) {
-      for (const std::size_t j : near[side]) around.push_back(alive(j));
+      for (const std::size_t j : near[side]) around.push_back(current_node(j));
       near[side] = {};
     }
     std::sort(around.begin(), around.end());
@@ -120,7 +120,7 @@ MergeResult GreedyPairs::merge(const MergeInput& input, Trace& trace) const {
   std::vector<int> number(nodes.size(), -1);
   std::vector<merge::Representative> groups;
   for (std::size_t i = 0; i < group.size(); ++i) {
-    const std::size_t node = alive(i);
+    const std::size_t node = current_node(i);
     if (number[node] < 0) {
       number[node] = static_cast<int>(groups.size());
       groups.push_back(nodes[node]);
@@ -132,7 +132,7 @@ MergeResult GreedyPairs::merge(const MergeInput& input, Trace& trace) const {
 
 [[maybe_unused]] const bool registered = Registry<SegmentMerger>::add<GreedyPairs>(
     {.name = "greedy_pairs",
-     .summary = "replaces the best matching pair of segments by one that stands for both until none matches",
+     .summary = "replaces the pair of segments that matches best by one segment, until no pair matches",
      .reference = "baseline; compare Lakaemper, IROS 2009, section II"});
 
 }  // namespace

@@ -1,12 +1,12 @@
-// Simultaneous multi-line-segment merging with mean-shift clustering (R. Lakaemper, "Simultaneous multi-line-segment
-// merging for robot mapping using mean shift clustering", IROS 2009). docs/algorithms/mean_shift.md tells where and
-// why this departs from the text.
+// mean_shift: simultaneous multi-line-segment merging with mean-shift clustering (R. Lakaemper, "Simultaneous
+// multi-line-segment merging for robot mapping using mean shift clustering", IROS 2009). docs/algorithms/mean_shift.md
+// lists the departures from the text, with reasons.
 //
-// Answers for difficult input: no lines give an empty map, converged; lines that are not finite, have no length or lie
-// beyond 1e9 m are dropped (label -1), and if none is left the status is degenerate; a sigma that would cut the lines
-// into more than 10 million pieces, or of which a coordinate holds more than 1e8, is a ParamError. The map does not
-// depend on the order of the lines, nor on which end of a line is called a: every line of it points along (cos t, sin
-// t), t in [0, pi). Its covariances are zero: mean shift estimates none.
+// Answers for difficult input: no lines give an empty map, converged. Lines that are not finite, have no length or
+// reach beyond 1e9 m are dropped (label -1); if none is left, the status is degenerate. A sigma that would cut the
+// lines into more than 10 million pieces, or for which a coordinate exceeds 1e8 sigma, is a ParamError. The map does
+// not depend on the order of the lines, nor on which end of a line is called a: every line of the map points along (cos
+// t, sin t), t in [0, pi). Its covariances are zero, because mean shift estimates none.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,52 +68,58 @@ class MeanShift final : public SegmentMerger {
     static auto fields() {
       return std::tuple{
           field("sigma_m", &Params::sigma_m, above(0), "m",
-                "size of the smallest significant detail; all other lengths follow from it"),
+                "size of the smallest significant detail; all other lengths are multiples of it"),
           field("h_deg_per_m", &Params::h_deg_per_m, at_least(0), "deg/m",
-                "bandwidth: a difference of direction that counts as one metre; 0: 10 deg for sigma_m"),
+                "bandwidth: the difference of direction that counts as one metre; 0: 10 deg per sigma_m"),
           choice("phases", &Params::phases, {{Phases::two, "two"}, {Phases::single, "single"}},
-                 "direction, then collinearity; or both at once (less robust)"),
+                 "two: by direction, then by collinearity; single: both at once, which is less robust"),
           field("split_length_sigma", &Params::split_length_sigma, above(0), "sigma_m",
-                "longer lines are cut into equal pieces first"),
+                "largest length of a piece; longer lines are first cut into equal pieces"),
           choice("labelling", &Params::labelling, {{Labelling::linked, "linked"}, {Labelling::strict, "strict"}},
-                 "linked: modes as near as the pieces of one wall are one cluster; strict: only modes that coincide"),
+                 "linked: modes no farther apart than the pieces of a wall are one cluster; strict: only modes that "
+                 "coincide are"),
           field("epsilon_sigma", &Params::epsilon_sigma, at_least(0), "sigma_m",
                 "largest distance of linked modes in phase 1; 0: split_length_sigma (linked), 0.25 (strict)"),
           field("epsilon2", &Params::epsilon2, at_least(0), "",
-                "the same in phase 2, in sigma_x along and sigma_y across; 0: 1 (linked), 0.25 (strict)"),
+                "largest distance of linked modes in phase 2, in units of sigma_x along and sigma_y across; 0: 1 "
+                "(linked), 0.25 (strict)"),
           field("ridge_dip", &Params::ridge_dip, between(0, 1), "",
-                "linked labelling: modes of one ridge are one cluster when the density between them falls by no more "
-                "than this share; 0: distance alone decides"),
+                "linked labelling: modes of one ridge are one cluster if the density between them falls by at most "
+                "this share; 0: only the distance decides"),
           field("sigma_x_sigma", &Params::sigma_x_sigma, above(0), "sigma_m",
-                "phase 2 kernel along the cluster's direction"),
-          field("sigma_y_sigma", &Params::sigma_y_sigma, above(0), "sigma_m", "phase 2 kernel across it"),
+                "standard deviation of the kernel of phase 2 along the cluster's direction"),
+          field("sigma_y_sigma", &Params::sigma_y_sigma, above(0), "sigma_m",
+                "standard deviation of the kernel of phase 2 across the cluster's direction"),
           field("kernel2_factor", &Params::kernel2_factor, above(0), "",
-                "of both variances in phase 2: 1 as the text defines them, 2 as eqs 5 and 6 print them"),
+                "factor of both variances in phase 2: 1 as the text defines them, 2 as in eqs 5 and 6"),
           choice("kernel2", &Params::kernel2,
                  {{merge::Kernel2::rotated, "rotated"}, {merge::Kernel2::printed, "printed"}},
-                 "rotated: long along the cluster's direction; printed: with the sign of b as in eq. 6, long along "
-                 "the mirrored direction (to show the difference)"),
+                 "rotated: the kernel is long along the cluster's direction; printed: with the sign of b as in eq. 6, "
+                 "it is long along the mirrored direction (to show the difference)"),
           field("cutoff", &Params::cutoff, between(3, 6), "",
-                "standard deviations at which kernels are cut off while climbing; modes are polished with 6.5"),
+                "number of standard deviations at which kernels are cut off during climbs; modes are polished with "
+                "6.5"),
           field("accelerate", &Params::accelerate,
-                "Newton steps where mean shift creeps; false: eq. 1 alone until its shift is 1e-3 of the kernel"),
-          field("capture", &Params::capture, "end a climb early next to a known mode"),
+                "Newton steps where mean shift is slow; false: eq. 1 alone until its shift is 1e-3 of the kernel"),
+          field("capture", &Params::capture, "end a climb as soon as it is next to a known mode"),
           field("merge_gap_m", &Params::merge_gap_m, at_least(0), "m",
-                "projected segments of one cluster are united across gaps up to this"),
-          field("join", &Params::join, "unite abutting lines of the merged map, a step that the paper does not have"),
-          field("join_angle_deg", &Params::join_angle_deg, between(0, 45), "deg", "largest difference of direction"),
+                "largest gap across which the projected segments of one cluster are united"),
+          field("join", &Params::join, "unite abutting lines of the merged map; the paper has no such step"),
+          field("join_angle_deg", &Params::join_angle_deg, between(0, 45), "deg",
+                "largest difference of direction of joined lines"),
           field("join_deviation_sigma", &Params::join_deviation_sigma, at_least(0), "sigma_m",
-                "largest distance of end points from the joined line"),
+                "largest distance of the end points from the joined line"),
           field("join_gap_sigma", &Params::join_gap_sigma, at_least(0), "sigma_m", "largest gap that a join closes"),
-          field("trim", &Params::trim, "cut back what overshoots an intersection"),
-          field("trim_sigma", &Params::trim_sigma, at_least(0), "sigma_m", "longest overshoot that is cut"),
+          field("trim", &Params::trim, "shorten lines that overshoot an intersection"),
+          field("trim_sigma", &Params::trim_sigma, at_least(0), "sigma_m", "longest overshoot that is removed"),
           field("erase_unsupported", &Params::erase_unsupported,
-                "erase short lines with few scan points near them (only where points are given)"),
+                "erase short lines with few scan points near them (if points are given)"),
           field("min_length_sigma", &Params::min_length_sigma, at_least(0), "sigma_m",
-                "lines this long stay whatever their support"),
-          field("min_points_per_m", &Params::min_points_per_m, at_least(0), "1/m", "support that a short line needs"),
+                "lines of at least this length are never erased"),
+          field("min_points_per_m", &Params::min_points_per_m, at_least(0), "1/m",
+                "smallest number of supporting points per metre of a short line"),
           field("support_distance_sigma", &Params::support_distance_sigma, at_least(0), "sigma_m",
-                "scan points this near to a line support it"),
+                "largest distance of a supporting scan point from its line"),
       };
     }
   };
@@ -153,11 +159,11 @@ Kernels MeanShift::kernels_of(const Params& p) {
     throw ParamError("h_deg_per_m", "h_deg_per_m * sigma_m = " + number_text(degrees(k.h_rad_per_m * k.sigma_m)) +
                                         " deg is more than " + number_text(widest_deg) +
                                         " deg: so wide a kernel reaches perpendicular directions, where the distance "
-                                        "of eq. 4 has a kink and there is nothing to climb");
+                                        "of eq. 4 has a kink and the density no gradient");
   return k;
 }
 
-/// Per cluster the mean direction of where its members converged (section IV.C).
+/// Per cluster the mean of the directions to which its members converged (section IV.C).
 std::vector<double> cluster_directions_of(const Clustering& clustering) {
   std::vector<std::vector<double>> of_members(as_index(clustering.clusters));
   for (std::size_t i = 0; i < clustering.cluster.size(); ++i)
@@ -192,7 +198,7 @@ std::vector<DraftLine> MeanShift::merge_clusters(std::span<const Piece> pieces, 
   return drafts;
 }
 
-/// The index that holds the largest share of a line's length, the lowest of equals; -1 if none.
+/// Per line the index with the largest share of its length, the lowest of equal ones; -1 for none.
 class LargestShare {
  public:
   explicit LargestShare(std::size_t lines) : shares_(lines) {}
@@ -209,7 +215,7 @@ class LargestShare {
     std::vector<int> result;
     for (const auto& line : shares_) {
       const auto best = std::max_element(line.begin(), line.end(), [](const auto& a, const auto& b) {
-        const double slack = 1e-9 * std::max(a.second, b.second);  // equal pieces are equal only to rounding
+        const double slack = 1e-9 * std::max(a.second, b.second);  // lengths of equal pieces differ by rounding
         return std::abs(a.second - b.second) > slack ? a.second < b.second : a.first > b.first;
       });
       result.push_back(best == line.end() ? -1 : best->first);
@@ -323,7 +329,8 @@ MergeResult MeanShift::merge(const MergeInput& input, Trace& trace) const {
 
 [[maybe_unused]] const bool registered = Registry<SegmentMerger>::add<MeanShift>(
     {.name = "mean_shift",
-     .summary = "clusters segments by direction and place, then by collinearity, with mean shift, and merges clusters",
+     .summary =
+         "clusters segments with mean shift, by direction and place and then by collinearity, and merges clusters",
      .reference = "Lakaemper, Simultaneous Multi-Line-Segment Merging for Robot Mapping using Mean Shift Clustering, "
                   "IROS 2009"});
 

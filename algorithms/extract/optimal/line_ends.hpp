@@ -1,5 +1,5 @@
-// Lines whose last readings may belong to something else: where a wall ends at a step, the next readings lie on what
-// joins the two surfaces (the side of a recess, say), and the first of them could as well be the wall's own.
+// Lines whose last readings may belong to another surface. Where a wall ends at a step, the next readings are on the
+// surface that joins the two walls (the side of a recess, for example), and the first of them fit the wall as well.
 // docs/algorithms/optimal.md, section 5.
 #pragma once
 
@@ -11,45 +11,47 @@
 
 namespace scanbench::extract {
 
-/// What lies beyond one end of a line: the next line and its readings in the order of the scan, the nearest of them
-/// behind the line's own last one; or else the range of the next reading.
-struct Beyond {
+/// What follows one end of a line: the next line with its readings in scan order, which begin directly after the line's
+/// last one; or, without a next line, the range of the next reading.
+struct Adjacent {
   std::optional<BeamLine> line;
   std::span<const BeamReading> readings;
   double range_m = 0.0;
 };
 
 struct UncertainLine {
-  BeamLine line;                 ///< mean over where the line ends; information: inverse of the whole covariance
-  std::array<int, 2> foreign{};  ///< readings at the first and at the last end that are not the line's: the median
-  std::array<double, 2> side{};  ///< how probable it is that a side joins the line with the next one
+  BeamLine line;                 ///< mean over all hypotheses; information: inverse of the total covariance
+  std::array<int, 2> foreign{};  ///< median number of readings at the first and last end that are not the line's
+  std::array<double, 2> side{};  ///< probability that a side joins the line with the next one
 };
 
-/// What may be foreign at one end: up to six readings.
-struct OpenEnd {
+/// The readings at one end that may be foreign: up to six.
+struct UncertainEnd {
   int longest = 0;
   Tails tails;
-  /// Density of so many foreign readings over that of normal errors of 0: where a side joins the line with the next
-  /// one, and where none does. The first is a sum over where the side ends, all cuts being equally probable.
+  /// Density of the foreign readings, by their number, divided by the density of normal errors of 0: with a side that
+  /// joins the line with the next one, and without. The former is a sum over where the side ends, with equal
+  /// probabilities.
   std::array<double, kLongestTail + 1> with_side{};
   std::array<double, kLongestTail + 1> without_side{1.0};
 };
 
-/// The line of greatest likelihood `fit` of `readings`, averaged over how many readings at each end (up to six) are not
-/// its own. Where another line follows, a straight side may join the two; where it begins and where it ends is averaged
-/// over. Where only a range is known beyond, a foreign reading lies anywhere between the two, and whether there is a
-/// further one is one bit. An end with nothing beyond is certain. At least `min_readings` of each line remain.
+/// The maximum-likelihood line `fit` of `readings`, averaged over the number of readings at each end (up to six) that
+/// are foreign. Where another line follows, a straight side may join the two; the estimate is averaged over the begin
+/// and the end of the side. Where only the next range is known, a foreign reading is anywhere between the line and that
+/// range, and each further foreign reading has probability 1/2. An end without an adjacent reading is certain. At least
+/// `min_readings` readings of each line remain.
 class UncertainEnds {
  public:
   UncertainEnds(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise,
-                const std::array<std::optional<Beyond>, 2>& beyond, int min_readings);
+                const std::array<std::optional<Adjacent>, 2>& adjacent, int min_readings);
 
-  /// `side_probability`: how probable a side between two lines is before the readings are looked at, in (0, 1).
+  /// `side_probability`: prior probability of a side between two lines, in (0, 1).
   UncertainLine average(double side_probability) const;
 
  private:
   BeamLine fit_;
-  std::array<OpenEnd, 2> open_;
+  std::array<UncertainEnd, 2> open_;
 };
 
 }  // namespace scanbench::extract

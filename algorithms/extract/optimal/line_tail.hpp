@@ -1,4 +1,4 @@
-// Readings at the ends of a line, and the line without them, by removal from the normal equations.
+// The line without some readings at its ends, by removing them from the normal equations.
 // docs/algorithms/optimal.md, section 5.
 #pragma once
 
@@ -9,10 +9,10 @@
 
 namespace scanbench::extract {
 
-/// The last readings of an end, and what they take with them when they are not the line's.
+/// Sums over the outermost readings of an end: what is lost if they are not the line's.
 struct Tail {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  Vec2 pull = Vec2::Zero();  ///< of the readings on theta: sum of g e / s^2 in the linear model
+  Vec2 gradient = Vec2::Zero();  ///< sum of g e / s^2 in the linear model
   double half_squares = 0.0;
 };
 
@@ -21,10 +21,10 @@ using Tails = std::array<Tail, kLongestTail + 1>;  ///< by number of readings
 
 enum class End { first, last };
 
-/// Reading k of an end, the outermost first.
-const BeamReading& from_end(std::span<const BeamReading> readings, End end, std::size_t k);
+/// Reading k of an end, counted from the outermost.
+const BeamReading& reading_from_end(std::span<const BeamReading> readings, End end, std::size_t k);
 
-/// The tails of up to `longest` readings; longer ones stay empty.
+/// The tails of up to `longest` readings; longer tails stay empty.
 Tails tails_of(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise, End end,
                int longest);
 
@@ -32,11 +32,11 @@ Tails tails_of(const BeamLine& fit, std::span<const BeamReading> readings, const
 struct Shortened {
   Vec2 theta = Vec2::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of theta
-  double gain = 0.0;                                     ///< by how much half its sum of squared errors falls
-  bool valid = false;                                    ///< false: what is left determines no line
+  double gain = 0.0;                                     ///< decrease of half the sum of squared errors
+  bool valid = false;                                    ///< false: the remaining readings determine no line
 };
 
-Shortened without(const BeamLine& fit, const Tail& tail);
+Shortened without_tail(const BeamLine& fit, const Tail& tail);
 Tail operator+(const Tail& a, const Tail& b);
 
 }  // namespace scanbench::extract

@@ -9,8 +9,8 @@
 namespace scanbench::extract {
 namespace {
 
-// All in a frame whose x axis points to the middle reading: its two coordinates are then nearly uncorrelated, and the
-// normal equations well conditioned even for a short run of beams.
+// A frame whose x axis points to the middle reading. The two coordinates of theta are nearly uncorrelated in it, so
+// that the normal equations are well conditioned even for a few beams.
 struct MiddleFrame {
   Vec2 axis;
   Vec2 to(const Vec2& v) const { return {axis.dot(v), cross(axis, v)}; }
@@ -79,7 +79,7 @@ std::optional<BeamLine> fit_beam_line(std::span<const BeamReading> readings, con
     }
     auto step = normal.solve();
     if (!step) return std::nullopt;
-    // A step must leave the line in front of the beams at both ends, and so of all between.
+    // After a step the line must be in front of the first and the last beam, hence of all beams.
     const Vec2 first = frame.to(readings.front().direction), last = frame.to(readings.back().direction);
     for (int halving = 0; halving < 30; ++halving) {
       const Vec2 next = theta + *step;
@@ -92,14 +92,14 @@ std::optional<BeamLine> fit_beam_line(std::span<const BeamReading> readings, con
 
   BeamLine line;
   line.theta = frame.from(theta);
-  Eigen::Matrix2d turn;  // rows: the frame's axes
-  turn << frame.axis.x(), frame.axis.y(), -frame.axis.y(), frame.axis.x();
-  line.information = turn.transpose() * normal.matrix * turn;
+  Eigen::Matrix2d rotation;  // rows: the frame's axes
+  rotation << frame.axis.x(), frame.axis.y(), -frame.axis.y(), frame.axis.x();
+  line.information = rotation.transpose() * normal.matrix * rotation;
   return line;
 }
 
 Eigen::Matrix2d line_covariance(const BeamLine& line, const Vec2& point) {
-  // rho = 1/|theta|, so d rho = -rho^2 n . d theta; d alpha = rho t . d theta with t = n turned by 90 degrees. A point
+  // rho = 1/|theta|, so d rho = -rho^2 n . d theta; d alpha = rho t . d theta with t = n rotated by 90 degrees. A point
   // at tangential coordinate tau moves across the line by d rho - tau d alpha.
   const Vec2 n = line.normal();
   const Vec2 t = perpendicular(n);

@@ -1,5 +1,5 @@
-// Maximum-likelihood line in the coordinates of the beams: errors are along the beam, with the sensor's own standard
-// deviation. docs/algorithms/optimal.md, section 5.
+// Maximum-likelihood lines in the coordinates of the beams: errors are along the beam, with the standard deviation of
+// the sensor. docs/algorithms/optimal.md, section 5.
 #pragma once
 
 #include <optional>
@@ -18,28 +18,28 @@ struct BeamReading {
   double range_m = 0.0;
 };
 
-/// The line theta . p = 1: theta is the normal over the distance. A beam d meets it at range 1 / (theta . d). Lines
-/// through the sensor are seen by no beam and have no theta.
+/// The line theta . p = 1, where theta is the unit normal divided by the distance. A beam in direction d meets it at
+/// range 1 / (theta . d). Lines through the sensor have no theta; no beam sees them.
 struct BeamLine {
   Vec2 theta = Vec2::Zero();
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< Fisher's, of theta
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< Fisher information of theta
 
   double range(const Vec2& direction) const { return 1.0 / theta.dot(direction); }
   Vec2 normal() const { return theta.normalized(); }
   double rho() const { return 1.0 / theta.norm(); }
 };
 
-/// Standard deviation of a reading at range r of a wall whose range changes by `slope` metres per radian of bearing:
-/// range noise, rounding and bearing noise. At least kLeastSigma, for sensors that claim to have no noise.
+/// Standard deviation of a reading at range r on a wall whose range changes by `slope` metres per radian of bearing:
+/// range noise, rounding and bearing noise. At least kLeastSigma, also for sensors without stated noise.
 inline constexpr double kLeastSigma = 1e-3;
 double reading_sigma(const SensorNoise& noise, double r, double slope);
 
-/// The line of greatest likelihood by Gauss-Newton, from `start` if given, else from the linear fit of inverse ranges.
-/// Absent for fewer than two readings, readings of one beam, or a fit that no line in front of all beams satisfies.
+/// The maximum-likelihood line by Gauss-Newton, from `start` if given, otherwise from the linear fit of inverse ranges.
+/// Absent for fewer than two readings, for readings of one beam, and if no line in front of all beams fits.
 std::optional<BeamLine> fit_beam_line(std::span<const BeamReading> readings, const SensorNoise& noise,
                                       const std::optional<Vec2>& start = {});
 
-/// Covariance of (offset along the canonical normal at `point`, which lies on the line [m]; angle, counter-clockwise
+/// Covariance of (offset along the canonical normal at `point`, which is on the line [m]; angle, counter-clockwise
 /// [rad]).
 Eigen::Matrix2d line_covariance(const BeamLine& line, const Vec2& point);
 

@@ -1,4 +1,4 @@
-// Gaps and adaptive breakpoints. Borges & Aldon 2004, section 3.1.
+// Runs between gaps and between adaptive breakpoints. Borges & Aldon 2004, section 3.1.
 #include "algorithms/extract/parts/breakpoints.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// One pass of cross products: no trigonometry, no division.
+// The farthest point from one pass of cross products.
 #include "algorithms/extract/parts/chord.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace scanbench::extract {
 namespace {
 
-// Ends nearer than this count as one point: far below the resolution of any scanner.
+// Ends closer than this coincide; it is far below the resolution of any scanner.
 constexpr double kCoincident_m = 1e-9;
 
 }  // namespace
@@ -34,12 +34,12 @@ Farthest farthest_from_chord(std::span<const Vec2> points, const PointRun& run) 
       return std::fabs(chord.x() * (points[k].y() - a.y()) - chord.y() * (points[k].x() - a.x()));
     };
     std::size_t k = first + 1;
-    for (; k + 4 <= last; k += 4) {  // four at a time: one comparison with the best so far
+    for (; k + 4 <= last; k += 4) {  // four at a time, with one comparison against the best
       const double d0 = across(k), d1 = across(k + 1), d2 = across(k + 2), d3 = across(k + 3);
       const double most = std::max(std::max(d0, d1), std::max(d2, d3));
       if (most > best) {
         best = most;
-        index = k + (d0 == most ? 0 : d1 == most ? 1 : d2 == most ? 2 : 3);  // the lowest wins ties
+        index = k + (d0 == most ? 0 : d1 == most ? 1 : d2 == most ? 2 : 3);  // of equal ones the lowest index
       }
     }
     for (; k < last; ++k) {

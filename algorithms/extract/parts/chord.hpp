@@ -1,5 +1,5 @@
-// The point of a run farthest from the line through its end points: the step that IEPF, split-and-merge and Kovesi's
-// lineseg share.
+// The point of a run farthest from the line through the run's end points: a step of IEPF, split-and-merge, EM and
+// Kovesi's lineseg.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace scanbench::extract {
 
-/// The farthest point, strictly inside the run; the distance as a fraction, so that no root is taken before it is asked
-/// for.
+/// The farthest point, strictly inside the run. The squared distance is kept as a fraction, so that comparisons need no
+/// square root and no division.
 struct Farthest {
   int index = -1;
   double numerator2 = 0.0;    ///< squared distance times denominator2
@@ -19,8 +19,9 @@ struct Farthest {
   double distance() const;
 };
 
-/// Distances are to the infinite line through the two end points; to the first point if the ends coincide (a closed
-/// contour), as in Kovesi's maxlinedev. The lowest index wins ties. The run must have at least three points.
+/// Distances are to the infinite line through the two end points, or to the first point if the ends coincide (a closed
+/// contour), as in Kovesi's maxlinedev. Of equal distances the lowest index wins. The run must have at least three
+/// points.
 Farthest farthest_from_chord(std::span<const Vec2> points, const PointRun& run);
 
 }  // namespace scanbench::extract

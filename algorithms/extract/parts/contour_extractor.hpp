@@ -1,6 +1,6 @@
-// The frame that three algorithms of Nguyen et al., "A comparison of line extraction algorithms using 2D range data for
-// indoor mobile robotics", Autonomous Robots 23, 2007, share: contours between adaptive breakpoints, each cut into
-// straight runs in the algorithm's own way, collinear neighbours merged, least squares.
+// The common steps of three algorithms of Nguyen et al., "A comparison of line extraction algorithms using 2D range
+// data for indoor mobile robotics", Autonomous Robots 23, 2007: contours between adaptive breakpoints are cut into
+// straight runs, each algorithm with its own rule; collinear neighbours are merged; lines are fitted by least squares.
 #pragma once
 
 #include <span>
@@ -35,11 +35,11 @@ class ContourExtractor : public LineExtractor {
   ScanLines extract(const Scan& scan, Trace& trace) const final;
 
  protected:
-  /// Appends the straight runs of one contour: in order, without a common point, every point in one of them.
-  /// tolerance[k] is the largest distance of points[k] from its line.
+  /// Appends the straight runs of one contour. They are in order and disjoint and contain every point. tolerance[k] is
+  /// the largest distance of points[k] from its line.
   virtual void cut(std::span<const Vec2> points, std::span<const double> tolerance, const PointRun& contour,
                    std::vector<PointRun>& runs) const = 0;
-  /// Whether cut() holds the points against their tolerance: lines then have covariances.
+  /// Does cut() compare every point with its tolerance? Only then lines have covariances.
   virtual bool tests_every_point() const { return true; }
 
  private:

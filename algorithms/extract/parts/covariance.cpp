@@ -1,4 +1,4 @@
-// First-order propagation through the total-least-squares fit.
+// First-order propagation of the readings' noise through the fit.
 #include "algorithms/extract/parts/covariance.hpp"
 
 #include "core/index.hpp"
@@ -29,7 +29,7 @@ std::optional<Eigen::Matrix2d> tls_covariance(const Scan& scan, const ScanPoints
     sum_tau2_var += tau * tau * var;
   }
   if (!(sum_var > 0) || !(spread > 10.0 * sum_var)) return std::nullopt;
-  // About the centroid; then moved along the line by t: an angle e moves the line there by -t e.
+  // First at the centroid, then at `at`, t along the line, where a rotation by e moves the line by -t e.
   const double var_offset = sum_var / (n * n);
   const double covariance = -sum_tau_var / (n * spread);
   const double var_angle = sum_tau2_var / (spread * spread);

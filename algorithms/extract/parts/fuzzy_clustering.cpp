@@ -1,9 +1,9 @@
 // Fuzzy clustering of lines, Borges & Aldon 2000, section 2.3, equations (1) to (10).
 //
-// Departures from the printed text. Eq. (8) needs the two-argument arctangent: the condition it solves has two
-// solutions 90 degrees apart, and the plain arctangent returns the worst line for every wall whose normal is more than
-// 45 degrees from the x axis. Points on a centre make eq. (6) a division of zero by zero: they belong to that prototype
-// (the limit of the equation).
+// Departures from the printed text. Eq. (8) needs the two-argument arctangent: its condition has two solutions 90
+// degrees apart, and the plain arctangent returns the worst line for every wall whose normal is more than 45 degrees
+// from the x axis. For a point on a centre, eq. (6) is zero divided by zero; the point belongs to that prototype, which
+// is the limit of the equation.
 #include "algorithms/extract/parts/fuzzy_clustering.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace scanbench::extract {
 namespace {
 
-constexpr double kZeroDistance2 = 1e-18;  // [m^2] a point this near to a prototype belongs to it
+constexpr double kZeroDistance2 = 1e-18;  // [m^2] a point this close to a prototype belongs to it
 
 // Eq. (4), f and g.
 double squared_distance(const FuzzyLine& line, const Vec2& p, bool penalty) {
@@ -43,7 +43,7 @@ double power(double u, double fuzzifier) {
   return fuzzifier == 2.0 ? u * u : std::pow(u, fuzzifier);
 }
 
-// Eqs. (7) to (9). A cluster without weight stays where it is, one without direction keeps its angle.
+// Eqs. (7) to (9). A cluster without weight is not changed; one without direction keeps its angle.
 FuzzyLine updated(const FuzzyLine& before, const PointMoments& moments) {
   if (!(moments.weight() > std::numeric_limits<double>::min())) return before;
   FuzzyLine line = before;
@@ -54,16 +54,16 @@ FuzzyLine updated(const FuzzyLine& before, const PointMoments& moments) {
   return line;
 }
 
-// The share of one prototype in J, eq. (1), from its moments: both parts are measured from the centre.
+// The part of J, eq. (1), that belongs to one prototype, from its moments about the centre.
 double cost_of(const FuzzyLine& line, const PointMoments& m, bool penalty) {
   const Vec2& n = line.normal;
   const double across = n.x() * n.x() * m.sxx() + 2.0 * n.x() * n.y() * m.sxy() + n.y() * n.y() * m.syy();
   return std::max(across, 0.0) + (penalty ? m.sxx() + m.syy() : 0.0);
 }
 
-// Step 4. The paper thresholds the changes of rho and alpha; rho is measured about the new centre here, because about
-// the sensor a turn by alpha_tolerance alone changes it by as much as the wall is long and far, and the number of
-// iterations would depend on the frame.
+// Step 4. The paper limits the changes of rho and alpha. Here rho is measured about the new centre: about the sensor, a
+// rotation by alpha_tolerance changes rho in proportion to the distance of the wall, and the number of iterations would
+// depend on the frame.
 bool changed(const FuzzyLine& before, const FuzzyLine& after, const FuzzyOptions& options) {
   return std::fabs(before.normal.dot(after.centre) - before.rho) > options.rho_tolerance_m ||
          std::fabs(cross(before.normal, after.normal)) > std::sin(options.alpha_tolerance_rad);
@@ -85,8 +85,8 @@ FuzzyLines fuzzy_lines(std::span<const Vec2> points, std::span<const FuzzyLine> 
   std::vector<double> u(lines);
   std::vector<PointMoments> moments(lines);
   while (!result.converged && result.iterations < options.max_iterations) {
-    // Step 2: memberships. The centres are those of the last step 3, so that with the memberships fixed eqs. (7) to
-    // (9) are the exact minimiser of J, and with the prototypes fixed eq. (6) is: J cannot increase.
+    // Step 2: memberships, with the centres of the last step 3. Eq. (6) minimises J exactly for fixed prototypes, and
+    // eqs. (7) to (9) do for fixed memberships, so J cannot increase.
     double cost = 0.0;
     std::fill(moments.begin(), moments.end(), PointMoments{});
     for (std::size_t j = 0; j < points.size(); ++j) {

@@ -10,7 +10,7 @@
 namespace scanbench::extract {
 
 /// A prototype: the line normal . p = rho (unit normal (cos alpha, sin alpha), rho of any sign) and the weighted centre
-/// of gravity of its points, from which the penalty g of eq. (10) is measured.
+/// of gravity of its points, to which the penalty g of eq. (10) is the distance.
 struct FuzzyLine {
   Vec2 normal{1.0, 0.0};
   double rho = 0.0;
@@ -19,17 +19,17 @@ struct FuzzyLine {
 
 struct FuzzyOptions {
   double fuzzifier = 2.0;             ///< m of eq. (1), > 1; the paper says only "a constant"
-  bool penalty = true;                ///< the term g of eq. (4); without it prototypes are infinite lines
-  double rho_tolerance_m = 1e-3;      ///< step 4: largest move of a line at its centre that still counts as none
-  double alpha_tolerance_rad = 1e-3;  ///< the same of alpha, below pi/2
+  bool penalty = true;                ///< include the term g of eq. (4); without it prototypes are infinite lines
+  double rho_tolerance_m = 1e-3;      ///< step 4: a line has converged if it moves by at most this at its centre
+  double alpha_tolerance_rad = 1e-3;  ///< and rotates by at most this, below pi/2
   int max_iterations = 100;
 };
 
 struct FuzzyLines {
   std::vector<FuzzyLine> lines;     ///< as many as there were initial ones, in their order
-  std::vector<double> memberships;  ///< u_ij of eq. (6), row-major: lines x points; those the lines were computed from
-  std::vector<double> costs;  ///< J of eq. (1), twice per iteration: after the memberships, after the prototypes; never
-                              ///< increases
+  std::vector<double> memberships;  ///< u_ij of eq. (6), row-major, lines x points; the lines were computed from them
+  std::vector<double> costs;        ///< J of eq. (1) after the memberships and after the prototypes of each iteration;
+                                    ///< it never increases
   int iterations = 0;
   bool converged = false;
 
@@ -38,14 +38,14 @@ struct FuzzyLines {
   }
 };
 
-/// Alternating minimisation of eq. (1) from the given prototypes. Points in metres, finite; with none of them, or no
-/// prototype, the prototypes come back as they are. Invariant to the order of the points up to rounding; permuting the
-/// prototypes permutes the result. Throws ParamError for a fuzzifier that is not above 1.
+/// Alternating minimisation of eq. (1) from the given prototypes. Points are finite, in metres. Without points or
+/// prototypes the result is the given prototypes. The order of the points changes the result by rounding only;
+/// permuting the prototypes permutes the result. Throws ParamError for a fuzzifier that is not above 1.
 FuzzyLines fuzzy_lines(std::span<const Vec2> points, std::span<const FuzzyLine> initial,
                        const FuzzyOptions& options = {});
 
-/// The prototype of a crisp group: the orthogonal least-squares line and the centroid. Where the points fix no
-/// direction (one point, or an isotropic cloud) the line keeps `normal_if_undefined`.
+/// The prototype of a crisp group: the orthogonal least-squares line and the centroid. If the points determine no
+/// direction (one point, or an isotropic cloud), its normal is `normal_if_undefined`.
 FuzzyLine prototype_of(std::span<const Vec2> points, const Vec2& normal_if_undefined);
 
 }  // namespace scanbench::extract

@@ -1,4 +1,4 @@
-// Least squares of groups and the bookkeeping of their supports. Siadat et al. 1997, eqs 3-6.
+// Line fits of groups, and the labels of their supports. Siadat et al. 1997, eqs 3-6.
 #include "algorithms/extract/parts/groups.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace scanbench::extract {
 namespace {
 
-// Sets the sum of squared residuals of a line that need not be the least-squares one.
+// Sets the sum of squared residuals of any line, not only the least-squares one.
 void set_residual(const PointMoments& m, LineFit& fit) {
   const Vec2& n = fit.normal;
   const double off = n.dot(m.centroid()) - fit.offset;
@@ -20,7 +20,7 @@ void set_residual(const PointMoments& m, LineFit& fit) {
   fit.residual_sum = std::max(0.0, sum) + m.weight() * off * off;
 }
 
-// A line across the ray to the centroid, for groups without a direction.
+// The line through the centroid perpendicular to its ray, for groups without a direction.
 LineFit across_the_ray(const PointMoments& m) {
   LineFit fit;
   fit.centroid = m.centroid();
@@ -87,7 +87,8 @@ PolarLine polar(const LineFit& fit) {
 LineFeature feature(const LineFit& fit, const Vec2& first, const Vec2& last) {
   LineFeature line;
   line.segment = {fit.project(first), fit.project(last)};
-  // Clockwise scans, and short noisy groups on a line that nearly passes through the sensor, come the wrong way round.
+  // The ends are reversed in clockwise scans, and in short noisy groups on a line that nearly passes through the
+  // sensor.
   if (cross(line.segment.a, line.segment.b) < 0) std::swap(line.segment.a, line.segment.b);
   line.line = polar(fit);
   line.rms_m = fit.rms();
@@ -108,10 +109,10 @@ ScanLines assemble(const Scan& scan, const ScanPoints& points, std::span<const P
   result.lines.reserve(runs.size());
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const PointRun& run = runs[k];
-    // The shared break point is the next run's.
+    // A shared break point is in the support of the next run.
     const int own_last = k + 1 < runs.size() ? std::min(run.last, runs[k + 1].first - 1) : run.last;
     const int own = own_last - run.first + 1;
-    if (own < rules.min_points) continue;  // before the fit, which costs more
+    if (own < rules.min_points) continue;  // before the fit, which takes longer
     const LineFit fit = fit_of_run(k);
     LineFeature line = feature(fit, points.points[as_index(run.first)], points.points[as_index(run.last)]);
     line.first_beam = points.beams[as_index(run.first)];

@@ -1,5 +1,5 @@
-// From groups of scan points to the lines of a scan: what every line extractor does after it has grouped its points.
-// Siadat et al. 1997, sections 3 (least squares) and 6 (segments).
+// Lines of groups of scan points: fitting, end points, support and labels. Every line extractor does this after it has
+// grouped the points. Siadat et al. 1997, sections 3 (least squares) and 6 (segments).
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ enum class Fit {
   siadat       ///< Siadat et al. 1997, eqs 4-6: exact for collinear points, biased towards larger rho under noise
 };
 
-/// Neighbours in ScanPoints, both ends included. Two runs that follow each other may share a break point, the last of
-/// the one and the first of the other.
+/// Consecutive points of ScanPoints, both ends included. Two neighbouring runs may share a break point, the last of one
+/// run and the first of the next.
 struct PointRun {
   int first = 0;
   int last = 0;
@@ -34,45 +34,45 @@ inline std::span<const Vec2> points_of(std::span<const Vec2> points, const Point
   return points.subspan(as_index(run.first), as_index(run.size()));
 }
 
-/// Which groups become lines.
+/// Conditions on the groups that become lines.
 struct SupportRules {
-  int min_points = 2;         ///< own points; 1 also keeps groups without a direction, as segments of length 0
+  int min_points = 2;         ///< in the support; 1 also keeps groups without a direction, as segments of length 0
   double min_length_m = 0.0;  ///< of the segment
 };
 
-/// Of the points with these indices, in their order.
+/// Moments of the points with these indices, summed in their order.
 PointMoments moments_of(std::span<const Vec2> points, std::span<const int> indices);
 
-/// The line of a group, by `fit`. A group without a direction (one point, equal points, an isotropic cloud) is marked
-/// degenerate; its line passes through the centroid, across the ray from the sensor, so that it turns with the scan.
+/// The line of a group. A group without a direction (one point, equal points, an isotropic cloud) is marked degenerate;
+/// its line passes through the centroid perpendicular to the ray from the sensor, so that it rotates with the scan.
 /// Fit::siadat falls back to Fit::tls where it is undefined (all points on one ray). No points: degenerate, weight 0.
 LineFit fit_group(std::span<const Vec2> points, Fit fit);
 
-/// The lines of runs of points, in order. `runs` ascend; a shared break point supports (is labelled with, counted in)
-/// the second run only, so that supports are disjoint, but both lines are fitted to it and both segments reach it.
-/// A run whose support breaks the rules gives no line and leaves its beams at -1. Segments have the sensor on their
+/// The lines of runs of points, in order. `runs` are ascending. Both lines at a shared break point are fitted to it and
+/// both segments reach it, but it is in the support of the second run only, so that supports are disjoint. A run that
+/// does not satisfy the rules gives no line, and the labels of its beams stay -1. Segments have the sensor on their
 /// left; end points are the projections of the run's first and last point.
 ScanLines lines_of_runs(const Scan& scan, const ScanPoints& points, std::span<const PointRun> runs, Fit fit,
                         SupportRules rules = {});
 
-/// The same for runs whose lines are known: fits[k] is that of runs[k] (normal, offset, residual_sum and weight are
-/// used).
+/// The same with known lines: fits[k] is the line of runs[k]. Its normal, offset, residual_sum and weight are used.
 ScanLines lines_of_runs(const Scan& scan, const ScanPoints& points, std::span<const PointRun> runs,
                         std::span<const LineFit> fits, SupportRules rules = {});
 
-/// The lines of arbitrary groups: group_of_point[k] in -1 .. groups-1 is the group of points[k], -1 for none. Lines
-/// come out in the order of their first beam, whatever the numbers of the groups. End points are the extreme
-/// projections of the support, which also holds for a support that crosses the seam of a 360 degree scan.
+/// The lines of arbitrary groups: group_of_point[k] in -1 .. groups-1 is the group of points[k], -1 for none. Lines are
+/// in the order of their first beams, independent of the numbers of the groups. End points are the extreme projections
+/// of the support, also for a support across the seam of a full turn.
 ScanLines lines_of_groups(const Scan& scan, const ScanPoints& points, std::span<const int> group_of_point, int groups,
                           Fit fit, SupportRules rules = {});
 
-// ---- parameters that extractors share: members of these names in Params, the fields appended by std::tuple_cat
+// Fields that extractors share. Params has the members, and std::tuple_cat appends the fields.
 
 template <class P>
 auto support_fields() {
-  return std::tuple{field("min_points", &P::min_points, between(1, 1e6), "",
-                          "fewest support points of a line; 1 also keeps single points, as segments of length 0"),
-                    field("min_length_m", &P::min_length_m, at_least(0), "m", "shortest segment; 0: any")};
+  return std::tuple{
+      field("min_points", &P::min_points, between(1, 1e6), "",
+            "smallest number of support points of a line; 1 also keeps single points, as segments of length 0"),
+      field("min_length_m", &P::min_length_m, at_least(0), "m", "shortest length of a line; 0 disables the limit")};
 }
 
 template <class P>

@@ -1,4 +1,4 @@
-// Straightness within the sensor's noise. Nguyen et al. 2007.
+// Straightness within the sensor's noise, and merging. Nguyen et al. 2007.
 #include "algorithms/extract/parts/noise_scale.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ bool has_clear_break(std::span<const Vec2> points, std::span<const double> toler
 
 std::vector<PointRun> merge_neighbours(std::span<const Vec2> points, std::span<const double> tolerance,
                                        std::span<const PointRun> runs, double max_gap_m) {
-  // Passes over pairs: a wall in many pieces is whole after a logarithmic number of passes, each linear in its points.
+  // Each pass merges pairs in time linear in the points. A wall in many pieces needs a logarithmic number of passes.
   std::vector<PointRun> current(runs.begin(), runs.end());
   while (true) {
     std::vector<PointRun> merged;

@@ -1,4 +1,4 @@
-// docs/algorithms/polyline.md, section 3.
+// Levenberg-Marquardt on the vertices of a chain. docs/algorithms/polyline.md, section 3.
 #include "algorithms/extract/polyline/chain.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct NormalEquations {
   Eigen::VectorXd rhs;
 };
 
-// Of the residuals (z - r) / sigma by the (bearing, inverse range) of all vertices.
+// Normal equations of the residuals (z - r) / sigma for the (bearing, inverse range) of all vertices.
 NormalEquations normal_equations(const Chain& chain, std::span<const BearingReading> readings) {
   const auto size = static_cast<Eigen::Index>(2 * chain.vertices.size());
   NormalEquations n{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
@@ -44,11 +44,11 @@ NormalEquations normal_equations(const Chain& chain, std::span<const BearingRead
     const double from_p = std::sin(q.bearing_rad - bearing) / sine;
     const double from_q = std::sin(bearing - p.bearing_rad) / sine;
     const double u = from_p * p.inverse_range + from_q * q.inverse_range;
-    // A vertex that moves along the wall by its bearing alone moves off it by minus the wall's slope there.
+    // If only the bearing of a vertex changes, it leaves the wall by minus the wall's slope there.
     const double slope_p = (q.inverse_range - p.inverse_range * std::cos(step)) / sine;
     const double slope_q = (q.inverse_range * std::cos(step) - p.inverse_range) / sine;
     const double r = 1.0 / u;
-    const double scale = -r * r / z.sigma_m;  // of the range by the inverse range, in standard deviations
+    const double scale = -r * r / z.sigma_m;  // derivative of the range by the inverse range, in standard deviations
     const std::array<double, 4> g = {-slope_p * from_p * scale, from_p * scale, -slope_q * from_q * scale,
                                      from_q * scale};
     const double error = (z.range_m - r) / z.sigma_m;
@@ -78,7 +78,7 @@ Chain moved(Chain chain, const Eigen::VectorXd& step) {
   return chain;
 }
 
-// Inverse of the information, 0 in the directions that it says nothing of.
+// Inverse of the information; 0 in the directions without information.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& information) {
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().unaryExpr([](double x) { return x > 0 ? x : 1.0; });
   const Eigen::MatrixXd scaled = scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal();

@@ -1,4 +1,4 @@
-// docs/algorithms/polyline.md, section 2.
+// The dynamic programme of chains. docs/algorithms/polyline.md, section 2.
 #include "algorithms/extract/polyline/search.hpp"
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 namespace scanbench::extract {
 namespace {
 
-constexpr double kNever = 1e6;  // [nats], finite, since differences of sums are formed
-// A wall spans less than half a turn. The bearings of its ends are farther apart than rounding.
+constexpr double kProhibitive = 1e6;  // [nats], finite, because differences of sums are formed
+// A wall spans less than half a turn, and more than rounding.
 constexpr double kLeastSine = 1e-9;
 constexpr double kLeastCosine = -0.99;
 
-// Sums over points of w (d d', d v, v v), and of what they cost on a wall apart from misfit.
+// Sums over points of w (d d', d v, v v), and of their cost on a wall without the misfit.
 struct Sums {
   double xx = 0, xy = 0, yy = 0, xv = 0, yv = 0, vv = 0, fixed = 0;
 
@@ -43,7 +43,7 @@ std::vector<Sums> running_sums(std::span<const SegmentationPoint> points) {
   return sums;
 }
 
-// What the points behind one vertex up to the next cost, as a quadratic form of the two inverse ranges.
+// The cost of the points after one vertex up to the next, as a quadratic form of the two inverse ranges.
 class Wall {
  public:
   Wall(const Vec2& p, const Vec2& q, const Sums& s) {
@@ -70,7 +70,8 @@ class Wall {
   double pp_, pq_, qq_, p_, q_, one_, fixed_;
 };
 
-// One programme. States: (place, choice), the place one of the points where vertices may stand, with m vertices used.
+// One programme. A state is a place (a point that may have a vertex), the choice of its inverse range, and the number m
+// of vertices so far.
 class Programme {
  public:
   Programme(std::span<const SegmentationPoint> points, const VertexChoices& choices, int max_vertices, int stride)
@@ -78,8 +79,8 @@ class Programme {
     const int n = static_cast<int>(points.size());
     for (int i = 0; i < n; ++i) {
       const bool gap_before = i > 0 && points[as_index(i)].gap_cost == kInf;
-      const bool gap_behind = i + 1 < n && points[as_index(i + 1)].gap_cost == kInf;
-      if (i % stride == 0 || i == n - 1 || gap_before || gap_behind) places_.push_back(i);
+      const bool gap_after = i + 1 < n && points[as_index(i + 1)].gap_cost == kInf;
+      if (i % stride == 0 || i == n - 1 || gap_before || gap_after) places_.push_back(i);
       blocks_.push_back((blocks_.empty() ? 0 : blocks_.back()) + (gap_before ? 1 : 0));
     }
     width_ = choices.empty() ? 0 : choices.front().size();
@@ -89,11 +90,11 @@ class Programme {
     for (int i = 0; i < n; ++i) clutter_[as_index(i) + 1] = clutter_[as_index(i)] + points[as_index(i)].clutter_cost;
   }
 
-  // Chains anywhere, clutter between them.
+  // Any number of chains with clutter between them.
   GridChains run(double vertex_cost) {
     for (std::size_t m = 0; m < levels_; ++m) done_[m] = 0.0;
     for (std::size_t p = 0; p < places_.size(); ++p) {
-      close(p);  // before a chain begins here: a vertex alone is none
+      close(p);  // before a chain begins here, because a single vertex is no chain
       for (std::size_t a = 0; a < width_; ++a)
         for (std::size_t m = 1; m < levels_; ++m) relax(open(p, a, m), done_[p * levels_ + m - 1] + begin_cost(p, a));
       extend(p);
@@ -123,8 +124,8 @@ class Programme {
       std::size_t choice_of_best = 0;
       for (std::size_t a = 0; a < width_; ++a)
         if (const Extension e = extension(p - 1, a, m); e.cost < best.cost) best = e, choice_of_best = a;
-      // A comparison of the two ways here, not with the stored cost: sums in another order differ in the last bits.
-      if (done_[(p - 1) * levels_ + m] + clutter_to(p - 1) <= best.cost + clutter_behind(p - 1)) {
+      // Compares the two alternatives, not the stored cost: sums in another order differ in the last bits.
+      if (done_[(p - 1) * levels_ + m] + clutter_from(p - 1) <= best.cost + clutter_after(p - 1)) {
         --p;
         continue;
       }
@@ -152,30 +153,30 @@ class Programme {
   double& open(std::size_t p, std::size_t a, std::size_t m) { return open_[(p * width_ + a) * levels_ + m]; }
   double open(std::size_t p, std::size_t a, std::size_t m) const { return open_[(p * width_ + a) * levels_ + m]; }
 
-  // A vertex that begins a chain pays its own point, the others that and those since the vertex before.
+  // The first vertex of a chain pays for its own point, later ones for all points after the vertex before.
   double begin_cost(std::size_t p, std::size_t a) const {
     const double e = point(p).inverse_range - choice(p, a);
     return point(p).line_cost + 0.5 * point(p).weight * e * e;
   }
 
-  // Clutter from this place up to the next, which may be the end.
-  double clutter_to(std::size_t p) const {
+  // Clutter cost from this place up to the next place or the end.
+  double clutter_from(std::size_t p) const {
     const int next = p + 1 < places_.size() ? places_[p + 1] : static_cast<int>(points_.size());
     return clutter_[as_index(next)] - clutter_[as_index(places_[p])];
   }
 
   // The same without the point at this place.
-  double clutter_behind(std::size_t p) const {
+  double clutter_after(std::size_t p) const {
     const int next = p + 1 < places_.size() ? places_[p + 1] : static_cast<int>(points_.size());
     return clutter_[as_index(next)] - clutter_[as_index(places_[p]) + 1];
   }
 
-  // done(p): all points before place p described, no chain open.
+  // done(p): the cost of all points before place p, without an unfinished chain.
   void close(std::size_t p) {
-    const double rest = clutter_behind(p);
+    const double rest = clutter_after(p);
     for (std::size_t m = 0; m < levels_; ++m) {
       double& done = done_[(p + 1) * levels_ + m];
-      relax(done, done_[p * levels_ + m] + clutter_to(p));
+      relax(done, done_[p * levels_ + m] + clutter_from(p));
       for (std::size_t a = 0; a < width_; ++a) relax(done, open(p, a, m) + rest);
     }
   }
@@ -200,8 +201,8 @@ class Programme {
       }
       any = true;
       const Wall w = wall(p, q);
-      // A wall dearer than clutter between p and q is never needed: the chain ends at p, or p is clutter too if it
-      // began there; a chain begins at q, or q is clutter too if it would end there.
+      // A wall that costs more than clutter between p and q is never needed. Instead, the chain ends at p (or p is
+      // clutter too, if the chain began there), and a chain begins at q (or q is clutter too, if it would end there).
       const double apart = clutter_[as_index(places_[q])] - clutter_[as_index(places_[p]) + 1];
       for (std::size_t b = 0; b < width_; ++b) {
         const double limit = apart + std::max(begin_cost(q, b), point(q).clutter_cost);
@@ -236,7 +237,7 @@ class Programme {
     return best;
   }
 
-  // The chain that ends at (p, a) with m vertices used, of two or more.
+  // The chain of two or more vertices that ends at (p, a), m vertices in all.
   std::vector<GridVertex> trace_chain(std::size_t p, std::size_t a, std::size_t m) const {
     std::vector<GridVertex> chain;
     for (;; --m) {
@@ -256,7 +257,7 @@ class Programme {
   std::size_t levels_, width_ = 0;
   std::vector<Sums> sums_;
   std::vector<int> places_;
-  std::vector<int> blocks_;  // per point: how many gaps that no chain crosses lie before it
+  std::vector<int> blocks_;  // per point: the number of infinite gaps before it
   std::vector<double> open_, done_, clutter_;
 };
 
@@ -271,20 +272,20 @@ GridChains best_chains(std::span<const SegmentationPoint> points, const VertexCh
 
 GridChains best_closed_chain(std::span<const SegmentationPoint> points, const VertexChoices& choices, int vertices,
                              int stride, const GridVertex& fixed) {
-  // The same scan from the fixed vertex to itself, a turn later.
+  // The scan from the fixed vertex to the same vertex a turn later.
   const int n = static_cast<int>(points.size());
-  std::vector<SegmentationPoint> turned;
-  VertexChoices turned_choices;
+  std::vector<SegmentationPoint> rotated;
+  VertexChoices rotated_choices;
   for (int i = 0; i <= n; ++i) {
     const auto k = as_index((fixed.point + i) % n);
-    turned.push_back(points[k]);
-    turned.back().clutter_cost = kNever;
-    turned_choices.push_back(choices[k]);
+    rotated.push_back(points[k]);
+    rotated.back().clutter_cost = kProhibitive;
+    rotated_choices.push_back(choices[k]);
   }
-  turned.back().weight = 0.0;  // the fixed vertex has paid its point
-  turned.back().line_cost = 0.0;
-  turned_choices.front().front() = turned_choices.back().front() = fixed.inverse_range;
-  Programme programme(turned, turned_choices, vertices + 1, stride);
+  rotated.back().weight = 0.0;  // the first vertex pays for the point
+  rotated.back().line_cost = 0.0;
+  rotated_choices.front().front() = rotated_choices.back().front() = fixed.inverse_range;
+  Programme programme(rotated, rotated_choices, vertices + 1, stride);
   GridChains result = programme.run_closed(0);
   for (auto& chain : result.chains)
     for (GridVertex& v : chain) v.point += fixed.point;

@@ -1,5 +1,5 @@
-// The best chain of few vertices on a grid: vertices at readings, a few ranges each. Dynamic programme over (reading,
-// range, vertices used). docs/algorithms/polyline.md, section 2.
+// The best chains with few vertices on a grid of readings and ranges: a dynamic programme over (reading, range, number
+// of vertices). docs/algorithms/polyline.md, section 2.
 #pragma once
 
 #include <span>
@@ -22,22 +22,22 @@ struct GridChains {
   double cost = 0.0;  ///< of everything [nats]
 };
 
-/// What a wall between neighbouring points costs more [nats]: it explains no return between its ends, and two chains
-/// that end there would otherwise be as good.
+/// Extra cost of a wall between neighbouring points [nats]. Such a wall explains no return between its ends, and
+/// without the extra cost two chains that end there would cost the same.
 inline constexpr double kBareWall = 1e-2;
 
-/// Choices of inverse range for a vertex at each point, equally many (at least one) for all points.
+/// Per point the inverse ranges that a vertex there may have: the same number, at least one, for all points.
 using VertexChoices = std::vector<std::vector<double>>;
 
-/// The cheapest description by chains that have at most m <= `max_vertices` vertices together, at `vertex_cost` each:
-/// their points by `line_cost` and half the weighted squared error of the inverse range, other points as clutter. No
-/// chain crosses an infinite gap_cost, others are paid. Vertices stand at every `stride`-th point, at both sides of
-/// gaps and at the ends. O(points^2 choices^2 max_vertices / stride^2).
+/// The cheapest description by chains with at most `max_vertices` vertices together, at `vertex_cost` each. Points on
+/// chains cost `line_cost` and half the weighted squared error of the inverse range; other points are clutter. Chains
+/// pay finite gap costs and do not cross infinite ones. Vertices are at every `stride`-th point, at both sides of gaps
+/// and at the ends. O(points^2 choices^2 max_vertices / stride^2).
 GridChains best_chains(std::span<const SegmentationPoint> points, const VertexChoices& choices, int max_vertices,
                        double vertex_cost, int stride);
 
-/// The cheapest closed chain of `vertices` vertices, one of which is `fixed`: it begins there and ends there a turn
-/// later (point + points.size()), without clutter. Points must go all around. No chain where there is none.
+/// The cheapest closed chain of `vertices` vertices, one of which is `fixed`. The chain begins there and ends there a
+/// turn later (point + points.size()), without clutter. The points must cover a full turn. No chain if none exists.
 GridChains best_closed_chain(std::span<const SegmentationPoint> points, const VertexChoices& choices, int vertices,
                              int stride, const GridVertex& fixed);
 

@@ -37,7 +37,7 @@ SmfLine line_of(std::span<const Vec2> points, Group support) {
   return line;
 }
 
-// ---- split phase
+// Split phase.
 
 std::pair<Group, Group> halves(const Group& order, std::size_t first) {
   const auto middle = order.begin() + static_cast<std::ptrdiff_t>(first);
@@ -65,7 +65,7 @@ std::pair<Group, Group> initial_halves(std::span<const Vec2> points, const SmfLi
       std::size_t farthest = q.size() / 2;
       double largest = 0.0;
       for (std::size_t k = 1; k + 1 < q.size(); ++k) {
-        // A closed contour has no chord: distance from its one end.
+        // A closed contour has no chord: the distance is measured from its end.
         const Vec2 d = at(q[k]) - a;
         const double away = chord.squaredNorm() > 0 ? std::fabs(cross(chord, d)) : d.squaredNorm();
         if (away > largest) {
@@ -80,8 +80,8 @@ std::pair<Group, Group> initial_halves(std::span<const Vec2> points, const SmfLi
 }
 
 // Step 3 (a): two lines from the support of one, by fuzzy clustering with C = 2. Each point goes to the prototype with
-// the larger membership, ties to the first; both lines are then the orthogonal least-squares lines of their support, so
-// that sigma_k is the smallest possible and the merge phase measures the same thing.
+// the larger membership, or to the first if they are equal. Both lines are then refitted to their support by orthogonal
+// least squares, so that sigma_k is the smallest possible, as in the merge phase.
 std::pair<SmfLine, SmfLine> split(std::span<const Vec2> points, const SmfLine& line, const SmfOptions& options) {
   std::vector<Vec2> support;
   support.reserve(line.support.size());
@@ -101,14 +101,14 @@ std::pair<SmfLine, SmfLine> split(std::span<const Vec2> points, const SmfLine& l
   Group to_first, to_second;
   for (std::size_t j = 0; j < support.size(); ++j)
     (fuzzy.membership(0, j) >= fuzzy.membership(1, j) ? to_first : to_second).push_back(line.support[j]);
-  if (to_first.empty() || to_second.empty())  // the clustering found one cluster; a split must split
+  if (to_first.empty() || to_second.empty())  // only one cluster was found; without this the split phase would not end
     return {line_of(points, std::move(first)), line_of(points, std::move(second))};
   return {line_of(points, std::move(to_first)), line_of(points, std::move(to_second))};
 }
 
-// ---- merge phase
+// Merge phase.
 
-// The two lines whose centres are nearest to that of line k; -1 where there are fewer. Ties to the lower index.
+// The two lines whose centres are nearest to that of line k; -1 if there are fewer. Of equal ones the lower index.
 std::pair<int, int> nearest_two(const Lines& lines, std::size_t k) {
   int a = -1, b = -1;
   double to_a = 0.0, to_b = 0.0;
@@ -128,7 +128,7 @@ std::pair<int, int> nearest_two(const Lines& lines, std::size_t k) {
   return {a, b};
 }
 
-// Length along the fused line that neither support covers, between the two; negative where they overlap.
+// Length of the gap between the two supports along the fused line; negative if they overlap.
 double gap_between(std::span<const Vec2> points, const SmfLine& a, const SmfLine& b, const LineFit& fused) {
   const Vec2 along = perpendicular(fused.normal);
   const auto extent = [&](const SmfLine& line) {
@@ -150,7 +150,7 @@ struct Fusion {
   double dispersion;
 };
 
-// The better of the fusions of line k with its two candidates, if one is allowed.
+// The fusion of line k with one of its two candidates that has the smaller dispersion, if any is allowed.
 std::optional<Fusion> best_fusion(std::span<const Vec2> points, const Lines& lines, std::size_t k,
                                   const SmfOptions& options) {
   const auto [a, b] = nearest_two(lines, k);
@@ -181,7 +181,7 @@ double smf_dispersion(const PointMoments& moments, const SmfOptions& options) {
   if (!(moments.weight() > 0)) return 0.0;
   const LineFit fit = fit_line(moments);
   double sum = options.penalty_in_dispersion ? moments.sxx() + moments.syy() : 0.0;
-  if (moments.weight() > 2) sum += fit.residual_sum;  // two points have a residual of rounding errors only
+  if (moments.weight() > 2) sum += fit.residual_sum;  // the residual of two points is rounding errors
   return std::sqrt(sum / moments.weight());           // eq. (11)
 }
 
@@ -207,8 +207,8 @@ std::vector<SmfLine> smf_split(std::span<const Vec2> points, const SmfOptions& o
 
 std::vector<SmfLine> smf_merge(std::span<const Vec2> points, std::vector<SmfLine> lines, const SmfOptions& options,
                                Trace& trace) {
-  // The paper gives no order. List order with a restart at the fused line is deterministic, and every fusion shortens
-  // the list.
+  // The paper gives no order. List order with a restart at the fused line is deterministic. It ends, because every
+  // fusion shortens the list.
   for (bool fused = true; fused;) {
     fused = false;
     for (std::size_t k = 0; k < lines.size();) {

@@ -1,5 +1,5 @@
-// Split-and-merge fuzzy (SMF) line extraction: Borges & Aldon, "A split-and-merge segmentation algorithm for line
-// extraction in 2-D range images", ICPR 2000, section 3. The two phases, for tests and for use on any ordered points.
+// The two phases of split-and-merge fuzzy (SMF) line extraction, for any ordered points: Borges & Aldon, "A
+// split-and-merge segmentation algorithm for line extraction in 2-D range images", ICPR 2000, section 3.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace scanbench::extract {
 
-/// How the support points of a line are halved before the fuzzy clustering with C = 2; the paper does not say.
+/// How the support of a line is halved to initialise the fuzzy clustering with C = 2, which the paper leaves open.
 enum class SmfInitialisation {
   scan_order,      ///< first and second half of the points
   principal_axis,  ///< first and second half along the line
@@ -21,25 +21,25 @@ enum class SmfInitialisation {
 struct SmfOptions {
   double sigma_max_m = 0.05;
   FuzzyOptions fuzzy{};
-  bool penalty_in_dispersion = false;  ///< d of eq. (11) with the term g; see docs/algorithms/smf.md for what it breaks
+  bool penalty_in_dispersion = false;  ///< d of eq. (11) with the term g; docs/algorithms/smf.md shows the effect
   SmfInitialisation initialisation = SmfInitialisation::scan_order;
-  double max_gap_m = 0.0;  ///< no fusion across a longer gap along the fused line; 0: any
+  double max_gap_m = 0.0;  ///< largest gap along a fused line; 0 disables the limit
 };
 
-/// A line of the list: its support points, ascending indices, and their moments.
+/// A line: ascending indices of its support points, and their moments.
 struct SmfLine {
   std::vector<int> support;
   PointMoments moments;
 };
 
-/// sigma_k, eq. (11) [m]: 0 for up to two points, unless the penalty is counted.
+/// sigma_k, eq. (11) [m]; 0 for up to two points, unless it includes the penalty.
 double smf_dispersion(const PointMoments& moments, const SmfOptions& options);
 
-/// Split phase. The supports partition the indices of `points` (scan order, metres, finite); every line has a
-/// dispersion of at most sigma_max_m or at most two points. No points give no line.
+/// Split phase. The supports partition the indices of `points` (in scan order, metres, finite). Every line has a
+/// dispersion of at most sigma_max_m, or at most two points. No points: no lines.
 std::vector<SmfLine> smf_split(std::span<const Vec2> points, const SmfOptions& options, Trace& trace);
 
-/// Merge phase. Ends when no line can be fused with either of the two whose centres are nearest to its own.
+/// Merge phase. Ends when no line can be fused with either of the two lines whose centres are nearest to its own.
 std::vector<SmfLine> smf_merge(std::span<const Vec2> points, std::vector<SmfLine> lines, const SmfOptions& options,
                                Trace& trace);
 

@@ -1,8 +1,9 @@
-// One climb of mean shift inside one box (Lakaemper 2009, eq. 1), in float.
+// Mean-shift steps (Lakaemper 2009, eq. 1) and, where they are slow, Newton steps.
 //
-// Along a wall seen often the density is a ridge with faint ripples: shifts of a hundredth of a standard deviation,
-// hundreds of them. Where eq. 1 is that slow, Newton steps on the log density take over. They use the same sums, never
-// descend (else eq. 1 steps in), are short against the distance of modes and end at the same places.
+// Along a wall that was seen often the density is a ridge with faint ripples. There eq. 1 makes hundreds of shifts of a
+// hundredth of a standard deviation. Newton steps on the log density replace them. They use the same sums, never
+// descend (otherwise a step of eq. 1 is made), are short compared with the distance of modes, and end at the same
+// modes.
 #include "algorithms/merge/mean_shift/climb.hpp"
 
 #include <algorithm>
@@ -17,9 +18,9 @@ namespace {
 
 constexpr float kSlowShift = 0.15F;
 constexpr double kCurvatureFloor = 0.02;
-constexpr float kGoal = 1e-5F;      // of a Newton step: about what float can resolve
-constexpr float kFlatGoal = 1e-6F;  // of a shift
-constexpr float kRounding = 1e-6F;  // of a density
+constexpr float kGoal = 1e-5F;      // largest Newton step at convergence: about the resolution of float
+constexpr float kFlatGoal = 1e-6F;  // largest shift at convergence
+constexpr float kRounding = 1e-6F;  // relative error of a density
 
 Float3 operator+(const Float3& a, const Float3& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -38,7 +39,7 @@ Float3 shortened(const Eigen::Vector3d& v) {
   return {static_cast<float>(u.x()), static_cast<float>(u.y()), static_cast<float>(u.z())};
 }
 
-/// Newton's step with all curvatures made positive: uphill for any Hessian.
+/// Newton's step with the absolute values of the curvatures: uphill for any Hessian.
 Float3 fast_step(const ShiftAndCovariance& s) {
   Eigen::Matrix3d minus_hessian;
   minus_hessian << 1.0 - double{s.xx}, -double{s.xy}, -double{s.xz}, -double{s.xy}, 1.0 - double{s.yy}, -double{s.yz},

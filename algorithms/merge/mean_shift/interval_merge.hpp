@@ -1,5 +1,5 @@
-// Merging the segments of one cluster: projection onto its line and union of overlapping intervals (Lakaemper 2009,
-// section IV.D, figure 4).
+// Merging of the segments of one cluster: projection on the cluster's line and union of overlapping intervals
+// (Lakaemper 2009, section IV.D, figure 4).
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace scanbench::merge {
 
-/// Intervals this near count as touching, metres.
+/// Intervals at most this far apart touch [m].
 inline constexpr double kTouching = 1e-9;
 
 struct MergedSegment {
@@ -18,7 +18,7 @@ struct MergedSegment {
 };
 
 /// Projects the segments on the line through `origin` with direction `theta` and unites intervals that overlap, touch
-/// or lie at most `gap` >= 0 apart. In order along the line. No segments: none.
+/// or are at most `gap` >= 0 apart. The result is in order along the line. No segments: an empty result.
 std::vector<MergedSegment> merge_on_line(std::span<const Segment> segments, const Vec2& origin, double theta_rad,
                                          double gap_m);
 

@@ -1,10 +1,10 @@
 // Sums of a truncated Gaussian kernel over a list of candidates, four at a time in float: the inner loop of mean shift
 // (Lakaemper 2009, eq. 1).
 //
-// Everything is in units of the kernel's standard deviation and relative to the centre of a box, so that float keeps
-// about 1e-6 standard deviations however far from the origin the map is. Only + - * are used and always in one order:
-// the sums do not depend on the compiler's options or on the CPU. What must be exact is polished in double afterwards
-// (mode_polish.hpp).
+// Coordinates are in units of the kernel's standard deviation, relative to the centre of a box. So the resolution of
+// float is about 1e-6 standard deviations, independent of the distance of the map from the origin. Only + - * are used,
+// always in the same order, so the sums do not depend on compiler options or on the CPU. Modes are made exact
+// afterwards, in double (mode_polish.hpp).
 #pragma once
 
 #include <cstdint>
@@ -31,14 +31,14 @@ struct Float3 {
 /// exp(-squared / 2), relative error below 8e-6, for 0 <= squared <= 160.
 Float4 gaussian(Float4 squared);
 
-/// The mean shift m(t) - t (eq. 1) and the kernel mass behind it; mass 0 when no candidate lies inside the cut-off.
+/// The mean shift m(t) - t (eq. 1) and the sum of its weights, which is 0 if no candidate is within the cut-off.
 struct Shift {
   float mass = 0.0F;
   Float3 step;
 };
 
-/// The same, the kernel-weighted covariance about m(t) (I - covariance is minus the Hessian of the log density), and
-/// the density that steps of eq. 1 climb when the kernel is cut off at c: the sum of exp(-d^2/2) - exp(-c^2/2).
+/// The mean shift, the kernel-weighted covariance about m(t) (I - covariance is minus the Hessian of the log density),
+/// and the density that eq. 1 climbs if the kernel is cut off at c: the sum of exp(-d^2/2) - exp(-c^2/2).
 struct ShiftAndCovariance {
   Shift shift;
   float density = 0.0F;
@@ -50,15 +50,15 @@ struct ShiftAndCovariance {
   float zz = 0.0F;
 };
 
-/// Candidates in blocks of four. add() them all, then seal(), then ask.
+/// Candidates in blocks of four. Call add() for all of them, then seal(), then the sums.
 class CandidateList {
  public:
   void clear();
   void add(Float3 p);
-  /// Fills the last block up with points that are out of everybody's reach.
+  /// Fills the last block with points beyond every cut-off.
   void seal();
 
-  /// Candidates farther than sqrt(squared_cutoff) from t weigh nothing.
+  /// Candidates farther than sqrt(squared_cutoff) from t have weight 0.
   Shift shift(Float3 t, float squared_cutoff) const;
   ShiftAndCovariance shift_and_covariance(Float3 t, float squared_cutoff) const;
 

@@ -1,4 +1,4 @@
-// Joining, trimming and erasing after the merge (see the header).
+// Joining, trimming and support of the lines of a merged map.
 #include "algorithms/merge/mean_shift/map_cleanup.hpp"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void for_each_close_pair(const std::vector<DraftLine>& lines, double margin, Vis
   }
 }
 
-/// The segment that replaces both, if the rules allow it.
+/// The segment that replaces both, if they are within the tolerance.
 std::optional<Segment> joined(const Segment& s, const Segment& t, const JoinTolerance& rules) {
   if (std::abs(wrap_direction(s.direction_angle() - t.direction_angle())) > rules.angle_rad) return std::nullopt;
   PointMoments moments;
@@ -76,7 +76,7 @@ std::vector<DraftLine> join_neighbours(std::vector<DraftLine> lines, const JoinT
     std::vector<bool> used(lines.size(), false);
     std::vector<bool> gone(lines.size(), false);
     for (const auto& [i, j] : pairs) {
-      if (used[i] || used[j]) continue;  // once a round: its line has moved
+      if (used[i] || used[j]) continue;  // at most one join per line and round, because the line has moved
       DraftLine& keeper = lines[i];
       const DraftLine& other = lines[j];
       const bool other_longer = other.segment.length() > keeper.segment.length();
@@ -98,7 +98,7 @@ std::vector<DraftLine> join_neighbours(std::vector<DraftLine> lines, const JoinT
 
 void trim_overshoots(std::vector<DraftLine>& lines, double overshoot_m) {
   constexpr double kLeastSine = 0.17364817766693033;                 // of 10 degrees
-  std::vector<std::array<double, 2>> cut(lines.size(), {0.0, 0.0});  // length to take off at a and at b
+  std::vector<std::array<double, 2>> cut(lines.size(), {0.0, 0.0});  // length to remove at a and at b
   std::vector<std::array<bool, 2>> has_cut(lines.size(), {false, false});
   const auto consider = [&](std::size_t line, double at, double length) {
     const bool near_a = at < length - at;

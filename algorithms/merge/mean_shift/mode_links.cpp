@@ -1,4 +1,4 @@
-// Labelling by connected components.
+// Connected components by distance and along ridges.
 #include "algorithms/merge/mean_shift/mode_links.hpp"
 
 #include <algorithm>

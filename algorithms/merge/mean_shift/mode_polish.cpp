@@ -1,4 +1,4 @@
-// Safeguarded Newton iteration to a mode of a Gaussian kernel density (see the header).
+// Safeguarded Newton iteration to a mode of a Gaussian kernel density.
 #include "algorithms/merge/mean_shift/mode_polish.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -7,8 +7,8 @@ namespace scanbench::merge {
 namespace {
 
 constexpr double kGradientGoal = 1e-10;
-constexpr double kGradientFlat = 1e-6;    // below it a place that is no maximum counts as a saddle
-constexpr double kCurvatureFloor = 1e-4;  // Newton's divisor on plateaus, where the curvature is nothing but rounding
+constexpr double kGradientFlat = 1e-6;    // with a smaller gradient, a place that is no maximum is a saddle
+constexpr double kCurvatureFloor = 1e-4;  // Newton's divisor on plateaus, where the curvature is rounding errors
 constexpr double kLongestStep = 0.5;
 constexpr double kSaddleStep = 0.01;
 constexpr int kMaxSteps = 200;
@@ -49,7 +49,7 @@ Density density_at(const Vec3& t, double period, const std::vector<Vec3>& differ
   return d;
 }
 
-/// Newton's step with the curvatures made positive, no longer than kLongestStep: uphill for any Hessian.
+/// Newton's step with the absolute values of the curvatures, at most kLongestStep long: uphill for any Hessian.
 Vec3 ascent_step(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& eigen, const Vec3& gradient) {
   Vec3 step = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -78,13 +78,13 @@ PolishedMode polish_mode(const Vec3& start, double period, const Neighbours& nei
 
     Vec3 step = ascent_step(eigen, here.shift);
     if (gradient <= kGradientFlat && saddle) {
-      // Off the saddle along the direction in which the density is convex; either way is uphill.
+      // Leaves the saddle along the direction in which the density is convex, which is uphill on both sides.
       Vec3 axis = eigen.eigenvectors().col(0);
       if (axis.dot(here.shift) < 0) axis = -axis;
       step = kSaddleStep * axis;
     }
     Density there = density_at(t + step, period, differences);
-    // At the end rounding hides the rise of the density; there the gradient must fall instead.
+    // Near the mode rounding hides the increase of the density; there the gradient must decrease instead.
     const auto better = [&](const Density& d) {
       return d.mass > here.mass || (d.mass > here.mass * (1 - 1e-14) && d.shift.norm() < gradient);
     };

@@ -1,8 +1,8 @@
 // Non-blurring Gaussian mean shift of a point set (Lakaemper 2009, section III, eq. 1).
 //
-// Climbs are independent of each other, so they run box by box: all climbs that are in one box share one list of
-// candidates, gathered once; those that leave it wait for the next round, sorted by the box they entered. The kernel is
-// cut off while climbing; only the ends, one per mode, are polished in double with a kernel cut at 6.5.
+// Climbs are independent of each other and run box by box. All climbs in a box share one list of candidates. A climb
+// that leaves its box continues in the next round, in which climbs are sorted by box. The kernel is cut off during
+// climbs. One end per mode is polished in double, with a kernel cut off at 6.5.
 #include "algorithms/merge/mean_shift/modes.hpp"
 
 #include <algorithm>
@@ -18,9 +18,10 @@ namespace scanbench::merge {
 namespace {
 
 constexpr double kBox = 1.0;         // side of a box
-constexpr double kHysteresis = 0.1;  // a climb may leave its box by this much before it changes it
-constexpr double kMargin = kHysteresis + kLongestFastStep + 1e-3;  // candidates are complete this far out of the box
-constexpr double kSame = 2e-3;  // two ends of climbs this near are one mode: they are converged to 1e-5
+constexpr double kHysteresis = 0.1;  // how far a climb may leave its box before it changes to the next
+constexpr double kMargin =
+    kHysteresis + kLongestFastStep + 1e-3;  // distance from the box up to which candidates are complete
+constexpr double kSame = 2e-3;              // ends of climbs this close are one mode: they are converged to 1e-5
 constexpr double kSamePolished = 1e-5;
 constexpr double kGradientGoal = 1e-6;
 
@@ -95,7 +96,7 @@ class ModeSearch {
   Modes run();
 
  private:
-  static constexpr double kLongestPolishStep = 0.5;  // a step is tried from inside the box and may end outside
+  static constexpr double kLongestPolishStep = 0.5;  // a step from inside the box may end outside
 
   struct KnownEnd {
     Vec3 at;
@@ -141,7 +142,7 @@ Modes ModeSearch::run() {
   result_.mode_of.assign(n, -1);
   if (paths_ != nullptr) paths_->assign(n, {});
 
-  // Equal points climb once. Each goes with the first of its kind.
+  // Equal points climb once and have the result of the first of them.
   std::vector<std::size_t> order(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = i;
   const auto key_of = [&](std::size_t i) { return std::array{points_[i].x(), points_[i].y(), points_[i].z()}; };
@@ -244,7 +245,7 @@ int ModeSearch::adopt_end(const Vec3& end, bool* is_new_end) {
   const PolishedMode polished = polish_mode(end, options_.period, neighbours_);
   if (polished.gradient > kGradientGoal) result_.converged = false;
 
-  int mode = -1;  // two ends of truncated climbs may turn out to be one mode
+  int mode = -1;  // two ends of climbs with a truncated kernel may be one mode
   const BoxKey box = boxes_.key(polished.position);
   for_each_neighbour(boxes_, box, [&](const BoxKey& key) {
     const auto found = modes_in_box_.find(key);
@@ -261,13 +262,13 @@ int ModeSearch::adopt_end(const Vec3& end, bool* is_new_end) {
     result_.positions.push_back(polished.position);
     modes_in_box_[box].push_back(mode);
   }
-  // The log density curves by at most 1 and by at least c at the mode. While it curves by at least c / 2 within r, a
-  // climb from within r sqrt(c / 2) cannot leave; r is c over twice the third derivative, for which 5 is ample.
+  // The curvature of the log density is at most 1, and at least c at the mode. If it is at least c / 2 within r of the
+  // mode, a climb from within r sqrt(c / 2) ends there. r is c over twice the third derivative, which is below 5.
   const double c = polished.curvature;
   const double radius = c > 0 ? std::clamp(0.1 * c * std::sqrt(0.5 * c), kSame, 0.05) : kSame;
   Vec3 moved = polished.position - end;
   moved.z() = wrapped(moved.z(), options_.period);
-  const bool near = moved.norm() < radius;  // else the climb ended on a plateau
+  const bool near = moved.norm() < radius;  // otherwise the climb ended on a plateau
   remember(end, near ? radius : kSame, mode);
   if (!near && is_new_mode) remember(polished.position, radius, mode);
   return mode;

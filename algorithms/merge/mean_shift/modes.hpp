@@ -13,13 +13,13 @@ namespace scanbench::merge {
 struct ModeOptions {
   double cutoff = 4.0;      ///< of the kernel while climbing; modes are polished with 6.5
   double period = 0.0;      ///< of the third coordinate, 0: none; else at least min_period(cutoff)
-  double tolerance = 1e-3;  ///< of climbs by eq. 1 alone; what is left is polished away
+  double tolerance = 1e-3;  ///< of climbs by eq. 1 alone, before the polish
   int max_steps = 5000;     ///< mean-shift steps of one climb
   bool accelerate = true;   ///< Newton steps where shifts are short
-  bool capture = true;      ///< end a climb early in the immediate neighbourhood of a known mode
+  bool capture = true;      ///< end a climb as soon as it is next to a known mode
 };
 
-/// Below this period a point could see another one on two sides, where the distance of eq. 4 has a kink.
+/// The smallest period at which no point is within the cut-off on both sides, where the distance of eq. 4 has a kink.
 double min_period(double cutoff);
 
 struct Modes {
@@ -28,10 +28,10 @@ struct Modes {
   bool converged = true;        ///< every mode reached the gradient goal and no climb ran out of steps
 };
 
-/// Where each point goes when it climbs the density of all points. Coordinates are finite, in standard deviations,
-/// below 1e9, the third in [0, period) if there is one. No points: no modes. A function of the sequence of points only
-/// (sort them for independence of order). `paths`, if given, receives every point's trajectory, the point itself
-/// first, its mode last; equal points share the trajectory of the first of them.
+/// The modes to which the points climb in the density of all points. Coordinates are finite, in standard deviations,
+/// below 1e9; the third is in [0, period) if the period is not 0. No points: no modes. The result depends on the
+/// sequence of the points (sort them to be independent of their order). `paths`, if given, receives every point's
+/// trajectory, from the point itself to its mode; equal points have the trajectory of the first of them.
 Modes find_modes(std::span<const Vec3> points, const ModeOptions& options,
                  std::vector<std::vector<Vec3>>* paths = nullptr);
 

@@ -1,4 +1,4 @@
-// Phases 1 and 2 of mean-shift merging (Lakaemper 2009, sections IV.B and IV.C).
+// Modes and labels of phases 1 and 2 (Lakaemper 2009, sections IV.B and IV.C).
 #include "algorithms/merge/mean_shift/phases.hpp"
 
 #include <cmath>
@@ -10,19 +10,19 @@
 namespace scanbench::merge {
 namespace {
 
-// Between modes of one ridge, in standard deviations. A link may turn by a quarter of what separates directions, or a
-// round column would become one cluster without a direction.
+// Largest distance of linked modes of a ridge, in standard deviations. Their directions differ by at most a quarter of
+// a standard deviation; otherwise a round column would become one cluster without a direction.
 constexpr double kRidgeReach = 4.0;
 constexpr double kRidgeTurn = 0.25;
 
-/// Maximum of the density of one phase-1 cluster's centres, written into `result` for its members.
+/// Sets `result` for the members of one cluster of phase 1: the modes of the density of their centres.
 void cluster_one_line(std::span<const Piece> pieces, const std::vector<int>& members, double theta,
                       const Kernels& kernels, bool with_paths, Clustering& result) {
   const Vec2 along = kernel2_axis(kernels.form, theta);
   const Vec2 across = perpendicular(along);
   const double scale_u = std::sqrt(kernels.factor) * kernels.sigma_x_m;
   const double scale_v = std::sqrt(kernels.factor) * kernels.sigma_y_m;
-  // Relative to the first member, so that a map far from the origin loses no digits to the narrow kernel.
+  // Relative to the first member: far from the origin, differences would lose digits compared with the narrow kernel.
   const Vec2 origin = pieces[as_index(members.front())].segment.midpoint();
   std::vector<Vec3> points;
   points.reserve(members.size());
@@ -35,7 +35,8 @@ void cluster_one_line(std::span<const Piece> pieces, const std::vector<int>& mem
       find_modes(points, {.cutoff = kernels.cutoff, .accelerate = kernels.accelerate, .capture = kernels.capture},
                  with_paths ? &paths : nullptr);
   result.converged = result.converged && modes.converged;
-  // A ridge is followed along the line as far as two isolated pieces could be one mode, across no farther than epsilon.
+  // Modes of a ridge are linked along the line up to the distance at which two isolated pieces could be one mode, and
+  // across it up to epsilon.
   const double epsilon = kernels.epsilon2 / std::sqrt(kernels.factor);
   const std::vector<int> label = linked_modes(
       modes.positions, points, {.epsilon = epsilon, .dip = kernels.ridge_dip, .farthest = {kRidgeReach, epsilon, 0.0}});
@@ -44,7 +45,7 @@ void cluster_one_line(std::span<const Piece> pieces, const std::vector<int>& mem
     const Vec2 q = origin + p.x() * scale_u * along + p.y() * scale_v * across;
     return Vec3(q.x(), q.y(), theta);
   };
-  // Number the sub-clusters by their first pieces, not by the order in which modes were found.
+  // Sub-clusters are numbered by their first pieces, not in the order in which modes were found.
   std::vector<int> number(modes.positions.size(), -1);
   for (std::size_t m = 0; m < members.size(); ++m) {
     const auto piece = as_index(members[m]);
@@ -68,7 +69,7 @@ std::vector<std::vector<int>> members_of(std::span<const int> cluster, int clust
 }
 
 Vec2 kernel2_axis(Kernel2 form, double theta_rad) {
-  // Eq. 6 has the sign of b for a clockwise theta: with y up its kernel is long along -theta.
+  // The sign of b in eq. 6 is that of a clockwise theta: with y upwards its kernel is long along -theta.
   const double angle = form == Kernel2::printed ? -theta_rad : theta_rad;
   return {std::cos(angle), std::sin(angle)};
 }

@@ -15,24 +15,24 @@ enum class Kernel2 { rotated, printed };
 /// Lengths in metres, angles in radians.
 struct Kernels {
   double sigma_m;      ///< of K1, in every dimension (eq. 3)
-  double h_rad_per_m;  ///< bandwidth: a difference of direction counts as this many times less metres (eq. 4)
+  double h_rad_per_m;  ///< bandwidth: the difference of direction that counts as one metre (eq. 4)
   double sigma_x_m;    ///< of K2, along the direction of the cluster
   double sigma_y_m;    ///< of K2, across
-  double factor;       ///< of both variances of K2
+  double factor;       ///< factor of both variances of K2
   Kernel2 form;
   double epsilon1_m;  ///< labelling distance of phase 1, in the metric of eq. 4
   double epsilon2;    ///< labelling distance of phase 2, in units of sigma_x along and sigma_y across
-  double ridge_dip;   ///< share of density that may be lost between linked modes of one ridge; 0: no such links
-  double cutoff;      ///< of kernels while climbing, in standard deviations
+  double ridge_dip;   ///< largest fall of density between linked modes of one ridge, as a share; 0: no such links
+  double cutoff;      ///< of kernels during climbs, in standard deviations
   bool accelerate;    ///< Newton steps where shifts are short
-  bool capture;       ///< end climbs next to known modes
+  bool capture;       ///< end climbs as soon as they are next to known modes
 };
 
 /// One entry per piece, clusters numbered in order of their first pieces.
 struct Clustering {
   std::vector<int> cluster;
   std::vector<Vec3> end;  ///< where the piece's point converged: (x, y, alpha), metres and radians in [0, pi)
-  std::vector<std::vector<Vec3>> paths;  ///< from the piece's point to its end; only if asked for
+  std::vector<std::vector<Vec3>> paths;  ///< from the piece's point to its end; empty unless requested
   int clusters = 0;
   bool converged = true;
 };
@@ -40,7 +40,7 @@ struct Clustering {
 /// Eqs 1, 3 and 4: modes of the joint space, labels by connected components within epsilon1.
 Clustering cluster_directions(std::span<const Piece> pieces, const Kernels& kernels, bool with_paths);
 
-/// Eqs 1, 5 and 6: per cluster of phase 1, modes of the centres under the kernel that is long in the direction
+/// Eqs 1, 5 and 6: for each cluster of phase 1, the modes of its centres under a kernel that is long in the direction
 /// directions[cluster]. The third entry of an end is that direction.
 Clustering cluster_collinear(std::span<const Piece> pieces, std::span<const int> cluster1,
                              std::span<const double> directions, const Kernels& kernels, bool with_paths);

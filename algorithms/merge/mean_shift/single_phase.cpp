@@ -18,7 +18,7 @@ namespace {
 constexpr double kBox = 1.0;  // half side of the region that one list of candidates serves, in standard deviations
 const double kBoxDiagonal = std::sqrt(3.0) * kBox;
 
-/// Joint space in units in which no kernel is wider than 1, whatever its direction.
+/// Joint space in units in which no kernel is wider than 1 in any direction.
 class SinglePhase {
  public:
   SinglePhase(std::span<const Piece> pieces, const Kernels& kernels)
@@ -59,7 +59,7 @@ class SinglePhase {
     }
   };
 
-  /// From the point `start` of the grid to a mode of the density under the frame's kernel.
+  /// The mode uphill from the point `start` of the grid, in the density under the frame's kernel.
   Vec3 mode_from(const Vec3& start, const Frame& frame, std::vector<Vec3>* path, bool& converged) const;
   std::vector<int> labels(const std::vector<Vec3>& ends) const;
 
@@ -106,7 +106,7 @@ Vec3 SinglePhase::mode_from(const Vec3& start, const Frame& frame, std::vector<V
   } while (state == ClimbEnd::left_box);
   if (state == ClimbEnd::exhausted) converged = false;
 
-  // The polishing works in the frame's coordinates about `origin`; the angle stays absolute.
+  // The polish uses the frame's coordinates about `origin`; the angle stays absolute.
   const Vec3 origin(centre.x(), centre.y(), 0.0);
   const PolishedMode mode = polish_mode({0.0, 0.0, centre.z()}, period_, [&](const Vec3& at, std::vector<Vec3>& out) {
     out.clear();
@@ -125,7 +125,7 @@ Vec3 SinglePhase::mode_from(const Vec3& start, const Frame& frame, std::vector<V
 }
 
 std::vector<int> SinglePhase::labels(const std::vector<Vec3>& ends) const {
-  // Linked as in phase 2, in the metric of K2 along the mean direction of the two, the angle in that of eq. 4.
+  // Links as in phase 2: the metric is that of K2 along the mean direction of the two ends, and that of eq. 4 in angle.
   DisjointSets sets(ends.size());
   const double reach = kernels_.epsilon2 * (1.0 + 1e-4) * std::max(1.0, 1.0 / std::sqrt(kernels_.factor));
   const PointGrid grid(ends, std::max(reach, 1e-6), period_);
@@ -135,7 +135,7 @@ std::vector<int> SinglePhase::labels(const std::vector<Vec3>& ends) const {
       const Vec2 along = kernel2_axis(kernels_.form, (ends[i].z() + 0.5 * d.z()) * angle_scale_);
       const Frame frame{along, unit_ / scale_u_, unit_ / scale_v_};
       const Vec3 w = frame.from_grid(d);
-      // The factor widens K2 only: epsilon2 counts in sigma_x, sigma_y and the unwidened sigma of the angle.
+      // The factor applies to K2 only: epsilon2 is in units of sigma_x, sigma_y and the sigma of the angle without it.
       const Vec2 uv = w.head<2>() * std::sqrt(kernels_.factor);
       if (uv.squaredNorm() + w.z() * w.z() <= kernels_.epsilon2 * kernels_.epsilon2 * (1.0 + 1e-4)) sets.unite(i, j);
     });
@@ -156,7 +156,7 @@ Clustering SinglePhase::run(std::span<const Piece> pieces, bool with_paths) {
   std::vector<Vec3> ends(n);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = order[k];
-    if (k > 0 && points_[i] == points_[order[k - 1]]) {  // equal points go the same way
+    if (k > 0 && points_[i] == points_[order[k - 1]]) {  // equal points have the same path
       ends[i] = ends[order[k - 1]];
       if (with_paths) result.paths[i] = result.paths[order[k - 1]];
       continue;

@@ -18,7 +18,7 @@ void trace_joint_space(std::span<const Piece> pieces, const Kernels& kernels, Tr
 template <int kPhase>
 void trace_trajectories(const Clustering& clustering, Trace& trace);
 
-/// mode1: where the pieces end in phase 1.
+/// mode1: the mode of each piece in phase 1.
 void trace_ends(const Clustering& first, Trace& trace);
 
 /// mode2, kernel2, and the projection of each member on the cluster's line.

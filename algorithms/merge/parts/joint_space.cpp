@@ -1,4 +1,4 @@
-// Centre-direction joint space and splitting (Lakaemper 2009, section IV.A).
+// Splitting in an order that does not depend on the input's (Lakaemper 2009, section IV.A).
 #include "algorithms/merge/parts/joint_space.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace scanbench::merge {
 namespace {
 
-/// Everything that distinguishes a line, whichever way round it was given.
+/// All numbers of a line, the same for both orders of its ends.
 std::array<double, 10> canonical_key(const MapLine& line) {
   std::array a{line.segment.a.x(), line.segment.a.y()};
   std::array b{line.segment.b.x(), line.segment.b.y()};
@@ -29,7 +29,7 @@ std::array<double, 10> canonical_key(const MapLine& line) {
           line.covariance(1, 1)};
 }
 
-/// Largest absolute coordinate; NaN if any is.
+/// Largest absolute coordinate; NaN if any coordinate is NaN.
 double extent(const Segment& s) {
   double largest = 0.0;
   for (const double v : {s.a.x(), s.a.y(), s.b.x(), s.b.y()}) {
@@ -68,7 +68,7 @@ JointSpace split_lines(std::span<const MapLine> lines, double sigma_m, double lo
     throw ParamError("sigma_m", "sigma_m = " + number_text(sigma_m) + " m is too small for coordinates of " +
                                     number_text(farthest) + " m; allowed for these lines: at least " +
                                     number_text(farthest / kMostSigmas) + " m");
-  // A covariance of NaN compares with nothing and must not upset the sort: such fields count as zero.
+  // NaN in a covariance would make the sort undefined: such entries count as zero.
   for (auto& [key, index] : order)
     for (double& v : key)
       if (std::isnan(v)) v = 0.0;
@@ -93,7 +93,8 @@ double mean_direction(std::span<const double> directions) {
   double c = 0.0;
   double s = 0.0;
   for (const double d : directions) {
-    c += std::cos(2.0 * (d - directions.front()));  // relative: equal directions give themselves back exactly
+    c += std::cos(
+        2.0 * (d - directions.front()));  // relative to the first, so that equal directions give exactly that direction
     s += std::sin(2.0 * (d - directions.front()));
   }
   if (std::hypot(c, s) < 1e-9 * static_cast<double>(directions.size())) return direction_mod_pi(directions.front());

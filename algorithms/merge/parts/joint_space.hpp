@@ -1,4 +1,5 @@
-// Centre-direction joint space of segments and the splitting of long ones (Lakaemper 2009, section IV.A, eq. 2).
+// Splitting of segments into pieces, the points of the centre-direction joint space (Lakaemper 2009, section IV.A, eq.
+// 2).
 #pragma once
 
 #include <span>
@@ -15,27 +16,26 @@ struct Piece {
   std::size_t line = 0;  ///< index of the input line
 };
 
-/// The pieces of all usable lines in an order that does not depend on the order of the lines nor on which end of a
-/// line is called a, except among lines equal in every number.
+/// The pieces of all usable lines. Their order does not depend on the order of the lines, nor on which end of a line is
+/// called a, except among lines equal in every number.
 struct JointSpace {
   std::vector<Piece> pieces;
   std::size_t unusable = 0;  ///< lines left out: not finite, without length, or beyond kFarthest
 };
 
-/// Lines with a coordinate beyond this many metres are taken for garbage.
+/// Lines with a coordinate beyond this many metres are not used.
 inline constexpr double kFarthest = 1e9;
-/// Coordinates larger than this many standard deviations leave no digits for a mode.
+/// At coordinates larger than this many standard deviations a double is too coarse for a mode.
 inline constexpr double kMostSigmas = 1e8;
-/// More pieces than this are refused: they would take about 4 GiB in all stages together.
+/// More pieces than this are refused: all stages together would take about 4 GiB.
 inline constexpr double kMostPieces = 1e7;
 
-/// Cuts every line into ceil(length / longest) equal pieces, one for longest = infinity. Throws ParamError, naming
-/// sigma_m, when that makes more than kMostPieces or a coordinate is larger than kMostSigmas; nothing large is
-/// allocated before this is known.
+/// Cuts every line into ceil(length / longest) equal pieces; one for longest = infinity. Throws ParamError for sigma_m,
+/// before anything large is allocated, if that makes more than kMostPieces or a coordinate exceeds kMostSigmas.
 JointSpace split_lines(std::span<const MapLine> lines, double sigma_m, double longest_m);
 
-/// Mean of undirected directions, in [0, pi): half the angle of the summed doubled ones. Directions that cancel out
-/// (resultant below 1e-9) have none; then the first one is returned. Needs at least one.
+/// Mean of undirected directions, in [0, pi): half the angle of the sum of their unit vectors at doubled angles. If
+/// these cancel (resultant below 1e-9), the first direction is returned. Needs at least one.
 double mean_direction(std::span<const double> directions);
 
 }  // namespace scanbench::merge

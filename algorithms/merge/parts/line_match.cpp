@@ -1,4 +1,4 @@
-// The pairwise relation behind the baselines (see the header).
+// Matching, uniting and neighbour search of segments.
 #include "algorithms/merge/parts/line_match.hpp"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ std::optional<double> match_cost(const Representative& a, const Representative& 
 }
 
 DistinctLines distinct_lines(std::span<const MapLine> lines) {
-  // sigma only bounds the coordinates here.
+  // Here sigma only limits the coordinates.
   const JointSpace space = split_lines(lines, kFarthest / kMostSigmas, kInf);
   DistinctLines distinct;
   distinct.of_line.assign(lines.size(), -1);
@@ -75,7 +75,7 @@ DistinctLines distinct_lines(std::span<const MapLine> lines) {
 NearSegments::NearSegments(std::span<const Representative> segments, const MatchTolerance& rules) {
   double total = 0.0;
   for (const Representative& r : segments) total += r.segment.length();
-  // Points at most `spacing` apart along each segment; long maps get fewer, so that memory stays bounded.
+  // Points at most `spacing` apart along each segment; the spacing grows with the total length to limit memory.
   const double spacing = std::max({0.5, rules.distance_m + rules.gap_m, total / 4e6});
   for (std::size_t i = 0; i < segments.size(); ++i) {
     first_.push_back(points_.size());
@@ -88,8 +88,8 @@ NearSegments::NearSegments(std::span<const Representative> segments, const Match
     }
   }
   first_.push_back(points_.size());
-  // Matching segments have places that are nearest to each other within this; their points lie half a spacing off. The
-  // turned ends of a long pair are covered by the part where they are near.
+  // Matching segments come this close to each other somewhere, and grid points are at most half a spacing from there.
+  // This also holds for long pairs whose ends diverge.
   reach_ = spacing + std::hypot(2.0 * rules.distance_m, rules.gap_m) + 1e-6;
   grid_.emplace(points_, reach_);
 }
@@ -99,7 +99,7 @@ MergeResult result_of(std::span<const MapLine> lines, const DistinctLines& disti
   MergeResult result;
   for (const Representative& g : groups) {
     MapLine line;
-    // Along (cos t, sin t), t in [0, pi), whichever way the members point.
+    // Along (cos t, sin t), t in [0, pi), independent of the directions of the members.
     const Vec2 along = unit(g.segment.direction_angle());
     const bool forward = along.dot(g.segment.b - g.segment.a) >= 0;
     line.segment = forward ? g.segment : Segment{g.segment.b, g.segment.a};

@@ -1,6 +1,6 @@
-// The pairwise relation behind the baselines of segment merging: two segments match when they are nearly parallel, lie
-// near each other across and overlap along (after Amigoni & Gasparini, "Analysis of methods for reducing line segments
-// in maps", IROS 2008, as Lakaemper 2009, section II, describes it).
+// The pairwise relation of the baselines of segment merging: two segments match if they are nearly parallel, close to
+// each other across their common direction, and overlap along it (after Amigoni & Gasparini, "Analysis of methods for
+// reducing line segments in maps", IROS 2008, as described in Lakaemper 2009, section II).
 #pragma once
 
 #include <optional>
@@ -29,16 +29,16 @@ auto match_fields() {
                     field("max_distance_m", &P::max_distance_m, at_least(0), "m",
                           "largest distance of their midpoints across their common direction"),
                     field("max_gap_m", &P::max_gap_m, at_least(0), "m",
-                          "largest gap between their projections; 0: they must overlap")};
+                          "largest gap between their projections; 0: they must overlap or touch")};
 }
 
-/// The rules that such Params state.
+/// The tolerances of such Params.
 template <class P>
 MatchTolerance match_tolerance(const P& p) {
   return {.angle_rad = radians(p.max_angle_deg), .distance_m = p.max_distance_m, .gap_m = p.max_gap_m};
 }
 
-/// A segment that stands for others: the sums that its line is made of, and its extent.
+/// A segment that represents one or more lines, with the sums that determine it.
 struct Representative {
   Segment segment;
   double weight = 0.0;          ///< summed length
@@ -48,26 +48,26 @@ struct Representative {
 
 Representative representative_of(const Segment& segment, double multiplicity);
 
-/// Direction: length-weighted mean of undirected directions. Place: length-weighted mean of midpoints. Extent: of the
-/// projections of both.
+/// The segment that represents both. Its direction is the length-weighted mean of the undirected directions, its place
+/// the length-weighted mean of the midpoints, its extent that of the projections of both.
 Representative united(const Representative& a, const Representative& b);
 
-/// How badly the two match, 0 (collinear) .. 2; nothing if they do not. Symmetric.
+/// Mismatch of the two, from 0 (collinear) to 2; nothing if they do not match. Symmetric.
 std::optional<double> match_cost(const Representative& a, const Representative& b, const MatchTolerance& rules);
 
-/// Lines that may be compared, equal ones collapsed, in an order that does not depend on the order given.
+/// The usable lines without repetitions, in an order that does not depend on the order given.
 struct DistinctLines {
   std::vector<Representative> representatives;
   std::vector<int> of_line;  ///< per input line its representative, -1: unusable
 };
 DistinctLines distinct_lines(std::span<const MapLine> lines);
 
-/// Which segments may match which: a grid over points along them.
+/// The pairs of segments that may match, from a grid of points along the segments.
 class NearSegments {
  public:
   NearSegments(std::span<const Representative> segments, const MatchTolerance& rules);
 
-  /// Calls visit(j) for every j > i that may match i under the rules; the same j possibly several times.
+  /// Calls visit(j) for every j > i that may match i; possibly several times for the same j.
   template <class Visit>
   void for_each_after(std::size_t i, Visit&& visit) const {
     for (std::size_t k = first_[i]; k < first_[i + 1]; ++k)
@@ -84,7 +84,7 @@ class NearSegments {
   std::optional<PointGrid> grid_;
 };
 
-/// The map and the labels when representative r went into group[r] (numbered from 0) and groups[g] stands for it.
+/// The map and the labels, if representative r is in group[r] (numbered from 0) and groups[g] represents group g.
 MergeResult result_of(std::span<const MapLine> lines, const DistinctLines& distinct, const std::vector<int>& group,
                       const std::vector<Representative>& groups);
 

@@ -1,4 +1,4 @@
-// Fixed-radius neighbours by a grid of columns.
+// Sorting of the points into columns.
 #include "algorithms/merge/parts/point_grid.hpp"
 
 #include "core/error.hpp"

@@ -1,4 +1,4 @@
-// Fixed-radius neighbours: points sorted into the columns of a grid, the third coordinate optionally periodic.
+// Fixed-radius neighbour search: points in the columns of a grid, the third coordinate optionally periodic.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace scanbench::merge {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Wraps to [-period / 2, period / 2) a difference of two numbers from [0, period); unchanged for period 0.
+/// The difference of two numbers from [0, period), wrapped to [-period / 2, period / 2); unchanged for period 0.
 inline double wrapped(double difference, double period) {
   if (difference >= 0.5 * period) return period > 0 ? difference - period : difference;
   if (difference < -0.5 * period) return period > 0 ? difference + period : difference;
@@ -27,12 +27,12 @@ inline double reduced(double z, double period) {
   return r < period ? r : 0.0;  // a tiny negative number gives the period by rounding
 }
 
-/// Immutable after construction. Holds a sorted copy of the points: O(n) memory whatever their extent. The order in
-/// which points are visited depends on the points only.
+/// Immutable after construction. Holds a sorted copy of the points in O(n) memory, independent of their extent. The
+/// order in which points are visited depends on the points only.
 class PointGrid {
  public:
   /// Columns of side `cell` > 0 in x and y. Coordinates must be finite and |x / cell|, |y / cell| below 2^52. With
-  /// period > 0 third coordinates must lie in [0, period).
+  /// period > 0 third coordinates must be in [0, period).
   PointGrid(std::span<const Vec3> points, double cell, double period = 0.0);
 
   double period() const { return period_; }

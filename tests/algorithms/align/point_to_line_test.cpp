@@ -276,7 +276,7 @@ TEST(PointToLine, AScanWithoutReturnsKeepsItsStepFromTheOneBefore) {
 TEST(PointToLine, AScanWithoutLinesOfItsOwnIsRegisteredByItsPoints) {
   ScanSeries scans;
   for (std::size_t k = 0; k < path().size(); ++k) {
-    // So fine that the last point of a wall lies within the margin of the corner: without a surface of its own, a point
+    // So fine that the last point of a wall is within the margin of the corner: without a surface of its own, a point
     // between the two would take the next wall for its own.
     const OwnedScan scan = cast(ring_sensor(1440), room(), path()[k]);
     if (k == 3) {

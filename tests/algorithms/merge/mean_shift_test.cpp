@@ -60,9 +60,9 @@ TEST(MeanShift, Phase1HasOneModeForTwoParallelSegmentsOnlyWithinTwoSigma) {
   const ParamSet tight = strict_and("epsilon_sigma", 0.05);
   for (const double direction : {0.0, 0.7, 2.9}) {
     const Vec2 across(-std::sin(direction), std::cos(direction));
-    for (const Vec2& way : {across, perpendicular(across)}) {
+    for (const Vec2& axis : {across, perpendicular(across)}) {
       const auto at = [&](double sigmas) {
-        return merge({centred({1, 2}, direction), centred(Vec2(1, 2) + sigmas * kSigma * way, direction)}, tight);
+        return merge({centred({1, 2}, direction), centred(Vec2(1, 2) + sigmas * kSigma * axis, direction)}, tight);
       };
       EXPECT_EQ(clusters(at(1.9).cluster1), 1) << direction;
       EXPECT_EQ(clusters(at(2.1).cluster1), 2) << direction;
@@ -92,7 +92,7 @@ TEST(MeanShift, TheBandwidthFollowsSigmaUnlessItIsSet) {
 }
 
 // K2 has standard deviations 2 sigma along and sigma / 10 across the cluster's direction; two equal Gaussians are one
-// up to twice that. The centres lie at most 2 sigma apart, so phase 1 keeps them together.
+// up to twice that. The centres are at most 2 sigma apart, so phase 1 keeps them together.
 TEST(MeanShift, Phase2MergesAlongTheDirectionOfTheClusterAndNotAcrossIt) {
   for (const double direction_deg : {0.0, 30.0, 90.0, 120.0, 150.0}) {
     const double direction = radians(direction_deg);

@@ -40,8 +40,8 @@ SensorNoise noise() {
 }
 
 UncertainLine averaged_line(const BeamLine& line, std::span<const BeamReading> readings,
-                            const std::array<std::optional<Beyond>, 2>& beyond, int min_readings = 3) {
-  return UncertainEnds(line, readings, noise(), beyond, min_readings).average(0.5);
+                            const std::array<std::optional<Adjacent>, 2>& adjacent, int min_readings = 3) {
+  return UncertainEnds(line, readings, noise(), adjacent, min_readings).average(0.5);
 }
 
 double squared_error(const BeamLine& line) {
@@ -49,7 +49,7 @@ double squared_error(const BeamLine& line) {
   return e.dot(line.information * e);
 }
 
-TEST(LineEnds, NothingBeyondChangesNothing) {
+TEST(LineEnds, NothingAdjacentChangesNothing) {
   const auto readings = wall_with_a_tail(1, false);
   const auto line = fit_beam_line(readings, noise());
   ASSERT_TRUE(line);
@@ -67,7 +67,7 @@ TEST(LineEnds, ErrorsAreAsLargeAsTheWholeCovarianceSays) {
     const auto readings = wall_with_a_tail(seed, true);
     const auto line = fit_beam_line(readings, noise());
     ASSERT_TRUE(line);
-    const Beyond range{.line = {}, .readings = {}, .range_m = 2.15 / std::cos(0.5)};
+    const Adjacent range{.line = {}, .readings = {}, .range_m = 2.15 / std::cos(0.5)};
     averaged += squared_error(averaged_line(*line, readings, {std::nullopt, range}).line) / trials;
     plain += squared_error(*line) / trials;
   }
@@ -114,8 +114,8 @@ TEST(LineEnds, SideBetweenTwoLinesIsToldFromThem) {
     const Step step = step_with_a_side(seed, 0.5);
     const auto line = fit_beam_line(step.first, noise()), next = fit_beam_line(step.second, noise());
     ASSERT_TRUE(line && next);
-    const Beyond beyond{.line = next, .readings = step.second, .range_m = 0.0};
-    const UncertainLine found = averaged_line(*line, step.first, {std::nullopt, beyond});
+    const Adjacent adjacent{.line = next, .readings = step.second, .range_m = 0.0};
+    const UncertainLine found = averaged_line(*line, step.first, {std::nullopt, adjacent});
     averaged += squared_error(found.line) / trials;
     plain += squared_error(*line) / trials;
     sides += found.side[1] / trials;
@@ -141,8 +141,8 @@ TEST(LineEnds, FirstEndIsTheMirrorImageOfTheLast) {
     const auto line = fit_beam_line(step.first, noise()), next = fit_beam_line(step.second, noise());
     const auto image = fit_beam_line(first, noise()), next_image = fit_beam_line(second, noise());
     ASSERT_TRUE(line && next && image && next_image);
-    const Beyond last{.line = next, .readings = step.second, .range_m = 0.0};
-    const Beyond before{.line = next_image, .readings = second, .range_m = 0.0};
+    const Adjacent last{.line = next, .readings = step.second, .range_m = 0.0};
+    const Adjacent before{.line = next_image, .readings = second, .range_m = 0.0};
     const UncertainLine a = averaged_line(*line, step.first, {std::nullopt, last});
     const UncertainLine b = averaged_line(*image, first, {before, std::nullopt});
     EXPECT_EQ(a.foreign[1], b.foreign[0]);
@@ -156,10 +156,10 @@ TEST(LineEnds, FarReadingsAreForeignAndFewRemain) {
   for (std::size_t i = kReadings - 3; i < kReadings; ++i) readings[i].range_m += 0.12;
   const auto line = fit_beam_line(readings, noise());
   ASSERT_TRUE(line);
-  const std::array<std::optional<Beyond>, 2> beyond = {
-      std::nullopt, Beyond{.line = {}, .readings = {}, .range_m = 2.3 / std::cos(0.5)}};
-  EXPECT_EQ(averaged_line(*line, readings, beyond).foreign[1], 3);
-  EXPECT_EQ(averaged_line(*line, readings, beyond, kReadings).foreign[1], 0);
+  const std::array<std::optional<Adjacent>, 2> adjacent = {
+      std::nullopt, Adjacent{.line = {}, .readings = {}, .range_m = 2.3 / std::cos(0.5)}};
+  EXPECT_EQ(averaged_line(*line, readings, adjacent).foreign[1], 3);
+  EXPECT_EQ(averaged_line(*line, readings, adjacent, kReadings).foreign[1], 0);
 }
 
 }  // namespace
