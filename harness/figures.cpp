@@ -8,6 +8,7 @@
 #include "core/registry.hpp"
 #include "harness/atomic_file.hpp"
 #include "harness/cell_files.hpp"
+#include "harness/line_verdicts.hpp"
 #include "harness/recording_folder.hpp"
 #include "harness/run_folder.hpp"
 #include "harness/scenario_modules.hpp"
@@ -80,11 +81,11 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenar
     const sim::SimulationInput simulated = simulation_input(scenario, seed);
     input.waypoints = simulated.trajectory.waypoints;
     input.continuous = simulated.trajectory.continuous;
-    for (const sim::Circle& circle : simulated.world.circles)
-      input.round_things.push_back({circle.center, circle.radius_m});
+    for (const sim::Circle& circle : simulated.world.circles) input.circles.push_back({circle.center, circle.radius_m});
     for (const sim::MovingBody& body : simulated.world.moving) input.body_paths.push_back(body.path);
   }
-  for (const auto& loaded : results) input.results.push_back({loaded.pipeline, &loaded.result, &loaded.trace});
+  for (const auto& loaded : results)
+    input.results.push_back({loaded.pipeline, &loaded.result, &loaded.trace, line_verdicts(recording, loaded.result)});
 
   std::vector<FigureFile> files;
   for (std::size_t i = 0; i < scenario.figures.size(); ++i) {

@@ -1,6 +1,6 @@
 #include "render/figures/mean_shift/rows.hpp"
 #include "render/figures/parts/clusters.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ void for_rows(const TraceRows& trace, std::string_view name, std::size_t numbers
     if (row.values.size() == numbers) visit(row.values);
 }
 
-/// The element a row's index speaks of; nullptr beyond the end.
+/// The element at a row's index; nullptr beyond the end.
 template <class T>
 T* element(std::vector<T>& all, double index) {
   return index >= 0 && index < static_cast<double>(all.size()) ? &all[static_cast<std::size_t>(index)] : nullptr;
