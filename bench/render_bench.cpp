@@ -32,7 +32,7 @@ Scene segments_scene(std::int64_t panels) {
   for (std::int64_t p = 0; p < panels; ++p)
     scene.panels.push_back(
         {.title = "panel",
-         .items = {segments(1654, static_cast<std::uint32_t>(p), method_style(static_cast<std::size_t>(p)).color)}});
+         .items = {segments(1654, static_cast<std::uint32_t>(p), method_style(std::to_string(p)).color)}});
   return scene;
 }
 

@@ -14,19 +14,33 @@
 
 namespace scanbench::render {
 
+/// How a line found in a scan compares with the true lines of that scan.
+enum class LineVerdict {
+  right,
+  split,       ///< agrees with a true line that another line already explains
+  false_line,  ///< agrees with none
+  unjudged     ///< too short to count
+};
+
+struct ScanVerdict {
+  std::vector<LineVerdict> lines;  ///< of the lines found, in their order
+  std::vector<Segment> missed;     ///< true lines that no line explains, sensor frame
+};
+
 struct NamedResult {
   std::string pipeline;
   const PipelineResult* result;
-  const TraceRows* trace = nullptr;  ///< the rows that the figures ask for; absent if none were kept
+  const TraceRows* trace = nullptr;     ///< the rows that the figures ask for; absent if none were kept
+  std::vector<ScanVerdict> verdicts{};  ///< per frame; empty without truth
 };
 
-/// Round things of a simulated world, which no line describes.
-struct RoundThing {
+/// A round object of a simulated world.
+struct Circle {
   Vec2 center;  ///< [m], world frame
   double radius_m = 0;
 };
 
-/// What one pipeline scored over all seeds of a run, with what it was set to.
+/// The metrics of one pipeline over all seeds of a run, with its parameters.
 struct MeasuredPipeline {
   std::string pipeline;
   std::map<std::string, ParamSet> slots;               ///< "merge mean_shift" and the like, with all parameters
@@ -38,11 +52,11 @@ struct FigureInput {
   std::string title;  ///< the scenario's name
   const Recording& recording;
   NamedPoints waypoints;  ///< may be empty
-  std::vector<RoundThing> round_things{};
+  std::vector<Circle> circles{};
   std::vector<std::vector<Vec2>> body_paths{};  ///< of bodies that move through the world
-  /// Does a way lead from each pose to the next? False: the sensor was put down at each of them.
+  /// Does the sensor move from each pose to the next? False: it was put down at each of them.
   bool continuous = true;
-  std::vector<NamedResult> results;          ///< in the scenario's order; a method keeps its colour by its place here
+  std::vector<NamedResult> results;          ///< in the scenario's order
   std::vector<MeasuredPipeline> measured{};  ///< in the scenario's order
 };
 
@@ -57,7 +71,7 @@ class Figure {
  public:
   static constexpr std::string_view kKind = "figure";
   virtual ~Figure() = default;
-  /// Rows of this pipeline's trace that it draws from, "slot.name": the harness keeps them for it.
+  /// Rows of this pipeline's trace that it draws from, "slot.name". The harness keeps them.
   virtual std::vector<std::string> trace_rows(std::string_view /*pipeline*/) const { return {}; }
   /// No scenes if there is nothing to show (no truth, no map).
   virtual std::vector<NamedScene> draw(const FigureInput& input) const = 0;

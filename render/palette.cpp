@@ -4,18 +4,50 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
 
 namespace scanbench::render {
 
-MethodStyle method_style(std::size_t index) {
-  constexpr std::array kColors{kBlue, kVermillion, kGreen, kPurple, kOrange, kSky, kBlack};
-  constexpr std::array kDashes{Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted};
-  constexpr std::array kMarkers{Marker::circle, Marker::square,        Marker::triangle, Marker::diamond,
-                                Marker::plus,   Marker::triangle_down, Marker::cross};
-  // Dash and marker move on with each round of colours: the three repeat together after 28 rounds.
+namespace {
+
+constexpr std::array kColors{kBlue, kVermillion, kGreen, kPurple, kOrange, kSky, kBlack};
+constexpr std::array kDashes{Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted};
+constexpr std::array kMarkers{Marker::circle, Marker::square,        Marker::triangle, Marker::diamond,
+                              Marker::plus,   Marker::triangle_down, Marker::cross};
+constexpr std::size_t kLooks = kColors.size() * kDashes.size() * kMarkers.size();
+
+/// Dash and marker move on with each round of colours: the three repeat together after 28 rounds.
+MethodStyle look(std::size_t index) {
   const std::size_t round = index / kColors.size();
   const std::size_t color = index % kColors.size();
   return {kColors[color], kDashes[(color + round) % kDashes.size()], kMarkers[(color + round) % kMarkers.size()]};
+}
+
+/// FNV-1a. The salt is one with which the methods that come with this program, two of a colour at most, look different.
+std::size_t look_of(std::string_view name) {
+  constexpr std::uint64_t kSalt = 101521;
+  std::uint64_t hash = 14695981039346656037U ^ kSalt;
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  return static_cast<std::size_t>((hash ^ hash >> 32) % kLooks);
+}
+
+}  // namespace
+
+MethodStyle method_style(std::string_view name) {
+  return look(look_of(name));
+}
+
+std::vector<MethodStyle> method_styles(std::span<const std::string> names) {
+  std::map<std::string_view, std::size_t> looks;
+  for (const std::string& name : names) looks[name] = 0;
+  std::set<std::size_t> taken;
+  for (auto& [name, index] : looks)  // by the alphabet
+    for (index = look_of(name); taken.size() < kLooks && !taken.insert(index).second;) index = (index + 1) % kLooks;
+  std::vector<MethodStyle> styles;
+  for (const std::string& name : names) styles.push_back(look(looks.at(name)));
+  return styles;
 }
 
 Color lighten(Color color, double share) {

@@ -1,9 +1,12 @@
 // Colours of the figures: Okabe and Ito, "Color universal design", 2008; safe for colour-blind readers and in print.
 // Without their yellow, whose contrast to white is 1.3: no thin line of it can be seen on paper. That of the others is
-// 2.2 or more; darker ones would be harder to tell apart.
+// 2.2 or more; darker ones would be harder to distinguish.
 #pragma once
 
-#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "render/scene.hpp"
 
@@ -16,14 +19,20 @@ inline constexpr Color kPurple{0xCC, 0x79, 0xA7};
 inline constexpr Color kOrange{0xE6, 0x9F, 0x00};
 inline constexpr Color kSky{0x56, 0xB4, 0xE9};
 
-/// How a method looks in every figure: by its place in the scenario. Seven colours; the eighth method has the first
-/// colour again with another dash and marker.
+/// How a method looks in every figure.
 struct MethodStyle {
   Color color;
   Dash dash = Dash::solid;
   Marker marker = Marker::circle;
+  bool operator==(const MethodStyle&) const = default;
 };
-MethodStyle method_style(std::size_t index);
+
+/// By the name alone, so that a method looks alike in every scenario: one of 196 looks of seven colours. Two names may
+/// share a colour, seldom a whole look.
+MethodStyle method_style(std::string_view name);
+
+/// The same for the methods of one figure; where two share a whole look, the later one in the alphabet takes the next.
+std::vector<MethodStyle> method_styles(std::span<const std::string> names);
 
 /// Mixed with white: 0 gives the colour, 1 white.
 Color lighten(Color color, double share);

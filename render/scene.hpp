@@ -75,8 +75,7 @@ struct Text {
   std::string text{};
   Vec2 offset_pt{0.0, 3.0};
   Color color = kBlack;
-  double scale = 1.0;   ///< times the scene's font size
-  bool halo = true;     ///< a white rim, so that it can be read over lines
+  bool halo = true;     ///< a white rim under it, which covers points and dashed lines but no solid line
   bool movable = true;  ///< may be put on another side of its point if it would cover a line, a marker or another label
   bool upwards = false;  ///< turned by 90 degrees: reads from bottom to top
 };
@@ -96,7 +95,7 @@ struct Bars {
   Color fill = kGrey;
 };
 
-/// Vertical intervals [low, high] at x with end caps.
+/// Vertical intervals [low, high] at x with end caps; an end outside the panel is an arrow at its edge.
 struct ErrorBars {
   std::vector<std::array<double, 3>> intervals{};  ///< x, low, high
   Stroke stroke{};
@@ -120,10 +119,12 @@ struct Panel {
   Axis y{.label = "y [m]"};
   bool axes = true;          ///< false: no box, ticks and grid; what is drawn brings its own
   bool equal_aspect = true;  ///< a metre is as long in x as in y: ranges grow to fill the box
+  /// "point" or "line": a corner says how many dots, or segments with an end there, are outside the box, if any.
+  std::string tell_outside{};
   std::vector<Item> items{};
 };
 
-/// A swatch with a text, below the panels: never over the data.
+/// A swatch with a text, below the panels or in free cells of their grid: never over the data.
 struct LegendEntry {
   std::string text{};
   std::optional<Stroke> stroke{};
@@ -143,11 +144,11 @@ struct Scene {
   double width_in = kSingleColumnIn;
   double height_in = 0.0;  ///< 0: as the content needs
   double max_height_in = 8.5;
-  double font_pt = 8.0;
+  double font_pt = 8.0;  ///< of all texts but the title, which is larger
   std::string title{};
   std::vector<Panel> panels{};
   int columns = 0;           ///< 0: at most three, chosen by the number of panels
-  bool share_axes = false;   ///< all panels have one range; tick labels stand at the outer edges only
+  bool share_axes = false;   ///< all panels have one range; tick labels are at the outer edges only
   double box_aspect = 0.66;  ///< height over width of panels without equal aspect
   std::vector<LegendEntry> legend{};
   bool scale_bar = false;  ///< a bar of a round length in metres beside the legend

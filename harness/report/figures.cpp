@@ -16,6 +16,7 @@
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/traces.hpp"
+#include "harness/report/line_verdicts.hpp"
 #include "render/backends/cairo.hpp"
 #include "render/backends/gl.hpp"
 #include "render/figure.hpp"
@@ -77,11 +78,11 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenar
     const sim::SimulationInput simulated = simulation_input(scenario, seed);
     input.waypoints = simulated.trajectory.waypoints;
     input.continuous = simulated.trajectory.continuous;
-    for (const sim::Circle& circle : simulated.world.circles)
-      input.round_things.push_back({circle.center, circle.radius_m});
+    for (const sim::Circle& circle : simulated.world.circles) input.circles.push_back({circle.center, circle.radius_m});
     for (const sim::MovingBody& body : simulated.world.moving) input.body_paths.push_back(body.path);
   }
-  for (const auto& loaded : results) input.results.push_back({loaded.pipeline, &loaded.result, &loaded.trace});
+  for (const auto& loaded : results)
+    input.results.push_back({loaded.pipeline, &loaded.result, &loaded.trace, line_verdicts(recording, loaded.result)});
 
   std::vector<FigureFile> files;
   for (std::size_t i = 0; i < scenario.figures.size(); ++i) {

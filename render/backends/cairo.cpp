@@ -83,7 +83,7 @@ class Painter {
     cairo_fill(cr_);
   }
 
-  // A stroke without length and with round caps is a disc: the shortest way to say so in SVG and PDF.
+  // A stroke without length and with round caps is a disc: the shortest code for it in SVG and PDF.
   void paint(const DotsShape& s) {
     color(s.color);
     cairo_set_line_width(cr_, s.diameter);
@@ -143,7 +143,7 @@ void draw(cairo_surface_t* made, const Layout& layout) {
 }
 
 /// Cairo numbers its surfaces through the life of the process and calls the glyphs of every file alike. Ids from the
-/// content instead: equal scenes give equal bytes, and several figures can stand in one HTML page.
+/// content instead: equal scenes give equal bytes, and one HTML page can hold several figures.
 std::string with_ids_of_content(const std::string& svg) {
   constexpr std::array<std::string_view, 4> kIntroductions{"id=\"", "href=\"#", "url(#", "url(&quot;#"};
   struct Found {

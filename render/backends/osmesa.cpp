@@ -18,7 +18,8 @@ std::string last_error() {
 template <class Function>
 void find(void* library, const char* name, Function& function) {
   function = reinterpret_cast<Function>(dlsym(library, name));
-  if (function == nullptr) throw ConfigError("PNG figures need OSMesa with " + std::string(name) + ": " + last_error());
+  if (function == nullptr)
+    throw ConfigError("PNG figures need OSMesa with the function " + std::string(name) + ": " + last_error());
 }
 
 }  // namespace

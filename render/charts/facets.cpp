@@ -1,4 +1,4 @@
-// Panels of a facet chart, back to front: the others, the reference, the curves.
+// Items of each panel, from back to front: the other methods, the reference, the curves.
 #include "render/charts/facets.hpp"
 
 #include "render/palette.hpp"

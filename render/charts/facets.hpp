@@ -1,5 +1,5 @@
-// Small multiples of curves: one panel a method, the others' curves faint behind it. A dozen methods stay apart without
-// a legend of a dozen colours, and every panel can still be held against all.
+// Small multiples of curves: one panel for each method, with the curves of the others in grey behind it. A dozen
+// methods need no legend of a dozen colours, and each can still be compared with all.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct FacetCurve {
 struct Facet {
   std::string title{};
   std::vector<FacetCurve> curves{};  ///< at most two: discs, then hollow squares
-  std::vector<Vec2> reference{};     ///< a line to hold them against; may be empty
+  std::vector<Vec2> reference{};     ///< a line to compare them with; may be empty
 };
 
 struct FacetChart {
@@ -32,8 +32,8 @@ struct FacetChart {
   std::string others_name{};               ///< empty: the first curves of the other facets are not drawn
 };
 
-/// Four columns, five for more than a dozen facets, at the width of two text columns: labels of the x axis must be
-/// short. Facets that have no points keep their place.
+/// Four columns, five for more than a dozen facets, at the width of two text columns, so labels of the x axis must be
+/// short. Facets without points keep their cell.
 Scene facet_scene(const FacetChart& chart);
 
 }  // namespace scanbench::render

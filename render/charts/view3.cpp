@@ -15,7 +15,6 @@ constexpr Color kEdge{70, 70, 70};
 constexpr Color kWallFill{247, 247, 247};
 constexpr Color kWallGrid{222, 222, 222};
 constexpr double kTickPt = 3.0;
-constexpr double kTickSize = 0.88;  // of the font, as on flat axes
 
 }  // namespace
 
@@ -102,9 +101,8 @@ void View3::add_axis(int axis, std::array<bool, 3> at, double pt, double font_pt
     p[static_cast<Eigen::Index>(axis)] = value;
     const Vec2 q = project(p);
     lines.segments.push_back({q, q + kTickPt * pt * out});
-    panel.items.emplace_back(
-        Text{.at = q, .text = label, .offset_pt = (kTickPt + 2.0) * out, .scale = kTickSize, .movable = false});
-    widest = std::max(widest, Font::get().width_em(label) * kTickSize * font_pt);
+    panel.items.emplace_back(Text{.at = q, .text = label, .offset_pt = (kTickPt + 2.0) * out, .movable = false});
+    widest = std::max(widest, Font::get().width_em(label) * font_pt);
   }
   panel.items.emplace_back(std::move(lines));
   const double past_ticks = kTickPt + 5.0 + std::max(std::abs(out.x()) * widest, axis == 2 ? 0.0 : font_pt);
@@ -140,15 +138,15 @@ Panel View3::panel(double width_pt, double font_pt) const {
   return panel;
 }
 
-void add_points_by_depth(const View3& view, std::span<const Vec3> points, const Points& looks, Panel& panel) {
+void add_points_by_depth(const View3& view, std::span<const Vec3> points, const Points& style, Panel& panel) {
   constexpr int kSlices = 8;
   constexpr double kPalest = 0.55;
   std::array<Points, kSlices> slices;
   for (int i = 0; i < kSlices; ++i) {
     Points& slice = slices[static_cast<std::size_t>(i)];
-    slice = looks;
+    slice = style;
     slice.points.clear();
-    slice.color = lighten(looks.color, kPalest * (1.0 - static_cast<double>(i) / (kSlices - 1)));
+    slice.color = lighten(style.color, kPalest * (1.0 - static_cast<double>(i) / (kSlices - 1)));
   }
   for (const Vec3& p : points)
     if (p.allFinite())

@@ -20,11 +20,11 @@ struct Axis3 {
   std::vector<std::pair<double, std::string>> ticks{};  ///< absent: round numbers
 };
 
-/// x and y have one scale, the height is chosen for the eye. The camera looks at the box from above.
+/// x and y have one scale, the height is chosen for the eye. The camera style at the box from above.
 class View3 {
  public:
   struct Camera {
-    double azimuth_deg = -60.0;  ///< where the camera stands: 0 on the side of large x, 90 on that of large y
+    double azimuth_deg = -60.0;  ///< of the camera: 0 on the side of large x, 90 on that of large y
     double elevation_deg = 24.0;
     double height = 0.85;  ///< of the box, relative to the longer one of its x and y sides
   };
@@ -35,8 +35,8 @@ class View3 {
   /// Nearness to the camera: 0 at the farthest corner of the box, 1 at the nearest.
   double nearness(const Vec3& p) const;
 
-  /// A panel `width_pt` wide that holds the box: floor and far walls with their grids, axes with ticks and labels.
-  /// Items pushed behind stand in front of it.
+  /// A panel of the given width that holds the box: floor and far walls with their grids, axes with ticks and labels.
+  /// Items pushed later are in front of it.
   Panel panel(double width_pt, double font_pt) const;
 
  private:
@@ -52,6 +52,6 @@ class View3 {
 };
 
 /// Points from far to near, in slices of one shade: the farther, the paler.
-void add_points_by_depth(const View3& view, std::span<const Vec3> points, const Points& looks, Panel& panel);
+void add_points_by_depth(const View3& view, std::span<const Vec3> points, const Points& style, Panel& panel);
 
 }  // namespace scanbench::render

@@ -7,7 +7,7 @@
 #include "core/registry.hpp"
 #include "render/figures/parts/clusters.hpp"
 #include "render/figures/parts/frames.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {
@@ -68,10 +68,11 @@ class Alignment : public Figure {
   static void add_panel(const FigureInput& input, const std::string& title, const std::vector<Pose2>& poses,
                         std::size_t panels, Scene& scene) {
     const Recording& recording = input.recording;
-    Panel panel{.title = fmt::format("{}) {}", static_cast<char>('a' + scene.panels.size()), title)};
+    Panel panel{.title = fmt::format("{}) {}", static_cast<char>('a' + scene.panels.size()), title),
+                .tell_outside = "point"};
     std::vector<Vec2> points;
     if (poses.size() <= kMostColored) {
-      // Neighbours on the way overlap most, so they differ most.
+      // Neighbours along the path overlap most, so their colours differ most.
       std::vector<Vec2> places;
       places.reserve(poses.size());
       for (const Pose2& pose : poses) places.push_back(pose.translation());
@@ -89,7 +90,7 @@ class Alignment : public Figure {
       panel.items.emplace_back(Points{.points = points, .color = kScanColor, .size_pt = 0.7});
     }
     add_path(input, poses, kPathStroke, panel);
-    if (!recording.truth) set_robust_ranges(panel, points);
+    set_view(points, {}, panel);
     if (points.empty()) add_note("no scan points", panel);
     scene.panels.push_back(std::move(panel));
   }

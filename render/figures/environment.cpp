@@ -1,4 +1,4 @@
-// The world as it is and one scan of it: walls with their labels, the way, its named points, the returns of one pose.
+// The world as it is and one scan of it: walls with their labels, the path, the waypoints, the returns of one pose.
 // Of a recorded log: the points of all scans in place of walls.
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/registry.hpp"
 #include "render/figures/parts/frames.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {
@@ -35,8 +35,9 @@ class Environment : public Figure {
     const bool has_walls = recording.truth && !recording.truth->walls.empty();
     if (!has_frames && !has_walls) return {};
     Scene scene{.width_in = params_.width_in, .title = input.title, .scale_bar = true};
-    Panel panel;
+    Panel panel{.tell_outside = "point"};
     std::string caption = input.title + ":";
+    std::vector<Vec2> seen;  // of the scan that is shown
 
     const PlacedFrames placed = place_frames(recording, nullptr);
     if (has_walls) {
@@ -46,7 +47,7 @@ class Environment : public Figure {
       caption += labels ? " walls with their labels" : " walls";
     } else {
       const std::vector<Vec2> points = all_points(recording, placed.world_from_sensor, kPointBudget);
-      set_robust_ranges(panel, points);
+      set_view(points, {}, panel);
       panel.items.emplace_back(Points{.points = points, .color = kFaintPoints, .size_pt = 0.8});
       scene.legend.push_back(
           {.text = "points of all scans", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.0});
@@ -60,10 +61,12 @@ class Environment : public Figure {
     }
     if (has_frames && params_.scan) {
       const std::size_t frame = shown_frame(recording, params_.frame);
-      add_scan(recording, frame, placed.world_from_sensor[frame], panel, scene);
+      seen = frame_points(recording, frame, placed.world_from_sensor[frame]);
+      add_scan(seen, placed.world_from_sensor[frame], panel, scene);
       caption += fmt::format(", and the returns of scan {} with the pose of the sensor", frame + 1);
     }
     add_waypoints(input.waypoints, panel, scene);
+    if (has_walls) set_view(seen, world_of(input, placed), panel);
     scene.panels.push_back(std::move(panel));
     return {{"environment", caption + ".", std::move(scene)}};
   }
@@ -77,14 +80,13 @@ class Environment : public Figure {
     if (!labels) return;
     for (const Wall& wall : truth.walls) {
       const Vec2 behind = -perpendicular(wall.segment.direction());  // free space is on the left
-      panel.items.emplace_back(
-          Text{.at = wall.segment.midpoint(), .text = wall.label, .offset_pt = 2.6 * behind, .scale = 0.88});
+      panel.items.emplace_back(Text{.at = wall.segment.midpoint(), .text = wall.label, .offset_pt = 2.6 * behind});
     }
   }
 
   static void add_distractors(const FigureInput& input, Panel& panel, Scene& scene) {
     const Stroke round{kWallColor, 0.8, Dash::solid}, moving{kGrey, 0.8, Dash::dashed};
-    for (const RoundThing& thing : input.round_things) {
+    for (const Circle& thing : input.circles) {
       Polyline circle{.stroke = round, .closed = true};
       for (int k = 0; k < 48; ++k) {
         const double angle = 2 * kPi * k / 48;
@@ -94,12 +96,23 @@ class Environment : public Figure {
     }
     for (const std::vector<Vec2>& path : input.body_paths)
       panel.items.emplace_back(Polyline{.points = path, .stroke = moving});
-    if (!input.body_paths.empty()) scene.legend.push_back({.text = "way of a moving body", .stroke = moving});
+    if (!input.body_paths.empty()) scene.legend.push_back({.text = "path of a moving body", .stroke = moving});
   }
 
-  static void add_scan(const Recording& recording, std::size_t frame, const Pose2& pose, Panel& panel, Scene& scene) {
-    panel.items.emplace_back(
-        Points{.points = frame_points(recording, frame, pose), .color = kScanColor, .size_pt = 1.5});
+  /// Points that the view must hold: returns far away from them may be outside.
+  static std::vector<Vec2> world_of(const FigureInput& input, const PlacedFrames& placed) {
+    std::vector<Vec2> world = ends_of(true_walls(input.recording, Pose2()));
+    for (const Pose2& pose : placed.world_from_sensor) world.push_back(pose.translation());
+    for (const auto& [name, point] : input.waypoints) world.push_back(point);
+    for (const Circle& thing : input.circles)
+      for (const Vec2& corner : {Vec2(thing.radius_m, thing.radius_m), Vec2(-thing.radius_m, -thing.radius_m)})
+        world.emplace_back(thing.center + corner);
+    for (const std::vector<Vec2>& path : input.body_paths) world.insert(world.end(), path.begin(), path.end());
+    return world;
+  }
+
+  static void add_scan(const std::vector<Vec2>& points, const Pose2& pose, Panel& panel, Scene& scene) {
+    panel.items.emplace_back(Points{.points = points, .color = kScanColor, .size_pt = 1.5});
     panel.items.emplace_back(Arrow{.pose = pose, .length_pt = 15, .stroke = {kScanColor, 1.0, Dash::solid}});
     scene.legend.push_back(
         {.text = "one scan", .marker = Marker::dot, .marker_color = kScanColor, .marker_size_pt = 2.4});

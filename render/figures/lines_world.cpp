@@ -1,13 +1,22 @@
 // All lines of all frames, placed in the world by the poses that the pipeline had: small multiples.
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "core/registry.hpp"
 #include "render/figures/parts/frames.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/judged_lines.hpp"
+#include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {
 namespace {
+
+const Stroke kWallStroke{kWallColor, 0.35, Dash::solid};
+const Stroke kPathStroke{kGrey, 0.5, Dash::dotted};
+constexpr double kLineWidth = 0.6;
 
 class LinesWorld : public Figure {
  public:
@@ -21,40 +30,51 @@ class LinesWorld : public Figure {
       for (const ScanLines& lines : named.result->lines) total += lines.lines.size();
     if (recording.observed.frames.empty() || total == 0) return {};
     const std::size_t stride = (total + kSegmentBudget - 1) / kSegmentBudget;
+    const auto groups = groups_of_equal(input.results.size(), [&](std::size_t i, std::size_t k) {
+      return placed_lines(input, i, 1) == placed_lines(input, k, 1);
+    });
 
-    Scene scene = small_multiples(input.results.size());
+    Scene scene = small_multiples(groups.size());
     scene.title = input.title + ": lines of all scans";
-    const Stroke wall_stroke{kWallColor, 0.35, Dash::solid}, path_stroke{kGrey, 0.5, Dash::dotted};
-    std::vector<Vec2> ends;
-    for (std::size_t i = 0; i < input.results.size(); ++i) {
-      const std::string& pipeline = input.results[i].pipeline;
-      const PipelineResult* result = input.results[i].result;
-      const PlacedFrames placed = place_frames(recording, result);
-      Panel panel;
-      add_path(input, placed.world_from_sensor, path_stroke, panel);
-      Lines lines{.stroke = {method_color(input.results, i), 0.6, Dash::solid}};
+    const std::vector<Vec2> wall_ends = ends_of(true_walls(recording, Pose2()));
+    bool judged = false;
+    for (const auto& group : groups) {
+      const NamedResult& named = input.results[group.front()];
+      const PlacedFrames placed = place_frames(recording, named.result);
+      const JudgedLines lines = placed_lines(input, group.front(), stride);
+      judged = judged || !named.verdicts.empty();
       std::size_t found = 0;
-      for (std::size_t f = 0; f < std::min(result->lines.size(), placed.world_from_sensor.size()); ++f) {
-        found += result->lines[f].lines.size();
-        if (f % stride != 0) continue;
-        for (const LineFeature& line : result->lines[f].lines)
-          lines.segments.push_back(placed.world_from_sensor[f] * line.segment);
-      }
-      for (const Segment& s : lines.segments) ends.insert(ends.end(), {s.a, s.b});
-      panel.title = fmt::format("{}: {}, {}", pipeline, counted(found, "line"), to_string(placed.source));
-      panel.items.emplace_back(std::move(lines));
-      if (recording.truth) panel.items.emplace_back(Lines{true_walls(recording, Pose2()), wall_stroke});
+      for (const ScanLines& scan : named.result->lines) found += scan.lines.size();
+      Panel panel{.tell_outside = "line"};
+      panel.title =
+          fmt::format("{}: {}, {}", names_of(input.results, group), counted(found, "line"), to_string(placed.source));
+      add_path(input, placed.world_from_sensor, kPathStroke, panel);
+      lines.draw({method_style(named.pipeline).color, kLineWidth, Dash::solid}, false, panel);
+      if (recording.truth) panel.items.emplace_back(Lines{true_walls(recording, Pose2()), kWallStroke});
+      set_view(ends_of(lines.found()), wall_ends, panel);
       scene.panels.push_back(std::move(panel));
     }
-    if (!recording.truth)
-      for (Panel& panel : scene.panels) set_robust_ranges(panel, ends);
-    if (recording.truth) scene.legend.push_back({.text = "true walls", .stroke = wall_stroke});
-    add_method_legend(input.results, 0.9, scene);
-    scene.legend.push_back(path_legend(input, path_stroke));
+    if (recording.truth) scene.legend.push_back({.text = "true walls", .stroke = kWallStroke});
+    if (judged)
+      add_verdict_legend(kLineWidth, scene);
+    else
+      add_method_legend(input.results, groups, 0.9, scene);
+    scene.legend.push_back(path_legend(input, kPathStroke));
     const std::string thinned = stride > 1 ? fmt::format(" Only one scan in {} is drawn.", stride) : "";
     return {{"lines_world",
              input.title + ": the lines found in all scans, placed by the poses of each pipeline." + thinned,
              std::move(scene)}};
+  }
+
+ private:
+  /// In the world; of every `stride`-th scan.
+  static JudgedLines placed_lines(const FigureInput& input, std::size_t i, std::size_t stride) {
+    const NamedResult& named = input.results[i];
+    const PlacedFrames placed = place_frames(input.recording, named.result);
+    JudgedLines lines;
+    for (std::size_t f = 0; f < std::min(named.result->lines.size(), placed.world_from_sensor.size()); f += stride)
+      lines.add(named.result->lines[f], named.verdicts, f, placed.world_from_sensor[f]);
+    return lines;
   }
 };
 

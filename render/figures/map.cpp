@@ -1,11 +1,13 @@
 // The line map of each pipeline that makes one, over the points it was made from: small multiples.
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/registry.hpp"
 #include "render/figures/parts/frames.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {
@@ -13,53 +15,69 @@ namespace {
 
 constexpr std::size_t kMostLinesWithEnds = 200;  // in any panel: the ends of more would hide the lines
 
+const Stroke kPathStroke{kGrey, 0.5, Dash::dotted};
+constexpr double kLineWidth = 1.2;
+
 class Map : public Figure {
  public:
   using Params = NoParams;
   explicit Map(const Params&) {}
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {
-    const Recording& recording = input.recording;
-    const auto has_map = [](const NamedResult& r) { return !r.result->map.lines.empty(); };
-    const auto maps = static_cast<std::size_t>(std::count_if(input.results.begin(), input.results.end(), has_map));
-    if (maps == 0) return {};
-
-    Scene scene = small_multiples(maps);
-    scene.title = input.title + ": line maps";
+    std::vector<std::size_t> with_map;
     std::size_t most_lines = 0;
-    for (const NamedResult& r : input.results) most_lines = std::max(most_lines, r.result->map.lines.size());
-    const Stroke path_stroke{kGrey, 0.5, Dash::dotted};
-    std::vector<LegendEntry> swatches;  // a colour of the panels each
     for (std::size_t i = 0; i < input.results.size(); ++i) {
-      if (!has_map(input.results[i])) continue;
-      const std::string& pipeline = input.results[i].pipeline;
-      const PipelineResult* result = input.results[i].result;
-      const PlacedFrames placed = place_frames(recording, result);
-      Panel panel;
-      panel.title = pipeline + ": " + counted(result->map.lines.size(), "line");
-      panel.items.emplace_back(Points{.points = all_points(recording, placed.world_from_sensor, kPointBudget / maps),
-                                      .color = kFaintPoints,
-                                      .size_pt = 0.8});
-      Lines lines{.stroke = {method_color(input.results, i), 1.2, Dash::solid}};
-      if (swatches.empty() || swatches.back().stroke->color != lines.stroke.color)
-        swatches.push_back({.text = "map of " + pipeline, .stroke = lines.stroke});
-      Points tips{.marker = Marker::circle, .color = lines.stroke.color, .size_pt = 2.4};
-      for (const MapLine& line : result->map.lines) {
-        lines.segments.push_back(line.segment);
-        tips.points.insert(tips.points.end(), {line.segment.a, line.segment.b});
-      }
-      panel.items.emplace_back(std::move(lines));
-      if (most_lines <= kMostLinesWithEnds) panel.items.emplace_back(std::move(tips));
-      add_path(input, placed.world_from_sensor, path_stroke, panel);
-      if (!recording.truth) set_robust_ranges(panel, std::get<Points>(panel.items[0]).points);
-      scene.panels.push_back(std::move(panel));
+      most_lines = std::max(most_lines, input.results[i].result->map.lines.size());
+      if (!input.results[i].result->map.lines.empty()) with_map.push_back(i);
     }
+    if (with_map.empty()) return {};
+    auto groups = groups_of_equal(with_map.size(), [&](std::size_t i, std::size_t k) {
+      return same_map(input, input.results[with_map[i]], input.results[with_map[k]]);
+    });
+    for (auto& group : groups)
+      for (std::size_t& i : group) i = with_map[i];
+
+    Scene scene = small_multiples(groups.size());
+    scene.title = input.title + ": line maps";
+    for (const auto& group : groups)
+      scene.panels.push_back(panel_of(input, group, groups.size(), most_lines <= kMostLinesWithEnds));
     scene.legend.push_back(
         {.text = "points of all scans", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.0});
-    if (swatches.size() == 1) swatches.front().text = "lines of the map";
-    scene.legend.insert(scene.legend.end(), swatches.begin(), swatches.end());
-    scene.legend.push_back(path_legend(input, path_stroke));
+    add_method_legend(input.results, groups, kLineWidth, scene);
+    scene.legend.push_back(path_legend(input, kPathStroke));
     return {{"map", input.title + ": the line map of each pipeline over the points of all scans.", std::move(scene)}};
+  }
+
+ private:
+  static std::vector<Segment> segments_of(const NamedResult& named) {
+    std::vector<Segment> segments;
+    for (const MapLine& line : named.result->map.lines) segments.push_back(line.segment);
+    return segments;
+  }
+
+  static bool same_map(const FigureInput& input, const NamedResult& a, const NamedResult& b) {
+    return segments_of(a) == segments_of(b) && !differ(place_frames(input.recording, a.result).world_from_sensor,
+                                                       place_frames(input.recording, b.result).world_from_sensor);
+  }
+
+  static Panel panel_of(const FigureInput& input, const std::vector<std::size_t>& group, std::size_t panels,
+                        bool with_ends) {
+    const NamedResult& named = input.results[group.front()];
+    const PlacedFrames placed = place_frames(input.recording, named.result);
+    const std::vector<Vec2> points = all_points(input.recording, placed.world_from_sensor, kPointBudget / panels);
+    const Lines lines{.segments = segments_of(named),
+                      .stroke = {method_style(named.pipeline).color, kLineWidth, Dash::solid}};
+    const std::vector<Vec2> ends = ends_of(lines.segments);
+    Panel panel{.title = names_of(input.results, group) + ": " + counted(lines.segments.size(), "line"),
+                .tell_outside = "point"};
+    panel.items.emplace_back(Points{.points = points, .color = kFaintPoints, .size_pt = 0.8});
+    panel.items.emplace_back(lines);
+    if (with_ends)
+      panel.items.emplace_back(
+          Points{.points = ends, .marker = Marker::circle, .color = lines.stroke.color, .size_pt = 2.4});
+    add_path(input, placed.world_from_sensor, kPathStroke, panel);
+    set_view(points.empty() ? ends : points, {}, panel);
+    return panel;
   }
 };
 

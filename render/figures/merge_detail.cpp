@@ -8,7 +8,7 @@
 #include "render/figures/parts/before_after.hpp"
 #include "render/figures/parts/clusters.hpp"
 #include "render/figures/parts/frames.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {

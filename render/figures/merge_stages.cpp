@@ -6,7 +6,7 @@
 #include "render/figures/parts/before_after.hpp"
 #include "render/figures/parts/clusters.hpp"
 #include "render/figures/parts/frames.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {
@@ -35,17 +35,16 @@ class MergeStages : public Figure {
     if (both.named == nullptr) return {};
     const std::vector<Vec2> points = all_points(input.recording, both.world_from_sensor, kPointBudget / 3);
     const std::vector<Segment> given = both.all_given();
-    std::vector<Vec2> ends;
-    for (const Segment& s : given) ends.insert(ends.end(), {s.a, s.b});
+    const std::vector<Vec2> ends = ends_of(given);
 
     Scene scene;
     const auto add = [&](const std::string& title, const std::vector<Segment>& segments, const Stroke& stroke) {
       Panel panel{.title = fmt::format("{}) {}: {}", static_cast<char>('a' + scene.panels.size()), title,
-                                       counted(segments.size(), "line"))};
+                                       counted(segments.size(), "line")),
+                  .tell_outside = "point"};
       panel.items.emplace_back(Points{.points = points, .color = kFaintPoints, .size_pt = 0.7});
       panel.items.emplace_back(Lines{.segments = thinned(segments, kSegmentBudget / 3), .stroke = stroke});
-      if (!input.recording.truth) set_robust_ranges(panel, points.empty() ? ends : points);
-      set_ranges_to_hold(panel, ends);
+      set_view(points.empty() ? ends : points, {}, panel);
       if (segments.empty()) add_note("no lines", panel);
       scene.panels.push_back(std::move(panel));
     };

@@ -1,81 +1,151 @@
-// One scan and over it the lines that each pipeline found in it: small multiples in the sensor frame.
+// One scan, or the median and the worst one, and over it the lines that each pipeline found: small multiples in the
+// sensor frame.
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "core/registry.hpp"
 #include "render/figures/parts/frames.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/judged_lines.hpp"
+#include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {
 namespace {
+
+const Stroke kUnderlay{kTruthUnderlay, 2.6, Dash::solid};
+const Stroke kSensorStroke{kGrey, 0.9, Dash::solid};
+constexpr double kLineWidth = 1.3;
+
+struct ShownScan {
+  std::size_t frame;
+  std::string rank{};  ///< "median", "worst"; empty: chosen by its number
+};
+
+/// Right lines as a share of those found and missed; 1 where there is neither.
+double share_right(const ScanVerdict& verdict) {
+  const auto right = std::ranges::count(verdict.lines, LineVerdict::right);
+  const auto judged =
+      static_cast<std::ptrdiff_t>(verdict.lines.size()) - std::ranges::count(verdict.lines, LineVerdict::unjudged);
+  const auto all = judged + static_cast<std::ptrdiff_t>(verdict.missed.size());
+  return all > 0 ? static_cast<double>(right) / static_cast<double>(all) : 1.0;
+}
+
+/// Scans by the mean of that share over all pipelines, worst first; empty if a pipeline has no verdicts.
+std::vector<std::size_t> from_worst_to_best(const FigureInput& input) {
+  const std::size_t frames = input.recording.observed.frames.size();
+  std::vector<double> merit(frames, 0.0);
+  for (const NamedResult& named : input.results) {
+    if (named.verdicts.size() != frames) return {};
+    for (std::size_t f = 0; f < frames; ++f) merit[f] += share_right(named.verdicts[f]);
+  }
+  std::vector<std::size_t> order(frames);
+  for (std::size_t f = 0; f < frames; ++f) order[f] = f;
+  std::ranges::stable_sort(order, {}, [&](std::size_t f) { return merit[f]; });
+  return order;
+}
 
 class ScanOverlay : public Figure {
  public:
   struct Params {
     int frame = -1;
     static auto fields() {
-      return std::tuple{field("frame", &Params::frame, at_least(-1), "", "frame to show, from 0; -1: the middle one")};
+      return std::tuple{field("frame", &Params::frame, at_least(-1), "",
+                              "frame to show, from 0; -1: the median and the worst one by the share of right lines, "
+                              "the middle one without truth")};
     }
   };
   explicit ScanOverlay(const Params& params) : params_(params) {}
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {
-    const Recording& recording = input.recording;
-    if (recording.observed.frames.empty() || input.results.empty()) return {};
-    const std::size_t frame = shown_frame(recording, params_.frame);
-    const std::vector<Vec2> points = frame_points(recording, frame, Pose2());
-    const bool has_truth = recording.truth && frame < recording.truth->world_from_sensor.size();
-
-    Scene scene = small_multiples(input.results.size());
-    scene.title = fmt::format("{}: scan {} of {}", input.title, frame + 1, recording.observed.frames.size());
-    const Stroke wall_stroke{kTruthUnderlay, 2.6, Dash::solid};
-    for (std::size_t i = 0; i < input.results.size(); ++i) {
-      const std::string& pipeline = input.results[i].pipeline;
-      const PipelineResult* result = input.results[i].result;
-      Panel panel;
-      if (has_truth)
-        panel.items.emplace_back(
-            Lines{true_walls(recording, recording.truth->world_from_sensor[frame].inverse()), wall_stroke});
-      panel.items.emplace_back(Points{.points = points, .color = kBlack, .size_pt = 1.1});
-      Lines lines{.stroke = {method_color(input.results, i), 1.3, Dash::solid}};
-      if (frame < result->lines.size())
-        for (const LineFeature& line : result->lines[frame].lines) lines.segments.push_back(line.segment);
-      panel.title = pipeline + ": " + counted(lines.segments.size(), "line");
-      // Dots at the ends show where a line was split.
-      Points ends{.marker = Marker::circle, .color = lines.stroke.color, .size_pt = 2.8};
-      for (const Segment& s : lines.segments) ends.points.insert(ends.points.end(), {s.a, s.b});
-      panel.items.emplace_back(std::move(lines));
-      panel.items.emplace_back(std::move(ends));
-      panel.items.emplace_back(Arrow{.pose = Pose2(), .length_pt = 12, .stroke = {kGrey, 0.9, Dash::solid}});
-      scene.panels.push_back(std::move(panel));
-    }
-    set_ranges(points, scene);
-    if (has_truth) scene.legend.push_back({.text = "true walls", .stroke = wall_stroke});
-    scene.legend.push_back({.text = "scan points", .marker = Marker::dot, .marker_size_pt = 2.0});
-    add_method_legend(input.results, 1.3, scene);
-    scene.legend.push_back({.text = "sensor", .stroke = Stroke{kGrey, 0.9, Dash::solid}, .arrow = true});
-    return {{"scan_overlay",
-             fmt::format("{}: the points of scan {} and the lines that each pipeline found in it, sensor frame.",
-                         input.title, frame + 1),
-             std::move(scene)}};
+    if (input.recording.observed.frames.empty() || input.results.empty()) return {};
+    const std::vector<ShownScan> shown = shown_scans(input);
+    const auto groups = groups_of_equal(input.results.size(), [&](std::size_t i, std::size_t k) {
+      return std::ranges::all_of(shown, [&](const ShownScan& scan) {
+        return lines_of(input.results[i], scan.frame) == lines_of(input.results[k], scan.frame);
+      });
+    });
+    Scene scene = small_multiples(groups.size() * shown.size());
+    if (shown.size() == 2) scene.columns = groups.size() <= 2 ? 2 : 4;  // the two scans of a pipeline side by side
+    const std::size_t frames = input.recording.observed.frames.size();
+    scene.title = shown.size() == 2 ? input.title + ": the median and the worst scan"
+                                    : fmt::format("{}: scan {} of {}", input.title, shown[0].frame + 1, frames);
+    for (const auto& group : groups)
+      for (const ShownScan& scan : shown) scene.panels.push_back(panel_of(input, group, scan));
+    add_legend_entries(input, groups, scene);
+    std::string which = fmt::format("scan {}", shown[0].frame + 1);
+    if (shown.size() == 2)
+      which = fmt::format("the median scan ({}) and the worst one ({}), by the share of right lines over all pipelines",
+                          shown[0].frame + 1, shown[1].frame + 1);
+    return {
+        {"scan_overlay",
+         fmt::format("{}: the points of {}, and the lines that each pipeline found, sensor frame.", input.title, which),
+         std::move(scene)}};
   }
 
  private:
-  /// The view holds what was seen and said, not walls far away.
-  static void set_ranges(const std::vector<Vec2>& points, Scene& scene) {
-    for (Panel& panel : scene.panels) {
-      set_robust_ranges(panel, points);
-      std::vector<Vec2> shown = points;
-      shown.emplace_back(0.0, 0.0);
-      set_ranges_to_hold(panel, shown);
-    }
+  std::vector<ShownScan> shown_scans(const FigureInput& input) const {
+    const std::vector<std::size_t> order = from_worst_to_best(input);
+    if (params_.frame >= 0 || order.empty()) return {{shown_frame(input.recording, params_.frame)}};
+    const std::size_t median = order[order.size() / 2], worst = order.front();
+    if (median == worst) return {{median}};
+    return {{median, "median"}, {worst, "worst"}};
+  }
+
+  static JudgedLines lines_of(const NamedResult& named, std::size_t frame) {
+    JudgedLines lines;
+    if (frame < named.result->lines.size()) lines.add(named.result->lines[frame], named.verdicts, frame, Pose2());
+    return lines;
+  }
+
+  static bool has_truth(const Recording& recording, std::size_t frame) {
+    return recording.truth && frame < recording.truth->world_from_sensor.size();
+  }
+
+  static Panel panel_of(const FigureInput& input, const std::vector<std::size_t>& group, const ShownScan& scan) {
+    const NamedResult& named = input.results[group.front()];
+    const Recording& recording = input.recording;
+    const std::vector<Vec2> points = frame_points(recording, scan.frame, Pose2());
+    const JudgedLines lines = lines_of(named, scan.frame);
+    Panel panel{.tell_outside = "point"};
+    const std::string which = scan.rank.empty() ? "" : fmt::format(", {} scan {}", scan.rank, scan.frame + 1);
+    panel.title = fmt::format("{}{}: {}", names_of(input.results, group), which, counted(lines.found().size(), "line"));
+    if (has_truth(recording, scan.frame))
+      panel.items.emplace_back(
+          Lines{true_walls(recording, recording.truth->world_from_sensor[scan.frame].inverse()), kUnderlay});
+    panel.items.emplace_back(Points{.points = points, .color = kBlack, .size_pt = 1.1});
+    lines.draw({method_style(named.pipeline).color, kLineWidth, Dash::solid}, true, panel);
+    panel.items.emplace_back(Arrow{.pose = Pose2(), .length_pt = 12, .stroke = kSensorStroke});
+    // The view holds what was seen and found, not walls far away.
+    std::vector<Vec2> seen = points;
+    for (const Vec2& end : ends_of(lines.found())) seen.push_back(end);
+    const std::array sensor{Vec2(0.0, 0.0)};
+    set_view(seen, sensor, panel);
+    return panel;
+  }
+
+  static void add_legend_entries(const FigureInput& input, const std::vector<std::vector<std::size_t>>& groups,
+                                 Scene& scene) {
+    const bool judged = std::ranges::any_of(input.results, [](const NamedResult& r) { return !r.verdicts.empty(); });
+    if (has_truth(input.recording, 0)) scene.legend.push_back({.text = "true walls", .stroke = kUnderlay});
+    scene.legend.push_back({.text = "scan points", .marker = Marker::dot, .marker_size_pt = 2.0});
+    if (judged)
+      add_verdict_legend(kLineWidth, scene);
+    else
+      add_method_legend(input.results, groups, kLineWidth, scene);
+    scene.legend.push_back({.text = "sensor", .stroke = kSensorStroke, .arrow = true});
   }
 
   Params params_;
 };
 
 const bool registered = Registry<Figure>::add<ScanOverlay>(
-    {.name = "scan_overlay", .summary = "one scan and the lines each pipeline found in it", .reference = ""});
+    {.name = "scan_overlay",
+     .summary = "the median and the worst scan, and the lines that each pipeline found",
+     .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

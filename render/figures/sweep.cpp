@@ -10,10 +10,12 @@
 #include <fmt/format.h>
 
 #include "core/registry.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 
 namespace scanbench::render {
 namespace {
+
+const Stroke kTarget{kBlack, 0.6, Dash::dashed};
 
 struct Sample {
   double x = 0.0;
@@ -34,7 +36,7 @@ std::vector<std::string> words_of(std::string text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// The value of "slot.parameter", and all other settings as a text that tells kinds of pipelines apart.
+/// The value of "slot.parameter", and all other settings as a text, equal for pipelines of one kind.
 struct Setting {
   std::optional<double> value;
   std::string others;
@@ -83,24 +85,28 @@ class Sweep : public Figure {
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     Scene scene{.title = input.title + ": " + params_.metric};
-    std::vector<std::string> names;  // a curve keeps its looks from panel to panel
+    std::vector<std::string> names;  // of the curves in all panels
     std::size_t seeds = 0;
     for (const MeasuredPipeline& measured : input.measured)
       if (const auto* values = values_of(measured)) seeds = std::max(seeds, values->size());
+    std::vector<std::pair<std::string, std::vector<Curve>>> panels;  // by the label of their x axis
     for (const std::string& parameter : words_of(params_.parameters)) {
-      const std::vector<Curve> curves = curves_over(parameter, input.measured);
-      if (curves.empty()) continue;
+      std::vector<Curve> curves = curves_over(parameter, input.measured);
       for (const Curve& curve : curves)
         if (std::ranges::find(names, curve.name) == names.end()) names.push_back(curve.name);
-      scene.panels.push_back(panel_of(axis_label(parameter, input.measured), curves, names));
+      if (!curves.empty()) panels.emplace_back(axis_label(parameter, input.measured), std::move(curves));
     }
+    const std::vector<MethodStyle> styles = method_styles(names);
+    for (const auto& [label, curves] : panels) scene.panels.push_back(panel_of(label, curves, names, styles));
     if (scene.panels.empty()) return {};
     if (scene.panels.size() > 1) scene.width_in = kDoubleColumnIn;
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const auto [color, dash, marker] = method_style(i);
+      const auto [color, dash, marker] = styles[i];
       scene.legend.push_back(
           {.text = names[i], .stroke = Stroke{color, 1.2, dash}, .marker = marker, .marker_color = color});
     }
+    if (!params_.target.empty())
+      scene.legend.push_back({.text = fmt::format("target {:g}", fmt::join(params_.target, ", ")), .stroke = kTarget});
     std::string over_seeds;
     if (seeds > 1) {
       scene.legend.push_back({.text = "smallest to largest", .fill = lighten(kGrey, 0.7)});
@@ -148,11 +154,11 @@ class Sweep : public Figure {
     return parameter;
   }
 
-  Panel panel_of(const std::string& label, const std::vector<Curve>& curves,
-                 const std::vector<std::string>& names) const {
+  Panel panel_of(const std::string& label, const std::vector<Curve>& curves, const std::vector<std::string>& names,
+                 const std::vector<MethodStyle>& styles) const {
     Panel panel{.x = {.label = label}, .y = {.label = params_.metric}, .equal_aspect = false};
     const auto style_of = [&](const Curve& curve) {
-      return method_style(static_cast<std::size_t>(std::ranges::find(names, curve.name) - names.begin()));
+      return styles[static_cast<std::size_t>(std::ranges::find(names, curve.name) - names.begin())];
     };
     for (const Curve& curve : curves) {  // bands lie below all curves
       Polygon band{.fill = lighten(style_of(curve).color, 0.7)};
@@ -166,8 +172,7 @@ class Sweep : public Figure {
     const double last =
         std::ranges::max(curves, {}, [](const Curve& c) { return c.samples.back().x; }).samples.back().x;
     for (const double target : params_.target)
-      panel.items.emplace_back(
-          Polyline{.points = {{first, target}, {last, target}}, .stroke = {kBlack, 0.6, Dash::dashed}});
+      panel.items.emplace_back(Polyline{.points = {{first, target}, {last, target}}, .stroke = kTarget});
     for (const Curve& curve : curves) {
       const auto [color, dash, marker] = style_of(curve);
       Polyline line{.stroke = {color, 1.2, dash}};

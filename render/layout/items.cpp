@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "render/layout/labels.hpp"
 #include "render/layout/markers.hpp"
 #include "render/paper/font.hpp"
+#include "render/paper/stroke_style.hpp"
 
 namespace scanbench::render {
 namespace {
@@ -25,6 +28,7 @@ class ItemDrawer {
     StrokeShape shape{.stroke = item.stroke};
     for (const Segment& s : item.segments) {
       if (!drawable(s.a) || !drawable(s.b)) continue;
+      lines_outside_ += box_.contains(place_.to_device(s.a)) && box_.contains(place_.to_device(s.b)) ? 0 : 1;
       push_segment(place_.to_device(s.a), place_.to_device(s.b), shape);
       shape.end_path();
     }
@@ -43,6 +47,7 @@ class ItemDrawer {
     for (const Vec2& p : item.points) {
       if (!drawable(p)) continue;
       const Vec2 c = place_.to_device(p);
+      dots_outside_ += item.marker == Marker::dot && !box_.contains(c) ? 1 : 0;
       if (!drawable(c) || c.x() < box_.x0 - r || c.x() > box_.x1 + r || c.y() < box_.y0 - r || c.y() > box_.y1 + r)
         continue;
       // Dots nearer than a quarter of a point are one dot to the eye.
@@ -98,7 +103,7 @@ class ItemDrawer {
     if (!drawable(item.pose.translation())) return;
     const Vec2 from = place_.to_device(item.pose.translation());
     if (!drawable(from) || !box_.contains(from)) return;
-    // Through the data transform, so that the arrow points along its data direction whatever the aspect.
+    // Through the data transform, so that the arrow points along its data direction for any aspect.
     const Vec2 ahead = place_.to_device(item.pose * Vec2(1e-3, 0)) - from;
     const double n = ahead.norm();
     if (!(n > 0)) return;
@@ -124,39 +129,93 @@ class ItemDrawer {
   }
 
   void draw(const ErrorBars& item) {
-    StrokeShape shape{.stroke = item.stroke, .round = false};
+    StrokeShape bars{.stroke = item.stroke, .round = false};
+    FillShape arrows{.color = item.stroke.color};
+    const double half = 0.5 * item.cap_pt;
     for (const auto& [x, low, high] : item.intervals) {
-      if (!drawable({x, low}) || !drawable({x, high})) continue;
-      const Vec2 a = place_.to_device({x, low}), b = place_.to_device({x, high}), cap(0.5 * item.cap_pt, 0);
-      for (const auto& [p, q] : {std::pair{a, b}, {Vec2(a - cap), Vec2(a + cap)}, {Vec2(b - cap), Vec2(b + cap)}}) {
-        push_segment(p, q, shape);
-        shape.end_path();
+      if (std::isnan(low) || std::isnan(high) || !drawable({x, 0.0})) continue;
+      const double px = place_.to_device({x, place_.y_min}).x();
+      if (!(px >= box_.x0 && px <= box_.x1)) continue;
+      const double bottom = bar_end(low), top = bar_end(high);
+      push_segment({px, bottom}, {px, top}, bars);
+      bars.end_path();
+      for (const double end : {bottom, top}) {
+        if (end >= box_.y0 && end <= box_.y1)
+          push_segment({px - half, end}, {px + half, end}, bars);
+        else
+          push_edge_arrow(px, end < box_.y0, half, arrows);
+        bars.end_path();
       }
     }
-    push(std::move(shape));
+    push(std::move(bars));
+    if (!arrows.points.empty()) shapes_.push_back({std::move(arrows), index_});
   }
 
+  /// How much is outside, in the lower left corner.
+  void tell_outside(const Panel& panel) {
+    const int count = panel.tell_outside == "line" ? lines_outside_ : dots_outside_;
+    if (panel.tell_outside.empty() || count == 0) return;
+    outside_ = {.text = fmt::format("{} {}{} outside", count, panel.tell_outside, count == 1 ? "" : "s"),
+                .offset_pt = {2.5, 2.5},
+                .color = kGrey,
+                .movable = false};
+    labels_.insert(labels_.begin(), {&outside_, {box_.x0, box_.y1}});
+  }
+
+  /// Halos, then the solid lines below them again, then the texts: a halo hides no wall.
   void place_texts() {
     const std::vector<Rect> rects = place_labels(labels_, font_pt_, box_, segments_, dots_);
-    const double cap = Font::get().cap_height_em();
-    for (std::size_t i = 0; i < labels_.size(); ++i) {
-      const Text& text = *labels_[i].text;
-      const Rect& r = rects[i];
-      const Vec2 at = labels_[i].at;
-      const Vec2 nearest(std::clamp(at.x(), r.x0, r.x1), std::clamp(at.y(), r.y0, r.y1));
-      if (text.movable && (nearest - at).norm() > 1.9 * std::max(text.offset_pt.norm(), 3.0)) {
-        StrokeShape leader{.stroke = {kGrey, 0.35, Dash::solid}};
-        leader.add_segment(snap(at), snap(nearest));
-        shapes_.push_back({std::move(leader), index_});
+    for (std::size_t i = 0; i < labels_.size(); ++i) add_leader(*labels_[i].text, labels_[i].at, rects[i]);
+    for (std::size_t i = 0; i < labels_.size(); ++i)
+      if (labels_[i].text->halo) {
+        shapes_.push_back({text_shape(*labels_[i].text, rects[i], true), index_});
+        add_solid_lines_again(rects[i].grown(2 * kHaloPt));
       }
-      const double size = font_pt_ * text.scale;
-      const Vec2 origin = text.upwards ? Vec2(0.5 * (r.x0 + r.x1) + 0.5 * cap * size, r.y1 - 0.5)
-                                       : Vec2(r.x0 + 0.5, 0.5 * (r.y0 + r.y1) + 0.5 * cap * size);
-      shapes_.push_back({TextShape{snap(origin), text.text, size, text.upwards, text.halo, text.color}, index_});
-    }
+    for (std::size_t i = 0; i < labels_.size(); ++i)
+      shapes_.push_back({text_shape(*labels_[i].text, rects[i], false), index_});
   }
 
  private:
+  /// A line from a label to its point, where the label is not beside it.
+  void add_leader(const Text& text, const Vec2& at, const Rect& r) {
+    const Vec2 nearest(std::clamp(at.x(), r.x0, r.x1), std::clamp(at.y(), r.y0, r.y1));
+    if (!text.movable || (nearest - at).norm() <= 1.9 * std::max(text.offset_pt.norm(), 3.0)) return;
+    StrokeShape leader{.stroke = {kGrey, 0.35, Dash::solid}};
+    leader.add_segment(snap(at), snap(nearest));
+    shapes_.push_back({std::move(leader), index_});
+  }
+
+  TextShape text_shape(const Text& text, const Rect& r, bool halo) const {
+    const double half_cap = 0.5 * Font::get().cap_height_em() * font_pt_;
+    const Vec2 origin = text.upwards ? Vec2(0.5 * (r.x0 + r.x1) + half_cap, r.y1 - 0.5)
+                                     : Vec2(r.x0 + 0.5, 0.5 * (r.y0 + r.y1) + half_cap);
+    return {snap(origin), text.text, font_pt_, text.upwards, halo, text.color};
+  }
+
+  void add_solid_lines_again(const Rect& under) {
+    for (const SolidLine& line : solid_lines_) {
+      Vec2 a = line.a, b = line.b;
+      if (!cut(a, b, under)) continue;
+      StrokeShape shape{.stroke = line.stroke};
+      shape.add_segment(a, b);
+      shapes_.push_back({std::move(shape), index_});
+    }
+  }
+
+  /// Height of an error bar's end on paper; beyond the box where the value has no place on the axis.
+  double bar_end(double value) const {
+    const double beyond = box_.width() + box_.height();
+    if (place_.y_log && !(value > 0)) return box_.y1 + beyond;
+    return std::clamp(place_.to_device({place_.x_min, value}).y(), box_.y0 - beyond, box_.y1 + beyond);
+  }
+
+  /// An arrow head at the upper or lower edge of the box: the bar goes on.
+  void push_edge_arrow(double x, bool up, double half, FillShape& arrows) const {
+    const double tip = up ? box_.y0 + 0.5 : box_.y1 - 0.5, back = tip + (up ? 2.0 : -2.0) * half;
+    arrows.points.insert(arrows.points.end(), {Vec2(x, tip), Vec2(x - half, back), Vec2(x + half, back)});
+    arrows.end_contour();
+  }
+
   /// Far outside is as good as a box away: keeps the backends' fixed-point numbers small. Exact for axis-parallel
   /// edges; a slanted edge that leaves the paper turns a little outside the clip.
   Vec2 near_box(const Vec2& p) const {
@@ -166,10 +225,10 @@ class ItemDrawer {
 
   void push_segment(Vec2 a, Vec2 b, StrokeShape& shape) {
     if (!drawable(a) || !drawable(b)) return;
-    const double margin = shape.stroke.width_pt;  // so that a cut end's cap lies outside the clip
+    const double margin = shape.stroke.width_pt;  // so that the cap of a cut end is outside the clip
     if (!cut(a, b, box_.grown(margin))) return;
     a = snap(a), b = snap(b);
-    segments_.insert(segments_.end(), {a, b});
+    add_obstacle(a, b, shape.stroke);
     const bool continues = shape.points.size() > shape.starts.back() && shape.points.back() == a;
     if (!continues) {
       shape.end_path();
@@ -186,7 +245,7 @@ class ItemDrawer {
     if (whole) {
       for (std::size_t i = 0; i < n; ++i) {
         shape.points.push_back(snap(place_.to_device(points[i])));
-        segments_.insert(segments_.end(), {place_.to_device(points[i]), place_.to_device(points[(i + 1) % n])});
+        add_obstacle(place_.to_device(points[i]), place_.to_device(points[(i + 1) % n]), shape.stroke);
       }
       shape.end_path();
       return;
@@ -198,6 +257,12 @@ class ItemDrawer {
     shape.end_path();
   }
 
+  /// A line that labels should not cover.
+  void add_obstacle(const Vec2& a, const Vec2& b, const Stroke& stroke) {
+    segments_.insert(segments_.end(), {a, b});
+    if (stroke.dash == Dash::solid) solid_lines_.push_back({a, b, stroke});
+  }
+
   void push(StrokeShape shape) {
     if (!shape.points.empty()) shapes_.push_back({std::move(shape), index_});
   }
@@ -207,8 +272,15 @@ class ItemDrawer {
   double font_pt_;
   std::vector<Shape>& shapes_;
   Rect box_;
+  struct SolidLine {
+    Vec2 a, b;
+    Stroke stroke;
+  };
   std::vector<Vec2> segments_, dots_;  // what labels should not cover
+  std::vector<SolidLine> solid_lines_;
   std::vector<Label> labels_;
+  int dots_outside_ = 0, lines_outside_ = 0;
+  Text outside_;
 };
 
 }  // namespace
@@ -216,6 +288,7 @@ class ItemDrawer {
 void add_items(const Panel& panel, int index, const PanelLayout& place, double font_pt, std::vector<Shape>& shapes) {
   ItemDrawer drawer(index, place, font_pt, shapes);
   for (const Item& item : panel.items) std::visit([&](const auto& i) { drawer.draw(i); }, item);
+  drawer.tell_outside(panel);
   drawer.place_texts();
 }
 

@@ -46,8 +46,7 @@ std::vector<Rect> place_labels(const std::vector<Label>& labels, double font_pt,
   placed.reserve(labels.size());
   const Rect room{box.x0 + 1.5, box.y0 + 1.5, box.x1 - 1.5, box.y1 - 1.5};
   for (const Label& label : labels) {
-    const double size = font_pt * label.text->scale;
-    Vec2 half(0.5 * font.width_em(label.text->text) * size + 0.5, 0.5 * font.cap_height_em() * size + 0.8);
+    Vec2 half(0.5 * font.width_em(label.text->text) * font_pt + 0.5, 0.5 * font.cap_height_em() * font_pt + 0.8);
     if (label.text->upwards) std::swap(half.x(), half.y());
     const Vec2 wish(label.text->offset_pt.x(), -label.text->offset_pt.y());
     if (!label.text->movable) {
@@ -58,18 +57,18 @@ std::vector<Rect> place_labels(const std::vector<Label>& labels, double font_pt,
     const double heading = wish.norm() > 0 ? std::atan2(wish.y(), wish.x()) : -kPi / 2;
     Rect best;
     double best_cost = INFINITY;
-    for (const double far : {1.0, 2.0, 3.5, 5.5})
+    for (const double far : {1.0, 2.0, 3.5, 5.5, 8.0})
       for (const double turn : {0.0, 45.0, -45.0, 180.0, 90.0, -90.0, 135.0, -135.0}) {
         const double a = heading + radians(turn);
         const Rect wanted = rect_beside(label.at, far * reach * Vec2(std::cos(a), std::sin(a)), half);
         const Rect r = inside(wanted, room);
         const Rect grown = r.grown(1);
-        // Weights: a label on a label cannot be read; one on a line can, thanks to its halo, but hides the line.
+        // Weights: a label on a label cannot be read, one on a line is hard to read.
         double cost = 4.0 * (far - 1.0) + 0.02 * std::abs(turn);
         cost += 4.0 * (std::abs(r.x0 - wanted.x0) + std::abs(r.y0 - wanted.y0));
         for (const Rect& other : placed) cost += 20.0 * overlap(grown, other);
         for (std::size_t i = 0; i + 1 < segments.size(); i += 2)
-          if (const double l = length_inside(segments[i], segments[i + 1], grown); l > 0) cost += 6.0 + 1.5 * l;
+          if (const double l = length_inside(segments[i], segments[i + 1], grown); l > 0) cost += 12.0 + 2.0 * l;
         for (const Vec2& p : dots)
           if (grown.contains(p)) cost += 1.5;
         if (cost < best_cost) best = r, best_cost = cost;

@@ -1,6 +1,8 @@
-// Rows of swatches with their texts.
+// Legend entries in centred rows.
 #include "render/layout/legend.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -37,48 +39,62 @@ void add_swatch(const LegendEntry& entry, double x, double y, double em, std::ve
                 shapes);
 }
 
-}  // namespace
+struct Piece {
+  const LegendEntry* entry;  // nullptr: the scale bar
+  std::string text;
+  double swatch, width;
+};
 
-double add_legend(const Scene& scene, double scale_bar_m, double scale_bar_pt, double width, double top,
-                  std::vector<Shape>* shapes) {
+std::vector<Piece> pieces_of(const Scene& scene, const ScaleBar& scale_bar, double room) {
   const Font& font = Font::get();
-  const double em = scene.font_pt, size = 0.95 * em, row_height = 1.5 * em, gap = 1.5 * em;
-  const double room = width - 2 * em;
-  struct Piece {
-    const LegendEntry* entry;  // nullptr: the scale bar
-    std::string text;
-    double swatch, width;
-  };
+  const double em = scene.font_pt;
   std::vector<Piece> pieces;
+  const auto add = [&](const LegendEntry* entry, const std::string& text, double swatch) {
+    pieces.push_back({entry, text, swatch, swatch + 0.5 * em + font.width_em(text) * em});
+  };
   for (const LegendEntry& entry : scene.legend) {
     const double swatch = swatch_width(entry, em);
-    const std::string text = fit_text(entry.text, (room - swatch - 0.5 * em) / size);
-    pieces.push_back({&entry, text, swatch, swatch + 0.5 * em + font.width_em(text) * size});
+    add(&entry, fit_text(entry.text, (room - swatch - 0.5 * em) / em), swatch);
   }
-  if (scale_bar_pt > 0) {
-    const std::string text = fmt::format("{:g} m", scale_bar_m);
-    pieces.push_back({nullptr, text, scale_bar_pt, scale_bar_pt + 0.5 * em + font.width_em(text) * size});
-  }
-  double y = top;
+  if (scale_bar.length_pt > 0) add(nullptr, fmt::format("{:g} m", scale_bar.metres), scale_bar.length_pt);
+  return pieces;
+}
+
+void add_scale_bar(double x, double y, double length, std::vector<Shape>& shapes) {
+  StrokeShape bar{.stroke = {kBlack, 0.8, Dash::solid}, .round = false};
+  bar.add_segment({x, y - 2}, {x, y + 2});
+  bar.add_segment({x, y}, {x + length, y});
+  bar.add_segment({x + length, y - 2}, {x + length, y + 2});
+  shapes.push_back({std::move(bar)});
+}
+
+}  // namespace
+
+double widest_entry(const Scene& scene, const ScaleBar& scale_bar) {
+  double widest = 0.0;
+  for (const Piece& piece : pieces_of(scene, scale_bar, INFINITY)) widest = std::max(widest, piece.width);
+  return widest + 2 * scene.font_pt;
+}
+
+double add_legend(const Scene& scene, const ScaleBar& scale_bar, const LegendRoom& room, std::vector<Shape>* shapes) {
+  const double em = scene.font_pt, row_height = 1.5 * em, gap = 1.5 * em;
+  const double cap = Font::get().cap_height_em();
+  const std::vector<Piece> pieces = pieces_of(scene, scale_bar, room.width - 2 * em);
+  double y = room.top;
   for (std::size_t first = 0, last; first < pieces.size(); first = last) {
     double used = pieces[first].width;
-    for (last = first + 1; last < pieces.size() && used + gap + pieces[last].width <= room; ++last)
+    for (last = first + 1; last < pieces.size() && used + gap + pieces[last].width <= room.width - 2 * em; ++last)
       used += gap + pieces[last].width;
-    double x = 0.5 * (width - used);
+    double x = room.left + 0.5 * (room.width - used);
     const double middle = y + 0.5 * row_height;
     for (std::size_t i = first; i < last && shapes != nullptr; ++i) {
       const Piece& piece = pieces[i];
-      if (piece.entry != nullptr) {
+      if (piece.entry != nullptr)
         add_swatch(*piece.entry, x, middle, em, *shapes);
-      } else {
-        StrokeShape bar{.stroke = {kBlack, 0.8, Dash::solid}, .round = false};
-        bar.add_segment({x, middle - 2}, {x, middle + 2});
-        bar.add_segment({x, middle}, {x + scale_bar_pt, middle});
-        bar.add_segment({x + scale_bar_pt, middle - 2}, {x + scale_bar_pt, middle + 2});
-        shapes->push_back({std::move(bar)});
-      }
-      const Vec2 origin(x + piece.swatch + 0.5 * em, middle + 0.5 * font.cap_height_em() * size);
-      shapes->push_back({TextShape{origin, piece.text, size, false, false, kBlack}});
+      else
+        add_scale_bar(x, middle, piece.swatch, *shapes);
+      const Vec2 origin(x + piece.swatch + 0.5 * em, middle + 0.5 * cap * em);
+      shapes->push_back({TextShape{origin, piece.text, em, false, false, kBlack}});
       x += piece.width + gap;
     }
     y += row_height;

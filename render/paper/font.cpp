@@ -164,4 +164,22 @@ std::string fit_text(std::string_view text, double width_em) {
   return std::string(text) + ellipsis;
 }
 
+std::vector<std::string> wrap_text(std::string_view text, double width_em, int most_lines) {
+  const Font& font = Font::get();
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    if (static_cast<int>(lines.size()) + 1 >= most_lines || font.width_em(text) <= width_em) {
+      lines.push_back(fit_text(text, width_em));
+      return lines;
+    }
+    std::size_t end = text.find(' ');  // of the line; a word too long for a line is shortened
+    for (std::size_t next = end; next != std::string_view::npos && font.width_em(text.substr(0, next)) <= width_em;
+         next = text.find(' ', next + 1))
+      end = next;
+    lines.push_back(fit_text(text.substr(0, end), width_em));
+    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+  }
+  return lines;
+}
+
 }  // namespace scanbench::render

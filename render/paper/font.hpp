@@ -1,5 +1,5 @@
-// The one font of all figures: DejaVu Sans, loaded from its file, never through the system's font choice, so that a
-// figure's bytes do not depend on the desktop's settings.
+// The one font of all figures: DejaVu Sans, loaded from its file, never through the system's font choice, so that the
+// bytes of a figure do not depend on the settings of the desktop.
 #pragma once
 
 #include <memory>
@@ -50,5 +50,9 @@ class Font {
 
 /// The text, shortened with an ellipsis if it is wider than `width_em`.
 std::string fit_text(std::string_view text, double width_em);
+
+/// The text in lines of at most `width_em`, broken at spaces; what does not fit in `most_lines` is shortened with an
+/// ellipsis. Empty without text.
+std::vector<std::string> wrap_text(std::string_view text, double width_em, int most_lines);
 
 }  // namespace scanbench::render

@@ -1,4 +1,4 @@
-// Measures that the backends share.
+// Dashes and halos, which all backends draw alike.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct DashPattern {
   int count = 0;                    ///< 0: solid
 };
 
-/// Dashes grow with the width, but not below what can be told apart on paper.
+/// Dashes grow with the width, but stay long enough to be distinguished on paper.
 inline DashPattern dash_pattern(const Stroke& stroke) {
   const double w = std::max(stroke.width_pt, 0.6);
   switch (stroke.dash) {

@@ -1,14 +1,19 @@
-// The looks of methods: they can be seen on white paper, told apart, and told apart by colour-blind readers.
+// The styles of methods: visible on white paper, and different for colour-blind readers as well.
 #include "render/palette.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
 #include <tuple>
 
 #include <Eigen/Core>
+
+#include "core/modules.hpp"
+#include "core/registry.hpp"
 
 namespace scanbench::render {
 namespace {
@@ -48,42 +53,69 @@ std::vector<Eigen::Matrix3d> sights() {
   return all;
 }
 
-std::vector<Color> colors_of(std::size_t methods) {
+std::vector<std::string> some_names(int count) {
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) names.push_back("method_" + std::to_string(i));
+  return names;
+}
+
+std::vector<Color> all_colors() {
   std::vector<Color> colors;
-  for (std::size_t i = 0; i < methods; ++i)
-    if (const Color color = method_style(i).color; std::ranges::find(colors, color) == colors.end())
+  for (const std::string& name : some_names(500))
+    if (const Color color = method_style(name).color; std::ranges::find(colors, color) == colors.end())
       colors.push_back(color);
   return colors;
 }
 
 TEST(Methods, CanBeSeenOnWhite) {
-  for (const Color color : colors_of(50))
+  for (const Color color : all_colors())
     EXPECT_GT(contrast_to_white(color), 2.2) << int{color.r} << " " << int{color.g} << " " << int{color.b};
 }
 
 // A difference of 2.3 in CIE 1976 can just be noticed side by side; thin lines far from each other need several times
 // that.
-TEST(Methods, HaveColoursThatColourBlindReadersTellApart) {
-  const std::vector<Color> colors = colors_of(50);
-  ASSERT_GE(colors.size(), 7U);
+TEST(Methods, HaveColoursThatColourBlindReadersCanDistinguish) {
+  const std::vector<Color> colors = all_colors();
+  ASSERT_EQ(colors.size(), 7U);
   for (const Eigen::Matrix3d& seen : sights())
     for (std::size_t i = 0; i < colors.size(); ++i)
       for (std::size_t k = 0; k < i; ++k)
         EXPECT_GT((lab(seen * linear(colors[i])) - lab(seen * linear(colors[k]))).norm(), 15.0) << i << " " << k;
 }
 
-TEST(Methods, OfOneColourDifferInDashAndMarkerAndNoTwoLookAlike) {
-  const std::size_t colors = colors_of(50).size();
-  for (std::size_t i = 0; i < colors; ++i) {
-    const MethodStyle first = method_style(i), next = method_style(i + colors);
-    EXPECT_EQ(first.color, next.color);
-    EXPECT_NE(first.dash, next.dash);
-    EXPECT_NE(first.marker, next.marker);
-  }
+TEST(Methods, LookAlikeInEveryFigure) {
+  const std::vector<std::string> names = some_names(12), some{names[7], names[3]};
+  const std::vector<MethodStyle> all = method_styles(names), two = method_styles(some);
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(all[i], method_style(names[i])) << names[i];
+  EXPECT_EQ(two[0], all[7]);
+  EXPECT_EQ(two[1], all[3]);
+}
+
+TEST(Methods, OfOneFigureDifferAndTheirOrderDoesNotMatter) {
+  std::vector<std::string> names = some_names(150);  // more than enough for two with the same look by name
+  const std::vector<MethodStyle> forwards = method_styles(names);
   std::set<std::tuple<int, int, int, Dash, Marker>> looks;
-  for (std::size_t i = 0; i < 100; ++i) {
-    const auto [color, dash, marker] = method_style(i);
-    EXPECT_TRUE(looks.emplace(color.r, color.g, color.b, dash, marker).second) << i;
+  for (const auto& [color, dash, marker] : forwards)
+    EXPECT_TRUE(looks.emplace(color.r, color.g, color.b, dash, marker).second);
+  std::ranges::reverse(names);
+  std::vector<MethodStyle> backwards = method_styles(names);
+  std::ranges::reverse(backwards);
+  EXPECT_EQ(backwards, forwards);
+}
+
+TEST(Methods, ThatComeWithTheProgramShareAColourInPairsAtMost) {
+  const std::vector<std::string> names = Registry<LineExtractor>::names();
+  ASSERT_GE(names.size(), 10U);
+  std::map<std::tuple<int, int, int>, std::vector<std::string>> by_color;
+  for (const std::string& name : names) {
+    const Color color = method_style(name).color;
+    by_color[{color.r, color.g, color.b}].push_back(name);
+  }
+  for (const auto& [color, sharing] : by_color) {
+    EXPECT_LE(sharing.size(), 2U);
+    if (sharing.size() == 2) {
+      EXPECT_NE(method_style(sharing[0]).dash, method_style(sharing[1]).dash) << sharing[0] << " " << sharing[1];
+    }
   }
 }
 

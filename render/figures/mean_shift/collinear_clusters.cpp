@@ -10,14 +10,14 @@
 #include "core/registry.hpp"
 #include "render/figures/mean_shift/rows.hpp"
 #include "render/figures/parts/clusters.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {
 namespace {
 
 const Stroke kKernelStroke{kVermillion, 1.3, Dash::solid};
-const Points kModeLooks{.marker = Marker::diamond, .color = kBlack, .size_pt = 4.6, .filled = false};
+const Points kModeStyle{.marker = Marker::diamond, .color = kBlack, .size_pt = 4.6, .filled = false};
 
 class CollinearClusters : public Figure {
  public:
@@ -58,10 +58,10 @@ class CollinearClusters : public Figure {
     scene.legend = {{.text = "centres of segments", .marker = Marker::dot, .marker_size_pt = 2.6},
                     {.text = "kernel K2, one standard deviation", .stroke = kKernelStroke},
                     {.text = "modes",
-                     .marker = kModeLooks.marker,
-                     .marker_color = kModeLooks.color,
-                     .marker_size_pt = kModeLooks.size_pt,
-                     .marker_filled = kModeLooks.filled},
+                     .marker = kModeStyle.marker,
+                     .marker_color = kModeStyle.color,
+                     .marker_size_pt = kModeStyle.size_pt,
+                     .marker_filled = kModeStyle.filled},
                     {.text = "other segments", .stroke = Stroke{kTruthUnderlay, 0.7, Dash::solid}}};
     return {{"collinear_clusters",
              fmt::format(
@@ -93,7 +93,7 @@ class CollinearClusters : public Figure {
     return {.segments = thinned(rows.segments(), kSegmentBudget / 4), .stroke = {kTruthUnderlay, 0.5, Dash::solid}};
   }
 
-  /// A square around the members, and around the kernel where it stands.
+  /// A square around the members and the kernel.
   static void set_window(const MeanShiftRows& rows, const std::vector<std::size_t>& members,
                          const std::optional<Ellipse>& kernel, Panel& panel) {
     std::vector<Segment> shown;
@@ -149,7 +149,7 @@ class CollinearClusters : public Figure {
     std::vector<Segment> segments;
     std::vector<int> part;
     std::map<int, int> number;  // from 0, in the order of their places along the list
-    Points modes = kModeLooks;
+    Points modes = kModeStyle;
     for (const std::size_t k : members) {
       const int cluster = rows.pieces[k].cluster2;
       const auto [entry, is_new] = number.try_emplace(cluster, static_cast<int>(number.size()));
@@ -169,7 +169,7 @@ class CollinearClusters : public Figure {
   static Panel modes_panel(const ClusteredSegments& collinear, const MeanShiftRows& rows) {
     Panel panel{.title = "c) modes of all " + counted(collinear.clusters(), "sub-cluster")};
     collinear.add_segments(0.6, kSegmentBudget / 4, panel);
-    Points modes = kModeLooks;
+    Points modes = kModeStyle;
     for (const CollinearCluster& cluster : rows.collinear)
       if (cluster.mode) modes.points.push_back(*cluster.mode);
     if (modes.points.size() > 100) modes.size_pt = 2.4;  // larger ones would hide the segments

@@ -5,7 +5,7 @@
 #include "core/registry.hpp"
 #include "render/figures/mean_shift/rows.hpp"
 #include "render/figures/parts/clusters.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {

@@ -4,7 +4,7 @@
 
 #include "core/registry.hpp"
 #include "render/figures/mean_shift/rows.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 
 namespace scanbench::render {
 namespace {

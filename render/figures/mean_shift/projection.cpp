@@ -8,13 +8,13 @@
 
 #include "core/registry.hpp"
 #include "render/figures/mean_shift/rows.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 
 namespace scanbench::render {
 namespace {
 
 constexpr std::size_t kMostRows = 14;  // more have no room for their names
-constexpr std::size_t kMostNames = 6;  // more lie on top of each other
+constexpr std::size_t kMostNames = 6;  // more would cover each other
 
 const Stroke kSegmentStroke{kBlue, 1.1, Dash::solid};
 const Stroke kLineStroke{kBlack, 0.8, Dash::dash_dot};
@@ -119,8 +119,7 @@ class Projection : public Figure {
         low = std::min(low, end.x()), high = std::max(high, end.x());
       }
       if (cluster.projections.size() <= kMostNames)
-        names.emplace_back(
-            Text{.at = in_cm(s.midpoint()), .text = fmt::format("s{}", i + 1), .color = {0, 80, 125}, .scale = 0.88});
+        names.emplace_back(Text{.at = in_cm(s.midpoint()), .text = fmt::format("s{}", i + 1), .color = {0, 80, 125}});
     }
     for (const Segment& m : cluster.merged) merged.segments.push_back({in_cm(m.a), in_cm(m.b)});
     const double room = 0.06 * std::max(high - low, 1e-3);

@@ -1,6 +1,6 @@
 #include "render/figures/mean_shift/rows.hpp"
 #include "render/figures/parts/clusters.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// What the module mean_shift wrote down (docs/algorithms/mean_shift.md, "Trace rows"), as the figures of R. Lakaemper,
+// The trace of the module mean_shift (docs/algorithms/mean_shift.md, "Trace rows"), as the figures of R. Lakaemper,
 // "Simultaneous Multi-Line-Segment Merging for Robot Mapping using Mean Shift Clustering", IROS 2009, need it.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace scanbench::render {
 
-/// A part of a given segment, and what became of it (-1: none).
+/// A part of a given segment and its clusters (-1: none).
 struct MergePiece {
   Segment segment;            ///< either end first
   Vec3 point = Vec3::Zero();  ///< x, y [m] of the centre, direction [rad]
@@ -72,6 +72,6 @@ Vec3 on_axes(const Vec3& point);
 
 /// The doc of the parameter that every such figure has.
 inline constexpr std::string_view kPipelineDoc =
-    "pipeline to show; empty: the first one that merges this way (nothing is drawn of one that did not finish)";
+    "pipeline to show; empty: the first one that merges with mean_shift (nothing is drawn of one that did not finish)";
 
 }  // namespace scanbench::render

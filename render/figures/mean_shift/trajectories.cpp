@@ -8,15 +8,15 @@
 
 #include "core/registry.hpp"
 #include "render/figures/mean_shift/rows.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {
 namespace {
 
 const Stroke kPathStroke{kBlue, 0.5, Dash::solid};
-const Points kStartLooks{.color = kBlack, .size_pt = 1.7};
-const Points kModeLooks{.marker = Marker::diamond, .color = kVermillion, .size_pt = 4.0};
+const Points kStartStyle{.color = kBlack, .size_pt = 1.7};
+const Points kModeStyle{.marker = Marker::diamond, .color = kVermillion, .size_pt = 4.0};
 
 /// Steps too small to see left out; at the seam of directions the path leaves through one side and comes in through
 /// the other.
@@ -81,17 +81,17 @@ class Trajectories : public Figure {
     }
     above.items.emplace_back(std::move(flat));
     joint.items.emplace_back(std::move(deep));
-    add_dots(view, starts, kStartLooks, above, joint);
+    add_dots(view, starts, kStartStyle, above, joint);
     const std::vector<Vec3> modes = distinct(rows->ends);
-    add_dots(view, modes, kModeLooks, above, joint);
+    add_dots(view, modes, kModeStyle, above, joint);
     if (rows->pieces.empty()) add_note("no segments", above), add_note("no segments", joint);
     scene.panels = {std::move(above), std::move(joint)};
     scene.legend = {{.text = "points", .marker = Marker::dot, .marker_size_pt = 2.4},
                     {.text = "their trajectories", .stroke = Stroke{kBlue, 0.8, Dash::solid}},
                     {.text = "modes of the density",
-                     .marker = kModeLooks.marker,
-                     .marker_color = kModeLooks.color,
-                     .marker_size_pt = kModeLooks.size_pt}};
+                     .marker = kModeStyle.marker,
+                     .marker_color = kModeStyle.color,
+                     .marker_size_pt = kModeStyle.size_pt}};
     return {{"trajectories",
              fmt::format(
                  "{}: trajectories of {} to {} of the density in phase 1 (sigma {:.3g} m, 10 deg count as {:.3g} m). "
@@ -102,9 +102,9 @@ class Trajectories : public Figure {
   }
 
  private:
-  static void add_dots(const View3& view, const std::vector<Vec3>& points, const Points& looks, Panel& above,
+  static void add_dots(const View3& view, const std::vector<Vec3>& points, const Points& style, Panel& above,
                        Panel& joint) {
-    Points flat = looks, deep = looks;
+    Points flat = style, deep = style;
     for (const Vec3& p : points) {
       flat.points.emplace_back(p.head<2>());
       deep.points.push_back(view.project(on_axes(p)));

@@ -1,6 +1,6 @@
 #include "render/figures/parts/before_after.hpp"
 #include "render/figures/parts/frames.hpp"
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-// What went into a map and what came out, of one pipeline: shared by the figures of merging.
+// The lines given to a merger and its map, for one pipeline: shared by the figures of merging.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace scanbench::render {
 
 struct BeforeAfter {
   const NamedResult* named = nullptr;
-  std::vector<Pose2> world_from_sensor;     ///< that the lines were placed with
+  std::vector<Pose2> world_from_sensor;     ///< poses of the lines
   std::vector<std::vector<Segment>> given;  ///< per frame, world
   std::vector<Segment> map;
 
@@ -18,8 +18,8 @@ struct BeforeAfter {
   std::vector<Segment> all_given() const;
 };
 
-/// Of the pipeline with this name; of the first one that has a map, else of the first one, if it is empty. `named` is
-/// nullptr if there is none.
+/// For the pipeline with this name; if it is empty, for the first one that has a map, else for the first one. `named`
+/// is nullptr if there is none.
 BeforeAfter before_after(const FigureInput& input, const std::string& pipeline);
 
 }  // namespace scanbench::render

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 
 namespace scanbench::render {
 namespace {
@@ -74,7 +74,7 @@ bool ClusteredSegments::add_numbers(Panel& panel) const {
   const auto inside = [](const Axis& axis, double v) {
     return !axis.range || (v >= axis.range->first && v <= axis.range->second);
   };
-  // Beside the visible midpoint that is nearest to the mean of all: the mean itself may lie off the segments.
+  // Beside the visible midpoint that is nearest to the mean of all: the mean itself may be off the segments.
   std::vector<std::optional<Vec2>> beside(places_.size());
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const Vec2 m = segments_[i].midpoint();
@@ -87,8 +87,7 @@ bool ClusteredSegments::add_numbers(Panel& panel) const {
     return false;
   for (std::size_t c = 0; c < beside.size(); ++c)
     if (beside[c])
-      panel.items.emplace_back(
-          Text{.at = *beside[c], .text = std::to_string(c + 1), .color = darkened(colors_[c]), .scale = 0.88});
+      panel.items.emplace_back(Text{.at = *beside[c], .text = std::to_string(c + 1), .color = darkened(colors_[c])});
   return true;
 }
 

@@ -2,35 +2,75 @@
 #include "render/figures/parts/view_box.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace scanbench::render {
 
-void set_robust_ranges(Panel& panel, const std::vector<Vec2>& points) {
-  if (points.size() < 200) return;
-  const auto bulk = [&](Axis& axis, int coordinate) {
-    std::vector<double> v;
-    for (const Vec2& p : points)
-      if (std::isfinite(p[coordinate])) v.push_back(p[coordinate]);
-    if (v.size() < 200) return;
-    std::sort(v.begin(), v.end());
-    const auto quantile = [&](double q) { return v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1))]; };
-    const double low = quantile(0.005), high = quantile(0.995), room = 0.1 * (high - low);
-    if (v.back() - v.front() > 1.6 * (high - low) && high > low)
-      axis.range = {std::max(v.front(), low - room), std::min(v.back(), high + room)};
-  };
-  bulk(panel.x, 0);
-  bulk(panel.y, 1);
+namespace {
+
+struct Interval {
+  double low = INFINITY, high = -INFINITY;
+  bool empty() const { return !(low <= high); }
+  double length() const { return high - low; }
+  void take(double v) { low = std::min(low, v), high = std::max(high, v); }
+};
+
+constexpr std::size_t kFewValues = 20;  // of which none can be called stray
+
+/// Shrinks the interval of sorted values at its lower end: at most two values or one in 500 are stray, if a gap of a
+/// twentieth of the bulk separates them from all others and from `must`.
+double without_stray_low(std::span<const double> v, const Interval& must, double bulk) {
+  const std::size_t most = std::max<std::size_t>(2, v.size() / 500);
+  double low = std::min(v.front(), must.low);
+  for (std::size_t k = 1; k <= most && k < v.size() && v[k - 1] < must.low; ++k)
+    if (const double next = std::min(v[k], must.low); next - v[k - 1] > 0.05 * bulk) low = next;
+  return low;
 }
 
-void set_ranges_to_hold(Panel& panel, const std::vector<Vec2>& points) {
-  Vec2 low(INFINITY, INFINITY), high = -low;
-  for (const Vec2& p : points)
-    if (p.allFinite()) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  if (!(low.x() <= high.x())) return;
-  const double margin = 0.05 * std::max((high - low).maxCoeff(), 1.0);
-  if (!panel.x.range) panel.x.range = {low.x() - margin, high.x() + margin};
-  if (!panel.y.range) panel.y.range = {low.y() - margin, high.y() + margin};
+Interval bulk_of(std::vector<double> v, const Interval& must) {
+  Interval all = must;
+  for (const double x : v) all.take(x);
+  if (v.size() < kFewValues) return all;
+  std::sort(v.begin(), v.end());
+  const auto quantile = [&](double q) { return v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1))]; };
+  // Many outliers without a gap, as returns at maximum range leave: the middle 99 %.
+  const double low = quantile(0.005), high = quantile(0.995), room = 0.1 * (high - low);
+  if (v.size() >= 200 && v.back() - v.front() > 1.6 * (high - low) && high > low)
+    return {std::min(must.low, std::max(v.front(), low - room)), std::max(must.high, std::min(v.back(), high + room))};
+  Interval bulk = must;
+  bulk.take(quantile(0.02)), bulk.take(quantile(0.98));
+  std::vector<double> mirrored(v.rbegin(), v.rend());
+  for (double& x : mirrored) x = -x;
+  return {without_stray_low(v, must, bulk.length()),
+          -without_stray_low(mirrored, {-must.high, -must.low}, bulk.length())};
+}
+
+}  // namespace
+
+void set_view(std::span<const Vec2> points, std::span<const Vec2> must_hold, Panel& panel) {
+  std::array<Interval, 2> shown;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto coordinate = [axis](const Vec2& p) { return p[static_cast<Eigen::Index>(axis)]; };
+    std::vector<double> values;
+    for (const Vec2& p : points)
+      if (p.allFinite()) values.push_back(coordinate(p));
+    Interval must;
+    for (const Vec2& p : must_hold)
+      if (p.allFinite()) must.take(coordinate(p));
+    shown[axis] = bulk_of(std::move(values), must);
+  }
+  if (shown[0].empty() || shown[1].empty()) return;
+  const double margin = 0.05 * std::max({shown[0].length(), shown[1].length(), 1.0});
+  panel.x.range = {shown[0].low - margin, shown[0].high + margin};
+  panel.y.range = {shown[1].low - margin, shown[1].high + margin};
+}
+
+std::vector<Vec2> ends_of(std::span<const Segment> segments) {
+  std::vector<Vec2> ends;
+  ends.reserve(2 * segments.size());
+  for (const Segment& s : segments) ends.insert(ends.end(), {s.a, s.b});
+  return ends;
 }
 
 void Window::set_ranges(Panel& panel) const {

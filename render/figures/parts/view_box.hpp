@@ -9,12 +9,12 @@
 
 namespace scanbench::render {
 
-/// Axis ranges of the bulk of the points: a few far outliers do not shrink the rest. Absent if the points are few or
-/// have no outliers.
-void set_robust_ranges(Panel& panel, const std::vector<Vec2>& points);
+/// Sets ranges that hold all of `must_hold` and the bulk of `points`, with a margin: stray points far away from all
+/// others do not shrink the rest. Without any finite point no ranges are set.
+void set_view(std::span<const Vec2> points, std::span<const Vec2> must_hold, Panel& panel);
 
-/// Ranges that hold the points with a margin, where set_robust_ranges() set none. Without finite points: none.
-void set_ranges_to_hold(Panel& panel, const std::vector<Vec2>& points);
+/// Both ends of each segment.
+std::vector<Vec2> ends_of(std::span<const Segment> segments);
 
 /// A square part of a map.
 struct Window {

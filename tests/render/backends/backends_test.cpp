@@ -50,7 +50,7 @@ bool is_reddish(const Color& c) {
   return c.r > c.g + 40;
 }
 
-TEST(Png, HasTheSizeAskedFor) {
+TEST(Png, HasTheRequestedSize) {
   Scene scene = rich_scene();
   scene.height_in = 2.5;
   const DecodedPng image = decode_png(to_png(scene, 120));
@@ -101,6 +101,20 @@ TEST(Png, DrawsNothingOfThePanelOutsideItsBox) {
             << x << " " << y;
       }
   EXPECT_GT(red, 1000);
+}
+
+// A label that cannot move, with its white rim, on a wall: the wall is still black from end to end.
+TEST(Png, ShowsAllOfAWallUnderALabel) {
+  Scene scene;
+  scene.panels.push_back({.items = {Lines{.segments = {{{0.5, 2}, {3.5, 2}}}, .stroke = {kBlack, 1.5, Dash::solid}},
+                                    Text{.at = {2, 2}, .text = "wall 7", .offset_pt = {0, 0}, .movable = false}}});
+  scene.panels[0].x = {.range = std::pair{0.0, 4.0}, .grid = false};
+  scene.panels[0].y = {.range = std::pair{0.0, 4.0}, .grid = false};
+  const DecodedPng image = decode_png(to_png(scene, 288));
+  const PanelLayout place = layout(scene).panels[0];
+  const Vec2 a = place.to_device({0.6, 2}) * 4.0, b = place.to_device({3.4, 2}) * 4.0;
+  for (int x = static_cast<int>(a.x()); x < static_cast<int>(b.x()); ++x)
+    ASSERT_EQ(image.at(x, static_cast<int>(a.y())), kBlack) << x;
 }
 
 TEST(Png, FillsAnEllipseOfTheRightArea) {
@@ -201,7 +215,7 @@ TEST(Svg, IdsOfDifferentScenesDiffer) {
   EXPECT_NE(first_id(to_svg(rich_scene())), first_id(to_svg(other)));
 }
 
-TEST(Files, OfEmptyAndNonFiniteScenesAreMadeAllTheSame) {
+TEST(Files, OfEmptyAndNonFiniteScenesAreStillWritten) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   Scene odd;
   odd.panels.push_back({.items = {Lines{.segments = {{{kNan, kNan}, {1, 1}}}}, Points{.points = {{kNan, 0}}},

@@ -1,4 +1,4 @@
-// Facet charts: what stands in which panel.
+// Facet charts: the items of each panel.
 #include "render/charts/facets.hpp"
 #include "render/backends/cairo.hpp"
 
@@ -52,7 +52,7 @@ TEST(FacetScene, HasOnePanelAFacetWithTheOthersBehind) {
   EXPECT_EQ(items_of<Polyline>(scene.panels[2]).size(), 2u);
 }
 
-TEST(FacetScene, TellsTwoCurvesApartWithoutColour) {
+TEST(FacetScene, DrawsTwoCurvesThatDifferWithoutColour) {
   const auto points = items_of<Points>(facet_scene(chart()).panels[1]);
   ASSERT_EQ(points.size(), 2u);
   EXPECT_NE(points[0].marker, points[1].marker);

@@ -1,4 +1,4 @@
-// A small recording for the tests of figures: 15 walls and a way A-B-C-D-E-F (a reconstruction of the environment in
+// A small recording for the tests of figures: 15 walls and a path A-B-C-D-E-F (a reconstruction of the environment in
 // Borges & Aldon 2000), scanned by brute force.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace scanbench::render::test {
 
 NamedPoints abcdef_waypoints();
 
-/// `frames` scans of 451 beams over 270 degrees, sigma 5 cm, along the way.
+/// `frames` scans of 451 beams over 270 degrees, sigma 5 cm, along the path.
 Recording abcdef_recording(int frames);
 
 /// One line per run of beams on one wall, `jitter_m` off: what an extractor might say.

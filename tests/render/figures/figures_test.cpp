@@ -1,8 +1,9 @@
 // Every registered figure on a simulated recording, on a log without truth, and on nothing. With SCANBENCH_FIGURE_DIR
-// set, the files are left there to be looked at.
+// set, the files are written there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -15,6 +16,8 @@
 #include "render/backends/cairo.hpp"
 #include "render/backends/gl.hpp"
 #include "render/figure.hpp"
+#include "render/figures/parts/view_box.hpp"
+#include "render/layout/layout.hpp"
 #include "render/palette.hpp"
 
 namespace scanbench::render {
@@ -25,16 +28,28 @@ void keep(const std::string& name, const std::string& bytes) {
     std::ofstream(std::string(dir) + "/" + name, std::ios::binary) << bytes;
 }
 
+const std::vector<std::string> kNames{"iepf", "line_tracking", "smf", "ransac", "hough"};
+
+/// Right, split, false, unjudged in turn, and a missed line in every third scan.
+std::vector<ScanVerdict> some_verdicts(const PipelineResult& result) {
+  std::vector<ScanVerdict> verdicts(result.lines.size());
+  for (std::size_t f = 0; f < verdicts.size(); ++f) {
+    for (std::size_t k = 0; k < result.lines[f].lines.size(); ++k)
+      verdicts[f].lines.push_back(k % 7 < 4 ? LineVerdict::right : static_cast<LineVerdict>(k % 4));
+    if (f % 3 == 0) verdicts[f].missed.push_back({{1, 1}, {2, 1}});
+  }
+  return verdicts;
+}
+
 struct Case {
   Recording recording;
   std::vector<PipelineResult> results;
   TraceRows trace = {};  ///< of the first pipeline
   FigureInput input(const NamedPoints& waypoints) const {
     FigureInput in{.title = "abcdef", .recording = recording, .waypoints = waypoints, .results = {}};
-    const std::vector<std::string> names{"iepf", "line_tracking", "smf", "ransac", "hough"};
     for (std::size_t i = 0; i < results.size(); ++i) {
-      in.results.push_back({names[i], &results[i], i == 0 ? &trace : nullptr});
-      in.measured.push_back({.pipeline = names[i],
+      in.results.push_back({kNames[i], &results[i], i == 0 ? &trace : nullptr});
+      in.measured.push_back({.pipeline = kNames[i],
                              .slots = {{"extract some", {{"threshold_m", 0.1 * static_cast<double>(i)}}}},
                              .units = {{"extract.threshold_m", "m"}},
                              .metrics = {{"f1", {0.8, 0.9 + 0.01 * static_cast<double>(i)}}}});
@@ -82,7 +97,7 @@ TEST(Figures, OfAnEmptyRecordingAreNone) {
     EXPECT_TRUE(Registry<Figure>::make(name)->draw(c.input({})).empty()) << name;
 }
 
-TEST(Figures, OfScansWithoutAnyReturnAreDrawnAllTheSame) {
+TEST(Figures, OfScansWithoutAnyReturnAreStillDrawn) {
   Case c = simulated(3);
   for (Frame& frame : c.recording.observed.frames)
     for (double& range : frame.ranges) range = INFINITY;
@@ -93,7 +108,7 @@ TEST(Figures, OfScansWithoutAnyReturnAreDrawnAllTheSame) {
       EXPECT_FALSE(to_svg(scene.scene).empty());
 }
 
-TEST(ScanOverlay, ShowsTheFrameAskedForAndOnePanelPerPipelineInTheMethodsColour) {
+TEST(ScanOverlay, ShowsTheRequestedFrameAndOnePanelPerPipelineInTheMethodsColour) {
   const Case c = simulated(9);
   const auto scenes = Registry<Figure>::make("scan_overlay", {{"frame", std::int64_t{7}}})->draw(c.input({}));
   ASSERT_EQ(scenes.size(), 1u);
@@ -103,7 +118,7 @@ TEST(ScanOverlay, ShowsTheFrameAskedForAndOnePanelPerPipelineInTheMethodsColour)
     std::size_t found = 0;
     for (const Item& item : scenes[0].scene.panels[i].items)
       if (const Lines* lines = std::get_if<Lines>(&item);
-          lines != nullptr && lines->stroke.color == method_style(i).color) {
+          lines != nullptr && lines->stroke.color == method_style(kNames[i]).color) {
         ++found;
         ASSERT_EQ(lines->segments.size(), c.results[i].lines[7].lines.size());
         for (std::size_t k = 0; k < lines->segments.size(); ++k)
@@ -113,12 +128,12 @@ TEST(ScanOverlay, ShowsTheFrameAskedForAndOnePanelPerPipelineInTheMethodsColour)
   }
 }
 
-TEST(Environment, DrawsAWayOnlyWhereThereIsOneAndRoundThingsWhereTheyStand) {
+TEST(Environment, DrawsAWayOnlyWhereThereIsOneAndCirclesWhereTheyStand) {
   const Case c = simulated(9);
   for (const bool continuous : {true, false}) {
     FigureInput input = c.input({});
     input.continuous = continuous;
-    input.round_things = {{Vec2(2, 3), 0.5}};
+    input.circles = {{Vec2(2, 3), 0.5}};
     const auto scenes = Registry<Figure>::make("environment")->draw(input);
     std::size_t ways = 0, circles = 0;
     for (const Item& item : scenes.at(0).scene.panels.at(0).items)
@@ -133,8 +148,8 @@ TEST(Environment, DrawsAWayOnlyWhereThereIsOneAndRoundThingsWhereTheyStand) {
   }
 }
 
-// Whatever the number from which on there are none.
-TEST(Environment, SpeaksOfLabelsOnlyWhereTheyAreDrawn) {
+// For any number of walls beyond which there are none.
+TEST(Environment, MentionsLabelsOnlyWhereTheyAreDrawn) {
   const Case c = simulated(3);
   const auto labels_drawn = [](const NamedScene& scene) {
     return std::ranges::any_of(scene.scene.panels.at(0).items,
@@ -175,30 +190,136 @@ TEST(LinesWorld, PlacesLinesByThePosesOfThePipelineIfThereAreAnyElseByTrueOnes) 
 }
 
 TEST(Map, HasAPanelForEachPipelineWithAMapAndKeepsItsColour) {
-  const auto scenes = Registry<Figure>::make("map")->draw(simulated(5).input({}));
+  Case c = simulated(5);
+  c.results[2].map.lines.pop_back();  // another map than the first one
+  const auto scenes = Registry<Figure>::make("map")->draw(c.input({}));
   ASSERT_EQ(scenes.size(), 1u);
   ASSERT_EQ(scenes[0].scene.panels.size(), 2u);  // the second of three has none
-  EXPECT_EQ(std::get<Lines>(scenes[0].scene.panels[1].items[1]).stroke.color, method_style(2).color);
+  EXPECT_EQ(std::get<Lines>(scenes[0].scene.panels[1].items[1]).stroke.color, method_style(kNames[2]).color);
 }
 
-// Few maps have a colour each, many share one.
 TEST(Map, HasTheColoursOfItsPanelsInItsLegend) {
-  for (const std::size_t pipelines : {1U, 3U, 5U}) {
-    Case c = simulated(3);
-    c.results.resize(pipelines, c.results[0]);
-    const auto scenes = Registry<Figure>::make("map")->draw(c.input({}));
-    ASSERT_EQ(scenes.size(), 1U);
-    std::set<std::tuple<int, int, int>> drawn, named;
-    for (const Panel& panel : scenes[0].scene.panels) {
-      const Color color = std::get<Lines>(panel.items[1]).stroke.color;
-      drawn.emplace(color.r, color.g, color.b);
-    }
-    for (const LegendEntry& entry : scenes[0].scene.legend)
-      if (entry.text.find("map") != std::string::npos)
-        named.emplace(entry.stroke->color.r, entry.stroke->color.g, entry.stroke->color.b);
-    EXPECT_EQ(named, drawn) << pipelines;
-    EXPECT_EQ(drawn.size(), pipelines == 3 ? 2U : 1U);  // the second of three has no map
+  Case c = simulated(3);
+  c.results[2].map.lines.pop_back();
+  const auto scenes = Registry<Figure>::make("map")->draw(c.input({}));
+  ASSERT_EQ(scenes.size(), 1U);
+  for (const std::size_t i : {0U, 2U})
+    EXPECT_TRUE(std::ranges::any_of(scenes[0].scene.legend, [&](const LegendEntry& entry) {
+      return entry.text == kNames[i] && entry.stroke->color == method_style(kNames[i]).color;
+    })) << kNames[i];
+}
+
+TEST(Figures, DrawPanelsThatShowTheSameThingOnce) {
+  Case c = simulated(6);
+  c.results[1] = c.results[0];
+  c.results[1].map.lines[0].segment.a += Vec2(0.5, 0);  // another map of the same lines
+  c.results[2].map = c.results[0].map;
+  for (const auto& [name, panels, title] :
+       {std::tuple("scan_overlay", 2U, "iepf, line_tracking"), std::tuple("lines_world", 2U, "iepf, line_tracking"),
+        std::tuple("map", 2U, "iepf, smf")}) {
+    const auto scenes = Registry<Figure>::make(name)->draw(c.input({}));
+    ASSERT_EQ(scenes.size(), 1U) << name;
+    EXPECT_EQ(scenes[0].scene.panels.size(), panels) << name;
+    EXPECT_TRUE(scenes[0].scene.panels.at(0).title.starts_with(title)) << scenes[0].scene.panels[0].title;
   }
+}
+
+TEST(ScanOverlay, ShowsTheWorstScanBesideTheMedianOne) {
+  const Case c = simulated(9);
+  FigureInput input = c.input({});
+  for (NamedResult& named : input.results)  // in scan f, f lines are false and the others right
+    for (std::size_t f = 0; f < 9; ++f) {
+      const std::size_t lines = named.result->lines[f].lines.size();
+      named.verdicts.push_back({std::vector(lines, LineVerdict::right), std::vector<Segment>(f, {{0, 1}, {1, 1}})});
+    }
+  std::vector<std::pair<double, std::size_t>> by_share;
+  for (std::size_t f = 0; f < 9; ++f) {
+    double share = 0.0;
+    for (const NamedResult& named : input.results) {
+      const auto n = static_cast<double>(named.result->lines[f].lines.size());
+      share += n + static_cast<double>(f) > 0 ? n / (n + static_cast<double>(f)) : 1.0;
+    }
+    by_share.emplace_back(share, f);
+  }
+  std::ranges::sort(by_share);
+  const auto scenes = Registry<Figure>::make("scan_overlay")->draw(input);
+  ASSERT_EQ(scenes.size(), 1U);
+  const Scene& scene = scenes[0].scene;
+  ASSERT_EQ(scene.panels.size(), 6U);  // two for each pipeline
+  EXPECT_EQ(scene.columns % 2, 0);
+  const auto scan = [](std::size_t f) { return "scan " + std::to_string(f + 1) + ":"; };
+  EXPECT_NE(scene.panels[0].title.find("median " + scan(by_share[4].second)), std::string::npos);
+  EXPECT_NE(scene.panels[1].title.find("worst " + scan(by_share[0].second)), std::string::npos);
+}
+
+TEST(Overlays, DistinguishRightSplitFalseAndMissedLinesByColourAndDash) {
+  const Case c = simulated(9);
+  FigureInput input = c.input({});
+  for (NamedResult& named : input.results) named.verdicts = some_verdicts(*named.result);
+  for (const std::string name : {"scan_overlay", "lines_world"}) {
+    const Scene scene = Registry<Figure>::make(name)->draw(input).at(0).scene;
+    std::vector<LegendEntry> looks;
+    for (const char* verdict : {"right", "split", "false", "missed"}) {
+      const auto entry = std::ranges::find(scene.legend, verdict, &LegendEntry::text);
+      ASSERT_NE(entry, scene.legend.end()) << name << " " << verdict;
+      looks.push_back(*entry);
+      EXPECT_TRUE(std::ranges::any_of(scene.panels,
+                                      [&](const Panel& panel) {
+                                        return std::ranges::any_of(panel.items, [&](const Item& item) {
+                                          const auto* lines = std::get_if<Lines>(&item);
+                                          return lines != nullptr && lines->stroke.color == entry->stroke->color &&
+                                                 lines->stroke.dash == entry->stroke->dash && !lines->segments.empty();
+                                        });
+                                      }))
+          << name << " draws no line that is " << verdict;
+    }
+    for (std::size_t i = 0; i < looks.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        EXPECT_NE(looks[i].stroke->color, looks[k].stroke->color);
+        EXPECT_NE(looks[i].stroke->dash, looks[k].stroke->dash);
+        EXPECT_NE(looks[i].marker, looks[k].marker);
+      }
+    keep(name + "_judged.png", to_png(scene));
+  }
+}
+
+// 200 returns within 10 m, two 7 m farther out: the view is that of the 200, and the figure says that two are outside.
+TEST(SetView, IsNotStretchedByTwoStrayPoints) {
+  std::vector<Vec2> points;
+  for (int i = 0; i < 200; ++i) points.emplace_back(0.05 * i, 3.0 + std::sin(0.1 * i));
+  Panel without;
+  set_view(points, {}, without);
+  points.emplace_back(17.0, 3.0);
+  points.emplace_back(3.0, -7.0);
+  Panel panel{.tell_outside = "point", .items = {Points{.points = points}}};
+  set_view(points, {}, panel);
+  EXPECT_EQ(panel.x.range, without.x.range);
+  EXPECT_EQ(panel.y.range, without.y.range);
+  const std::array far{Vec2(17.0, 3.0)};
+  Panel held;
+  set_view(points, far, held);
+  EXPECT_GE(held.x.range->second, 17.0);
+  EXPECT_EQ(held.y.range, without.y.range);
+}
+
+// The end of a corridor, which few scans see, is not stray: no gap separates it from the rest.
+TEST(SetView, KeepsTheEndOfACorridor) {
+  std::vector<Vec2> points;
+  for (int i = 0; i < 1000; ++i) points.emplace_back(10.0 * std::pow(i / 1000.0, 0.2), 0.0);
+  Panel panel;
+  set_view(points, {}, panel);
+  EXPECT_LE(panel.x.range->first, points.front().x());
+  EXPECT_GE(panel.x.range->second, points.back().x());
+}
+
+TEST(Figures, HaveNoTextBelowEightPoints) {
+  const Case c = simulated(20);
+  for (const std::string& name : Registry<Figure>::names())
+    for (const NamedScene& figure : Registry<Figure>::make(name)->draw(c.input(test::abcdef_waypoints())))
+      for (const Shape& shape : layout(figure.scene).shapes)
+        if (const auto* text = std::get_if<TextShape>(&shape.what)) {
+          EXPECT_GE(text->size, 8.0) << name << ": " << text->text;
+        }
 }
 
 // Three widths of one method in any order, one pipeline of another, and one without a value.
@@ -226,6 +347,25 @@ TEST(Sweep, DrawsTheMeanAndTheBandOfPipelinesThatDifferInOneParameter) {
             (std::vector<Vec2>{{5, 4}, {10, 7}, {20, 1}, {20, 6}, {10, 9}, {5, 4}}));
   EXPECT_EQ(std::get<Polyline>(panel.items.at(1)).points, (std::vector<Vec2>{{5, 4}, {10, 8}, {20, 3}}));
   EXPECT_EQ(scenes[0].scene.legend.at(0).text, "wide");
+}
+
+TEST(Sweep, NamesTheTargetInItsLegend) {
+  const Recording none;
+  FigureInput input{.title = "t", .recording = none, .waypoints = {}, .results = {}};
+  for (const double x : {1.0, 2.0})
+    input.measured.push_back(
+        {.pipeline = "p", .slots = {{"merge a", {{"x", x}}}}, .units = {}, .metrics = {{"n", {x}}}});
+  const ParamSet params{
+      {"parameters", std::string("merge.x")}, {"metric", std::string("n")}, {"target", std::vector<double>{1.5}}};
+  const Scene scene = Registry<Figure>::make("sweep", params)->draw(input).at(0).scene;
+  const auto target = std::ranges::find(scene.legend, "target 1.5", &LegendEntry::text);
+  ASSERT_NE(target, scene.legend.end());
+  const auto drawn = std::ranges::find_if(scene.panels[0].items, [](const Item& item) {
+    const auto* line = std::get_if<Polyline>(&item);
+    return line != nullptr && line->points.front().y() == 1.5 && line->points.back().y() == 1.5;
+  });
+  ASSERT_NE(drawn, scene.panels[0].items.end());
+  EXPECT_EQ(std::get<Polyline>(*drawn).stroke.dash, target->stroke->dash);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The figures of merging on the spiral, on one line and on none. With SCANBENCH_FIGURE_DIR set, the files are left
-// there to be looked at.
+// The figures of merging on the spiral, on one line and on none. With SCANBENCH_FIGURE_DIR set, the files are
+// written there.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -85,7 +85,7 @@ TEST(MergeFigures, OfNoLineAreEmptyAndSaySo) {
     EXPECT_TRUE(says(drawn(name, merged, "none").scene, "no lines")) << name;
 }
 
-TEST(MergeFigures, OfAPipelineThatWroteNothingDownAreNone) {
+TEST(MergeFigures, OfAPipelineWithoutATraceAreNone) {
   const Recording recording = test::blind_recording();
   const test::Merged merged = test::merged_by_mean_shift(testing::spiral());
   const TraceRows nothing, foreign{{"merge.joint_space", {{-1, {1.0, 2.0}}}}};
@@ -94,7 +94,7 @@ TEST(MergeFigures, OfAPipelineThatWroteNothingDownAreNone) {
       EXPECT_TRUE(Registry<Figure>::make(name)->draw(input_of("t", recording, {{"p", &merged.result, trace}})).empty());
 }
 
-TEST(MergeFigures, OfRowsThatDoNotFitEachOtherAreDrawnAllTheSame) {
+TEST(MergeFigures, OfRowsThatDoNotFitEachOtherAreStillDrawn) {
   test::Merged merged = test::merged_by_mean_shift(std::vector<MapLine>{{.segment = {{0, 0}, {0.3, 0}}}});
   const Recording recording = test::blind_recording();
   for (const std::string name : {"cluster", "trajectory1", "mode2", "kernel2", "projection", "merged"})
@@ -106,7 +106,7 @@ TEST(MergeFigures, OfRowsThatDoNotFitEachOtherAreDrawnAllTheSame) {
   for (const std::string& name : kFromTheTrace) EXPECT_FALSE(drawn(name, merged, "misfit").caption.empty());
 }
 
-TEST(MergeFigures, AskForTheRowsThatTheyDrawFrom) {
+TEST(MergeFigures, RequestTheRowsThatTheyDrawFrom) {
   const test::Merged all = test::merged_by_mean_shift(testing::spiral());
   for (const auto* names : {&kFromTheTrace, &kFromTheMap})
     for (const std::string& name : *names) {
@@ -119,7 +119,7 @@ TEST(MergeFigures, AskForTheRowsThatTheyDrawFrom) {
     }
 }
 
-TEST(MergeFigures, ShowThePipelineAskedFor) {
+TEST(MergeFigures, ShowTheRequestedPipeline) {
   const Recording recording = test::blind_recording();
   const test::Merged none = test::merged_by_mean_shift(std::vector<MapLine>{});
   const test::Merged one = test::merged_by_mean_shift(std::vector<MapLine>{{.segment = {{0, 0}, {0.3, 0}}}});

@@ -52,7 +52,7 @@ TEST(Layout, MapsTheRangeToTheBoxOnFreeAndLogAxes) {
 
 TEST(Layout, KeepsEveryTextOnTheCanvas) {
   Scene scene = one_panel({Lines{.segments = {{{0, 0}, {10000, 13000}}}}});
-  scene.title = "a title that is much too long for a single column of a paper, whatever its author may think of it";
+  scene.title = "a title that is much too long for a single column of a paper, which its author should know";
   scene.panels[0].title = scene.title;
   scene.panels[0].y.label = scene.title;
   scene.legend = {{.text = scene.title, .stroke = Stroke{}}, {.text = "b", .marker = Marker::square}};
@@ -151,12 +151,92 @@ TEST(Layout, OfAnEmptySceneAndOfEmptyPanelsIsFinite) {
   }
 }
 
-TEST(Layout, AnAskedForHeightIsKept) {
+TEST(Layout, KeepsARequestedHeight) {
   Scene scene = one_panel({Lines{.segments = {{{0, 0}, {1, 30}}}}});
   scene.height_in = 3.0;
   EXPECT_DOUBLE_EQ(layout(scene).height, 216.0);
   scene.height_in = 0.0;
   EXPECT_LE(layout(scene).height, 72 * scene.max_height_in + 1e-6);
+}
+
+TEST(ErrorBars, ThatLeaveThePanelEndInAnArrowAtItsEdge) {
+  for (const bool log : {false, true}) {
+    Scene scene = one_panel({ErrorBars{.intervals = {{1, 0.5, 0.9}, {2, -1, 2}, {3, 0.5, 7}}}});
+    scene.panels[0].equal_aspect = false;
+    scene.panels[0].x.range = {0, 4};
+    scene.panels[0].y = {.range = std::pair(0.1, 1.0), .log = log};
+    const Layout placed = layout(scene);
+    const Rect box = placed.panels[0].box;
+    std::vector<Vec2> tips;
+    for (const FillShape* fill : shapes_of<FillShape>(placed, 0))
+      for (std::size_t k = 0; k + 1 < fill->starts.size(); ++k) tips.push_back(fill->points[fill->starts[k]]);
+    ASSERT_EQ(tips.size(), 3U);
+    const auto x = [&](double v) { return placed.panels[0].to_device({v, 0.5}).x(); };
+    EXPECT_NEAR((tips[0] - Vec2(x(2), box.y1)).norm(), 0.0, 1.0);
+    EXPECT_NEAR((tips[1] - Vec2(x(2), box.y0)).norm(), 0.0, 1.0);
+    EXPECT_NEAR((tips[2] - Vec2(x(3), box.y0)).norm(), 0.0, 1.0);
+    // The bar that starts below a logarithmic axis is still drawn up to its edge.
+    double lowest = box.y0;
+    for (const StrokeShape* bars : shapes_of<StrokeShape>(placed, 0))
+      for (const Vec2& p : bars->points)
+        if (std::abs(p.x() - x(2)) < 0.1) lowest = std::max(lowest, p.y());
+    EXPECT_GE(lowest, box.y1);
+  }
+}
+
+TEST(Layout, OfARaggedGridKeepsTheSpacingOfItsRowsAndPutsTheLegendIntoTheFreeCells) {
+  Scene scene = one_panel({Lines{.segments = {{{0, 0}, {10, 8}}}}});
+  scene.panels.resize(7, scene.panels[0]);
+  scene.columns = 3;
+  scene.width_in = kDoubleColumnIn;
+  scene.share_axes = true;
+  scene.legend = {{.text = "walls", .stroke = Stroke{}}, {.text = "points", .marker = Marker::dot}};
+  const Layout placed = layout(scene);
+  const auto& p = placed.panels;
+  EXPECT_NEAR(p[3].box.y0 - p[0].box.y0, p[6].box.y0 - p[3].box.y0, 1e-9);
+  std::size_t found = 0;
+  for (const TextShape* text : shapes_of<TextShape>(placed, -1))
+    if (text->text == "walls" || text->text == "points") {
+      ++found;
+      EXPECT_GT(text->origin.x(), p[6].box.x1);
+      EXPECT_GT(text->origin.y(), p[3].box.y1);
+      EXPECT_LT(text->origin.y(), placed.height);
+    }
+  EXPECT_EQ(found, 2U);
+  EXPECT_LT(placed.height - p[6].box.y1, 40.0) << "nothing but the axis is below the last row";
+}
+
+TEST(Layout, WrapsLongTitlesAndLosesNoWord) {
+  Scene scene = one_panel({Lines{.segments = {{{0, 0}, {10, 8}}}}});
+  scene.title = "a title of a figure that does not fit in the single line that a column of a paper has";
+  scene.panels[0].title = "a title of a panel that does not fit in one line above it either";
+  const Layout placed = layout(scene);
+  std::string all;
+  for (const TextShape* text : shapes_of<TextShape>(placed, -1)) {
+    all += text->text + " ";
+    if (!text->upwards) {
+      EXPECT_LE(text->origin.x() + Font::get().width_em(text->text) * text->size, placed.width);
+    }
+  }
+  EXPECT_NE(all.find(scene.title), std::string::npos) << all;
+  EXPECT_NE(all.find(scene.panels[0].title), std::string::npos) << all;
+}
+
+TEST(Layout, SaysHowManyPointsAreOutsideOfAPanel) {
+  for (const int stray : {0, 1, 2}) {
+    std::vector<Vec2> points{{1, 1}, {2, 2}};
+    for (int i = 0; i < stray; ++i) points.emplace_back(50.0 + i, 50.0);
+    Scene scene = one_panel({Points{.points = points}});
+    scene.panels[0].x.range = scene.panels[0].y.range = {0, 3};
+    scene.panels[0].tell_outside = "point";
+    std::vector<std::string> notes;
+    for (const TextShape* text : shapes_of<TextShape>(layout(scene), 0))
+      if (text->text.ends_with("outside") && !text->halo) notes.push_back(text->text);
+    if (stray == 0)
+      EXPECT_TRUE(notes.empty());
+    else
+      EXPECT_EQ(notes, (std::vector<std::string>{stray == 1 ? "1 point outside" : "2 points outside"}));
+  }
 }
 
 TEST(Labels, DoNotCoverEachOtherWhereThereIsRoom) {

@@ -1,6 +1,7 @@
-// The looks of recurring things: colours, budgets, the path of the sensor, the legend of methods.
+// The style of recurring things: colours, budgets, the path of the sensor, the legend of methods.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,16 +27,32 @@ inline constexpr std::size_t kPointBudget = 9000;
 void add_path(const FigureInput& input, std::span<const Pose2> poses, const Stroke& stroke, Panel& panel);
 LegendEntry path_legend(const FigureInput& input, const Stroke& stroke);
 
-/// How many methods have a colour each; more share one, because each has a panel of its own.
-inline constexpr std::size_t kColoredMethods = 4;
+/// How many methods a legend lists; more are named by the titles of their panels only.
+inline constexpr std::size_t kListedMethods = 4;
 
-/// The colour of method i of the results: what add_method_legend() says.
-Color method_color(const std::vector<NamedResult>& results, std::size_t i);
+/// Indices 0 .. n - 1 in groups of equal elements, in the order of their first ones: what looks alike is drawn once.
+template <class Equal>
+std::vector<std::vector<std::size_t>> groups_of_equal(std::size_t n, Equal equal) {
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto same = std::ranges::find_if(groups, [&](const auto& group) { return equal(group.front(), i); });
+    if (same == groups.end())
+      groups.push_back({i});
+    else
+      same->push_back(i);
+  }
+  return groups;
+}
 
-/// A swatch per method in its colour; one for all, "lines found", if there are more than four.
-void add_method_legend(const std::vector<NamedResult>& results, double width_pt, Scene& scene);
+/// The pipelines of a group: "iepf, smf".
+std::string names_of(const std::vector<NamedResult>& results, const std::vector<std::size_t>& group);
 
-/// A scene of small multiples for `panels` panels: width and columns.
+/// A swatch for each group, in the colour of its first method, if they are few; else one entry that explains the
+/// colours.
+void add_method_legend(const std::vector<NamedResult>& results, const std::vector<std::vector<std::size_t>>& groups,
+                       double width_pt, Scene& scene);
+
+/// A scene of small multiples for `panels` panels on a map: width, columns, one range, a scale bar.
 Scene small_multiples(std::size_t panels);
 
 /// An empty panel says why it is empty.

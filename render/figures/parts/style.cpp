@@ -1,5 +1,5 @@
 // Path, legend and words that figures share.
-#include "render/figures/parts/looks.hpp"
+#include "render/figures/parts/style.hpp"
 
 #include <algorithm>
 
@@ -24,18 +24,22 @@ LegendEntry path_legend(const FigureInput& input, const Stroke& stroke) {
           .marker_size_pt = kPlaceSizePt};
 }
 
-Color method_color(const std::vector<NamedResult>& results, std::size_t i) {
-  return method_style(results.size() > kColoredMethods ? 0 : i).color;
+std::string names_of(const std::vector<NamedResult>& results, const std::vector<std::size_t>& group) {
+  std::string names;
+  for (const std::size_t i : group) names += (names.empty() ? "" : ", ") + results[i].pipeline;
+  return names;
 }
 
-void add_method_legend(const std::vector<NamedResult>& results, double width_pt, Scene& scene) {
-  if (results.size() > kColoredMethods) {
-    scene.legend.push_back({.text = "lines found", .stroke = Stroke{method_color(results, 0), width_pt, Dash::solid}});
-    return;
-  }
-  for (std::size_t i = 0; i < results.size(); ++i)
+void add_method_legend(const std::vector<NamedResult>& results, const std::vector<std::vector<std::size_t>>& groups,
+                       double width_pt, Scene& scene) {
+  if (groups.size() > kListedMethods)
     scene.legend.push_back(
-        {.text = results[i].pipeline, .stroke = Stroke{method_color(results, i), width_pt, Dash::solid}});
+        {.text = "lines found, in the colour of the method", .stroke = Stroke{kGrey, width_pt, Dash::solid}});
+  else
+    for (const auto& group : groups)
+      scene.legend.push_back(
+          {.text = names_of(results, group),
+           .stroke = Stroke{method_style(results[group.front()].pipeline).color, width_pt, Dash::solid}});
 }
 
 Scene small_multiples(std::size_t panels) {

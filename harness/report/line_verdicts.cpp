@@ -1,0 +1,44 @@
+// Matching of metrics/, in the words of render/.
+#include "harness/report/line_verdicts.hpp"
+
+#include <algorithm>
+
+#include "metrics/line_matching.hpp"
+#include "metrics/rows.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+render::LineVerdict verdict_of(metrics::Outcome outcome) {
+  switch (outcome) {
+    case metrics::Outcome::true_line:
+      return render::LineVerdict::right;
+    case metrics::Outcome::split:
+      return render::LineVerdict::split;
+    case metrics::Outcome::false_line:
+      return render::LineVerdict::false_line;
+    default:
+      return render::LineVerdict::unjudged;
+  }
+}
+
+}  // namespace
+
+std::vector<render::ScanVerdict> line_verdicts(const Recording& recording, const PipelineResult& result) {
+  const metrics::MetricInput input{recording.observed, recording.truth ? &*recording.truth : nullptr, result};
+  const std::size_t frames = recording.observed.frames.size();
+  if (!metrics::has_beam_truth(input) || result.lines.size() != frames) return {};
+  const metrics::Surfaces surfaces = metrics::join_walls(recording.truth->walls);
+  std::vector<render::ScanVerdict> verdicts(frames);
+  for (std::size_t f = 0; f < frames; ++f) {
+    const std::vector<metrics::TrueLine> truth = metrics::true_lines(input, f, surfaces, {});
+    const metrics::LineMatching matching = metrics::match_lines(result.lines[f].lines, truth, {});
+    for (const metrics::Outcome outcome : matching.outcome) verdicts[f].lines.push_back(verdict_of(outcome));
+    for (std::size_t t = 0; t < truth.size(); ++t)
+      if (std::ranges::find(matching.truth, static_cast<int>(t)) == matching.truth.end())
+        verdicts[f].missed.push_back(truth[t].segment);
+  }
+  return verdicts;
+}
+
+}  // namespace scanbench::harness
