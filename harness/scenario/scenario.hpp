@@ -12,6 +12,7 @@
 #include "core/params.hpp"
 #include "core/recording.hpp"
 #include "sim/line_copies.hpp"
+#include "sim/ray_caster.hpp"
 #include "sim/simulate.hpp"
 
 namespace scanbench::harness {
@@ -48,6 +49,7 @@ struct SimulatedInput {
   ParamSet tilt_params;  ///< effective, in the units of the file
   sim::Tilt tilt;
   bool sweep = false;
+  sim::CasterKind caster = sim::CasterKind::exact;
 };
 
 /// ... or from a recorded log.

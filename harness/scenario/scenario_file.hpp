@@ -11,6 +11,7 @@
 //     scans: 200
 //     odometry: {translation_per_m: 0.02}
 //     sweep: false
+//   caster: exact                                # optional; box2d: the reference, slower, equal recordings
 //   seed: 1                                      # or seeds: [1, 2], or seeds: {first: 1, count: 20}; default: seed: 1
 //   pipelines:                                   # slots: extract, then align or match, then map or merge
 //     - {name: iepf, extract: {module: iepf, params: {threshold_m: 0.10}}}

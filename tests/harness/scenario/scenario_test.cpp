@@ -94,6 +94,18 @@ TEST(Scenario, ReadsTiltInDegreesAndPassesItOn) {
   EXPECT_EQ(parse_scenario(kSmall, "x.yaml", {"trajectory.tilt={}"}).seeds, s.seeds);
 }
 
+TEST(Scenario, TheCasterIsExactUnlessTheReferenceIsRequested) {
+  const Scenario s = parse_scenario(kSmall, "x.yaml");
+  EXPECT_EQ(simulation_input(s, 1).caster, sim::CasterKind::exact);
+  EXPECT_THAT(effective_yaml(s), testing::Not(HasSubstr("caster")));
+  const Scenario reference = parse_scenario(kSmall, "x.yaml", {"caster=box2d"});
+  EXPECT_EQ(simulation_input(reference, 1).caster, sim::CasterKind::box2d);
+  EXPECT_EQ(simulation_input(parse_scenario(effective_yaml(reference), "x.yaml"), 1).caster, sim::CasterKind::box2d);
+  EXPECT_EQ(input_address(reference), input_address(s));
+  EXPECT_THAT(config_refusal([] { parse_scenario(kSmall, "x.yaml", {"caster=fast"}); }),
+              HasSubstr("caster is 'fast'; allowed: exact, box2d"));
+}
+
 TEST(Scenario, OneSeedIsTheDefault) {
   std::string text = kSmall;
   text.erase(text.find("seeds"), text.find("pipelines") - text.find("seeds"));
