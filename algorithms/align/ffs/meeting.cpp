@@ -46,8 +46,8 @@ Meeting meeting_of(std::span<const Body> bodies, std::span<const Pose2> poses, c
     partners.erase(std::unique(partners.begin(), partners.end()), partners.end());
     for (const int partner : partners) ++shared[std::minmax(node[v], partner)];
     const auto b = static_cast<std::size_t>(node[v]);
-    const Eigen::Vector3d row = row_of(perpendicular(along[v]), at[v], poses[b] * bodies[b].centre,
-                                       std::max(bodies[b].radius, 1e-3));
+    const Eigen::Vector3d row =
+        row_of(perpendicular(along[v]), at[v], poses[b] * bodies[b].centre, std::max(bodies[b].radius, 1e-3));
     normal_matrix[b] += row * row.transpose();
   }
 

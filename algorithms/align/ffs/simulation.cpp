@@ -11,7 +11,7 @@
 namespace scanbench::align::ffs {
 namespace {
 
-constexpr double kSettled = 1e-3;  // of sigma_end_m
+constexpr double kSettled = 1e-3;     // of sigma_end_m
 constexpr double kLongestStep = 1.0;  // of sigma: a longer one would leave the field that asked for it
 constexpr double kMeetingSigmas = 2.0;
 
@@ -137,9 +137,8 @@ double Schedule::step_at(int iteration) const {
 
 void Schedule::check() const {
   const auto refuse = [](const std::string& name, double value, const std::string& limit, double bound) {
-    throw ParamError(name,
-                     name + " = " + number_text(value) + " is beyond " + limit + " = " + number_text(bound) +
-                         "; allowed: up to " + limit);
+    throw ParamError(name, name + " = " + number_text(value) + " is beyond " + limit + " = " + number_text(bound) +
+                               "; allowed: up to " + limit);
   };
   if (sigma_end_m > sigma_start_m) refuse("sigma_end_m", sigma_end_m, "sigma_start_m", sigma_start_m);
   if (step_end > step_start) refuse("step_end", step_end, "step_start", step_start);
