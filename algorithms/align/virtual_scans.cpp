@@ -62,8 +62,8 @@ class VirtualScans final : public Aligner {
     rules_.rectangles.min_side_m = p.rectangle_min_side_m;
     rules_.rectangles.misfit = p.rectangle_misfit;
     rules_.rectangles.min_certainty = p.rectangle_min_certainty;
-    rules_.merge_distance_m = p.merge_distance_m;
-    rules_.merge_gap_m = p.merge_gap_m;
+    rules_.prototypes.distance_m = p.merge_distance_m;
+    rules_.prototypes.gap_m = p.merge_gap_m;
     rules_.line_weight = p.line_weight;
     rules_.rectangle_weight = p.rectangle_weight;
     rules_.resample_m = p.resample_m;

@@ -21,6 +21,7 @@ namespace {
 
 using Float8 [[gnu::vector_size(32)]] = float;
 using Int8 [[gnu::vector_size(32)]] = std::int32_t;
+using Long4 [[gnu::vector_size(32)]] = std::int64_t;
 
 constexpr std::size_t kLanes = 8;
 constexpr double kStiffestSigmas = 0.05;  // below this distance a pair is as stiff as at it
@@ -57,6 +58,11 @@ struct Constants {
 
 [[gnu::always_inline]] inline Float8 where(Int8 mask, Float8 v) {
   return std::bit_cast<Float8>(std::bit_cast<Int8>(v) & mask);
+}
+
+[[gnu::always_inline]] inline bool none(Int8 mask) {
+  const Long4 halves = std::bit_cast<Long4>(mask);
+  return ((halves[0] | halves[1]) | (halves[2] | halves[3])) == 0;
 }
 
 [[gnu::always_inline]] inline void subtract(float* from, Float8 v) {
@@ -107,6 +113,7 @@ struct Constants {
     const auto left = static_cast<std::int32_t>(end - j);
     const Int8 limit = {left, left, left, left, left, left, left, left};
     const Int8 acts = (others != body) & (squared <= all(k.squared_cut)) & (lane < limit);
+    if (none(acts)) continue;  // neighbours in memory are neighbours on a line: half of all blocks
     const Int8 magnitude = std::bit_cast<Int8>(c * load(p.c + j) + s * load(p.s + j)) & 0x7fffffff;  // |w w cos|
     const Float8 m = where(acts, std::bit_cast<Float8>(magnitude) * power_of_two(squared * all(k.exponent)));  // (2)
     const Float8 inverse = reciprocal_root(squared);

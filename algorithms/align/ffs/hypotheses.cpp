@@ -6,25 +6,11 @@
 #include <limits>
 
 #include "core/force_field_trace.hpp"
-#include "core/registry.hpp"
 
 namespace scanbench::align::ffs {
 namespace {
 
 constexpr double kSameSteps = 5.0;
-
-/// Segments that show one wall in several scans as one prototype: merging of section 4.2, figure 7.
-std::vector<Segment> prototypes_of(std::span<const Segment> lines, const HypothesisRules& rules) {
-  std::vector<MapLine> given;
-  for (const Segment& line : lines) given.push_back({.segment = line, .members = 1, .points = 2});
-  Trace silent;
-  const auto merger = Registry<SegmentMerger>::make("greedy_pairs", {{"max_angle_deg", rules.merge_angle_deg},
-                                                                     {"max_distance_m", rules.merge_distance_m},
-                                                                     {"max_gap_m", rules.merge_gap_m}});
-  std::vector<Segment> prototypes;
-  for (const MapLine& line : merger->merge({given, {}}, silent).map.lines) prototypes.push_back(line.segment);
-  return prototypes;
-}
 
 double distance_to_line(const Vec2& p, const Hypothesis& line) {
   const Vec2 along = (line.corners[1] - line.corners[0]).normalized();
@@ -67,7 +53,7 @@ std::vector<Hypothesis> hypotheses_of(const CurrentMap& map, const HypothesisRul
     }
   }
   if (rules.rectangle_weight > 0) {
-    for (const Rectangle& r : rectangles_of(prototypes_of(map.lines, rules), rules.rectangles))
+    for (const Rectangle& r : rectangles_of(prototypes_of(map.lines, rules.prototypes), rules.rectangles))
       result.push_back({Shape::rectangle, {r.corners.begin(), r.corners.end()}, r.certainty, -1});
   }
   return result;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algorithms/align/ffs/hough_lines.hpp"
+#include "algorithms/align/ffs/prototypes.hpp"
 #include "algorithms/align/ffs/rectangles.hpp"
 #include "algorithms/align/ffs/simulation.hpp"
 
@@ -24,9 +25,7 @@ struct Hypothesis {
 struct HypothesisRules {
   HoughRules lines;
   RectangleRules rectangles;
-  double merge_angle_deg = 10.0;  ///< of segments of different scans that stand for one wall (section 4.2, figure 7)
-  double merge_distance_m = 0.2;
-  double merge_gap_m = 1.5;
+  PrototypeRules prototypes;
   double line_weight = 1.0;  ///< of a virtual point of a line of certainty 1; a real point has 1
   double rectangle_weight = 1.0;
   double resample_m = 0.1;

@@ -11,7 +11,7 @@
 namespace scanbench::align::ffs {
 
 struct RectangleRules {
-  double angle_rad = 0.2094395102393195;  ///< 12 degrees: largest departure from parallel and from perpendicular
+  double angle_rad = 0.2094395102393195;  ///< 12 degrees, below 30: largest departure from parallel and from square
   double min_side_m = 0.5;                ///< smallest distance of two parallel sides
   double min_length_ratio = 0.5;          ///< of the shorter to the longer of two parallel sides
   double misfit = 0.25;                   ///< largest relative departure of lengths from separations, and of centres
