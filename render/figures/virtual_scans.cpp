@@ -11,7 +11,12 @@
 
 #include "core/force_field_trace.hpp"
 #include "core/registry.hpp"
+#include "core/trace_rows.hpp"
+#include "render/figure.hpp"
 #include "render/figures/parts/clusters.hpp"
+#include "render/figures/parts/frames.hpp"
+#include "render/figures/parts/style.hpp"
+#include "render/figures/parts/view_box.hpp"
 
 namespace scanbench::render {
 namespace {
@@ -57,7 +62,7 @@ class VirtualScans : public Figure {
     std::vector<double> iterations{0, 10, 20, 30};
     bool last = true;
     static auto fields() {
-      return std::tuple{field("pipeline", &Params::pipeline, kPipelineDoc),
+      return std::tuple{field("pipeline", &Params::pipeline, "pipeline to show; empty: the first one with such rows"),
                         field("iterations", &Params::iterations, between(0, 1e6), "",
                               "iterations that are shown, if they took place"),
                         field("last", &Params::last, "also show the poses after the last one, without hypotheses")};

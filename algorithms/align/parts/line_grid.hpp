@@ -1,4 +1,4 @@
-// The lines of many scans in a uniform grid, and the lines to which a reading may belong.
+// Which lines may a reading lie on? The lines of many scans in a uniform grid.
 #pragma once
 
 #include <cmath>
@@ -12,16 +12,16 @@
 
 namespace scanbench::align {
 
-/// A line of a scan, with free space on the left of its direction.
+/// A line as its scan saw it: free space on the left of its direction.
 struct PlacedLine {
   Vec2 start;
   Vec2 direction;  ///< unit
   double length;
   int scan;
 
-  /// Oriented distance of p [m]: positive in the free space in front of the line.
-  double distance_to(const Vec2& p) const { return cross(direction, p - start); }
-  /// Coordinate of the projection of p [m]: 0 at the start, `length` at the end.
+  /// Oriented distance [m]: positive in the free space before the line.
+  double before(const Vec2& p) const { return cross(direction, p - start); }
+  /// Coordinate of p's projection [m]: 0 at the start, `length` at the end.
   double along(const Vec2& p) const { return direction.dot(p - start); }
 };
 
@@ -29,39 +29,39 @@ struct PlacedLine {
 struct Sighting {
   Vec2 point;
   Vec2 sensor;                  ///< where it was seen from
-  Vec2 surface = Vec2::Zero();  ///< unit direction of the surface that was hit, free space on its left; zero: unknown
+  Vec2 surface = Vec2::Zero();  ///< unit direction of what was hit, free space on its left; zero: not known
 };
 
-/// Conditions under which a reading may belong to a line.
+/// When a reading may belong to a line.
 struct PartnerRules {
   double gate_m;       ///< largest |oriented distance|
   double margin_m;     ///< by which the extent of the line is enlarged at both ends
   double min_aligned;  ///< smallest cosine of the angle between surface and line, where the surface is known
 };
 
-/// Is the reading within the gate and the extent, seen from the free side by a beam towards the line, and aligned?
+/// Within gate and extent, seen from the free side by a beam that goes towards the line, and aligned.
 inline bool may_belong(const Sighting& seen, const PlacedLine& line, const PartnerRules& rules) {
-  const double distance = line.distance_to(seen.point);
+  const double distance = line.before(seen.point);
   if (!(std::abs(distance) <= rules.gate_m)) return false;
   const double along = line.along(seen.point);
   if (along < -rules.margin_m || along > line.length + rules.margin_m) return false;
-  const double sensor = line.distance_to(seen.sensor);
+  const double sensor = line.before(seen.sensor);
   if (!(sensor > 0 && sensor > distance)) return false;
   return seen.surface.isZero(0.0) || seen.surface.dot(line.direction) >= rules.min_aligned;
 }
 
 class LineGrid {
  public:
-  /// A grid for searches with at most the gate and the margin of `widest`. Cells grow with the length of the longest
-  /// line, so that a line covers some ten thousand cells at most.
+  /// For questions with up to the gate and the margin of `widest`. Cells grow with the longest line that will come,
+  /// so that a line covers some ten thousand of them at most.
   LineGrid(const PartnerRules& widest, double longest_m);
 
   /// The lines of a scan, placed in the world. Scans must come in ascending order. Lines that are not finite, without
-  /// length or farther than 1e9 m from the origin are skipped.
+  /// length or farther than 1e9 m from the origin are passed over.
   void add(int scan, const Pose2& world_from_sensor, std::span<const Segment> lines);
 
-  /// Calls visit(line, oriented distance) with the nearest line of each scan to which the reading may belong, in
-  /// ascending order of scans; of equally near lines with the first.
+  /// Calls visit(line, oriented distance) with the nearest line of each scan to which the reading may belong, scans
+  /// ascending; of equally near ones the first.
   template <class Visit>
   void for_each_nearest(const Sighting& seen, const PartnerRules& rules, Visit&& visit) const {
     if (!in_range(seen.point)) return;
@@ -72,7 +72,7 @@ class LineGrid {
     for (const PlacedLine& line : found->second) {
       if (best != nullptr && best->scan != line.scan) visit(*std::exchange(best, nullptr), distance);
       if (!may_belong(seen, line, rules)) continue;
-      const double d = line.distance_to(seen.point);
+      const double d = line.before(seen.point);
       if (best != nullptr && std::abs(d) >= std::abs(distance)) continue;
       best = &line;
       distance = d;
@@ -83,7 +83,7 @@ class LineGrid {
  private:
   static bool in_range(const Vec2& p) { return p.cwiseAbs().maxCoeff() <= 1e9 && p.allFinite(); }
   std::int64_t cell_of(double v) const { return static_cast<std::int64_t>(std::floor(v * inverse_cell_)); }
-  // A different key for each pair of cell numbers below 2^31.
+  // Each pair of cell numbers below 2^31 has its own.
   static std::int64_t key_of(std::int64_t ix, std::int64_t iy) { return iy * (std::int64_t{1} << 32) + ix; }
   void add(const PlacedLine& line);
 

@@ -1,4 +1,4 @@
-// Registration of one scan on fixed lines: the segment-point method of Siadat et al. 1997, section 7.
+// One scan against lines that stand: segment-point registration, Siadat et al. 1997, section 7.
 #pragma once
 
 #include <algorithm>
@@ -9,17 +9,17 @@
 
 namespace scanbench::align {
 
-/// The gate per iteration: `wide_m`, halved at each iteration, down to `narrow_m`.
+/// `wide_m`, halved at each iteration, down to `narrow_m`.
 struct Gates {
   double wide_m;
   double narrow_m;
   double at(int iteration) const { return std::max(std::ldexp(wide_m, -iteration), narrow_m); }
-  bool is_narrowest(int iteration) const { return at(iteration) <= narrow_m; }
+  bool narrow(int iteration) const { return at(iteration) <= narrow_m; }
 };
 
-/// Gauss-Newton on n . (R p + t) + c, for each point and its nearest line of each scan in the grid, until a step is
-/// negligible, at most 20 steps. The pose does not move in directions that the lines do not determine; without partners
-/// it stays. The gate of `rules` is ignored.
+/// Gauss-Newton on n . (R p + t) + c, each point with its nearest line of each scan in the grid, until a step is small
+/// or 20 are done. No motion along what these do not determine: without partners the pose stays.
+/// Of `rules` the gate does not count.
 Pose2 register_scan(const ScanShape& scan, const LineGrid& lines, const Pose2& predicted, PartnerRules rules,
                     const Gates& gates);
 

@@ -55,7 +55,7 @@ TEST_P(LineGridTest, FindsTheNearestLineOfEachScanThatAPlainLoopFinds) {
 
   int found = 0;
   for (int k = 0; k < 3000; ++k) {
-    // Half of the points are near a line; in a large world hardly any random point is.
+    // Half of the points lie near a line, or in a large world hardly any would.
     const Segment& near = lines[static_cast<std::size_t>(k) % lines.size()].segment;
     const Vec2 at = near.a + (1.2 * rng.uniform() - 0.1) * (near.b - near.a);
     const Sighting seen{k % 2 == 0 ? place() : Vec2(at + Vec2(rng.uniform() - 0.5, rng.uniform() - 0.5)), place(),
