@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/pose2.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/rng.hpp"
 #include "core/sensor_model.hpp"
 #include "sim/ray_caster.hpp"

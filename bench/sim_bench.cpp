@@ -24,10 +24,10 @@
 #include <box2d/b2_world.h>
 #include <box2d/b2_world_callbacks.h>
 
-#include "core/angles.hpp"
-#include "core/geometry.hpp"
+#include "core/geometry/angles.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/params.hpp"
-#include "core/pose2.hpp"
 #include "core/recording.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace scanbench {
 

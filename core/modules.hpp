@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/geometry/pose2.hpp"
 #include "core/line_map.hpp"
-#include "core/pose2.hpp"
 #include "core/scan.hpp"
-#include "core/trace.hpp"
+#include "core/trace/trace.hpp"
 
 namespace scanbench {
 

@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/special_values.hpp"
 
 namespace scanbench {

@@ -5,7 +5,7 @@
 
 #include "core/line_map.hpp"
 #include "core/scan.hpp"
-#include "core/stage_time.hpp"
+#include "core/trace/stage_time.hpp"
 
 namespace scanbench {
 

@@ -5,9 +5,9 @@
 
 #include <Random123/philox.h>
 
-#include "core/angles.hpp"
+#include "core/geometry/angles.hpp"
+#include "core/geometry/portable_math.hpp"
 #include "core/index.hpp"
-#include "core/portable_math.hpp"
 
 namespace scanbench {
 

@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "core/geometry/pose2.hpp"
 #include "core/index.hpp"
-#include "core/pose2.hpp"
 #include "core/sensor_model.hpp"
 #include "core/special_values.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/portable_math.hpp"
+#include "core/geometry/portable_math.hpp"
 
 namespace scanbench {
 

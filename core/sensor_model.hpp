@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/index.hpp"
 
 namespace scanbench {

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "core/error.hpp"
-#include "core/portable_math.hpp"
+#include "core/geometry/portable_math.hpp"
 #include "core/registry.hpp"
 #include "metrics/rows.hpp"
 

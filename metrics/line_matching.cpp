@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/interval.hpp"
+#include "core/geometry/interval.hpp"
 
 namespace scanbench::metrics {
 

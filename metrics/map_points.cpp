@@ -8,8 +8,8 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/geometry/segment_grid.hpp"
 #include "core/registry.hpp"
-#include "core/segment_grid.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::metrics {

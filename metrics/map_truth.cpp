@@ -13,8 +13,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/geometry/interval.hpp"
 #include "core/index.hpp"
-#include "core/interval.hpp"
 #include "core/registry.hpp"
 #include "metrics/map_members.hpp"
 #include "metrics/rows.hpp"

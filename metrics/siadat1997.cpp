@@ -4,14 +4,14 @@
 // The paper's "geometric average" and "average of the maximal error of every single scan" do not define the averaging.
 // d_mean and d_max average over the segments of a scan and then over the scans: no other order fits the ratios of the
 // printed tables. d_mean_pts and d_max_scan follow the words literally. polygon_bytes and compression are about the
-// size of the representation of section 6 (core/polygon.hpp), 48 bytes a segment in the paper.
+// size of the representation of section 6 (core/geometry/polygon.hpp), 48 bytes a segment in the paper.
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "core/error.hpp"
+#include "core/geometry/polygon.hpp"
 #include "core/index.hpp"
-#include "core/polygon.hpp"
 #include "core/registry.hpp"
 #include "core/special_values.hpp"
 #include "metrics/rows.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/geometry/interval.hpp"
 #include "core/index.hpp"
-#include "core/interval.hpp"
 
 namespace scanbench::metrics {
 namespace {

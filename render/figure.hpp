@@ -9,7 +9,7 @@
 #include "core/params.hpp"
 #include "core/recording.hpp"
 #include "core/result.hpp"
-#include "core/trace_rows.hpp"
+#include "core/trace/trace_rows.hpp"
 #include "render/scene.hpp"
 
 namespace scanbench::render {

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/pose2.hpp"
+#include "core/geometry/pose2.hpp"
 
 namespace scanbench::render {
 

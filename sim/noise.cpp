@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "core/portable_math.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/portable_math.hpp"
 #include "core/rng.hpp"
 #include "sim/lanes/draw_kernels.hpp"
 

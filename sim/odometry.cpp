@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/rng.hpp"
 
 namespace scanbench::sim {

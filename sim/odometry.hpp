@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/geometry/pose2.hpp"
 #include "core/params.hpp"
-#include "core/pose2.hpp"
 
 namespace scanbench::sim {
 

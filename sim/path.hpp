@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace scanbench::sim {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/number_text.hpp"
 
 namespace scanbench::sim {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "core/pose2.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/sensor_model.hpp"
 #include "sim/cast/caster.hpp"
 #include "sim/cast/ray.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "sim/wall_range.hpp"
 
 namespace scanbench::sim {

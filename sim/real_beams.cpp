@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
-#include "core/geometry.hpp"
-#include "core/portable_math.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/portable_math.hpp"
 
 namespace scanbench::sim {
 namespace {

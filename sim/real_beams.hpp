@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/sensor_model.hpp"
 #include "sim/cast/ray.hpp"
 #include "sim/noise.hpp"

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/angles.hpp"
 #include "core/error.hpp"
+#include "core/geometry/angles.hpp"
 #include "core/names.hpp"
 #include "core/number_text.hpp"
 

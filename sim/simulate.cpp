@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "core/pose2.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/sensor_model.hpp"
 #include "core/truth.hpp"
 #include "sim/noise.hpp"

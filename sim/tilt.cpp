@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/portable_math.hpp"
+#include "core/geometry/portable_math.hpp"
 #include "core/rng.hpp"
 
 namespace scanbench::sim {

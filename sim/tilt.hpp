@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/params.hpp"
 
 namespace scanbench::sim {

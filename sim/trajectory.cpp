@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/segment_grid.hpp"
 #include "core/number_text.hpp"
-#include "core/segment_grid.hpp"
 #include "sim/place_text.hpp"
 
 namespace scanbench::sim {

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/params.hpp"
-#include "core/pose2.hpp"
 #include "sim/world.hpp"
 
 namespace scanbench::sim {

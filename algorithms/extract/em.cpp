@@ -12,9 +12,9 @@
 #include "algorithms/extract/parts/chord.hpp"
 #include "algorithms/extract/parts/covariance.hpp"
 #include "algorithms/extract/parts/noise_scale.hpp"
+#include "core/geometry/portable_math.hpp"
 #include "core/index.hpp"
 #include "core/modules.hpp"
-#include "core/portable_math.hpp"
 #include "core/registry.hpp"
 
 namespace scanbench {

@@ -10,9 +10,9 @@
 
 #include "algorithms/extract/parts/consensus.hpp"
 #include "algorithms/extract/parts/covariance.hpp"
+#include "core/geometry/portable_math.hpp"
 #include "core/index.hpp"
 #include "core/modules.hpp"
-#include "core/portable_math.hpp"
 #include "core/registry.hpp"
 
 namespace scanbench {

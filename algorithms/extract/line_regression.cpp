@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "algorithms/extract/parts/contour_extractor.hpp"
+#include "core/geometry/portable_math.hpp"
 #include "core/index.hpp"
-#include "core/portable_math.hpp"
 #include "core/registry.hpp"
 
 namespace scanbench {

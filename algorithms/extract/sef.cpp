@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "algorithms/extract/parts/breakpoints.hpp"
+#include "core/geometry/portable_math.hpp"
 #include "core/index.hpp"
 #include "core/modules.hpp"
-#include "core/portable_math.hpp"
 #include "core/registry.hpp"
 
 namespace scanbench {

@@ -1,7 +1,7 @@
 // Writes polygon records as CSV rows.
 #include "harness/exchange/polygon_files.hpp"
 
-#include "core/polygon.hpp"
+#include "core/geometry/polygon.hpp"
 #include "harness/files/csv.hpp"
 
 namespace scanbench::harness {

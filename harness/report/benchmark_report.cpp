@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "harness/report/html_page.hpp"
 #include "harness/report/plain_text.hpp"
 #include "harness/report/ranking_table.hpp"

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/angles.hpp"
 #include "core/error.hpp"
+#include "core/geometry/angles.hpp"
 #include "core/params.hpp"
 #include "harness/analysis/agreement.hpp"
 #include "harness/analysis/agreement_files.hpp"

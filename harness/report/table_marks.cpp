@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/angles.hpp"
+#include "core/geometry/angles.hpp"
 #include "core/special_values.hpp"
 
 namespace scanbench::harness {

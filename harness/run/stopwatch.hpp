@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/stage_time.hpp"
-#include "core/trace.hpp"
+#include "core/trace/stage_time.hpp"
+#include "core/trace/trace.hpp"
 
 namespace scanbench::harness {
 

@@ -28,8 +28,8 @@ struct Suite {
   std::filesystem::path path;
   std::string text;  ///< the file's bytes
   std::string about;
-  /// These have the suite's seeds, pipelines and metrics, and different names. With factors, each scenario occurs once per
-  /// combination of levels: rooms-ladar-1cm, rooms-ladar-5cm, ...
+  /// These have the suite's seeds, pipelines and metrics, and different names. With factors, each scenario occurs once
+  /// per combination of levels: rooms-ladar-1cm, rooms-ladar-5cm, ...
   std::vector<Scenario> scenarios;
   std::optional<BenchmarkSpec> benchmark;
 };

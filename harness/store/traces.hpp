@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/trace.hpp"
-#include "core/trace_rows.hpp"
+#include "core/trace/trace.hpp"
+#include "core/trace/trace_rows.hpp"
 #include "harness/scenario/trace_choice.hpp"
 
 namespace scanbench::harness {

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "core/force_field_trace.hpp"
 #include "core/registry.hpp"
-#include "core/trace_rows.hpp"
+#include "core/trace/force_field_trace.hpp"
+#include "core/trace/trace_rows.hpp"
 #include "render/figure.hpp"
 #include "render/figures/parts/clusters.hpp"
 #include "render/figures/parts/frames.hpp"

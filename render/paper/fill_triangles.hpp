@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace scanbench::render {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 extern "C" {
 typedef struct _cairo_font_face cairo_font_face_t;  // NOLINT: as Cairo declares it

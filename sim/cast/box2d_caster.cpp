@@ -16,8 +16,8 @@
 #include <box2d/b2_fixture.h>
 #include <box2d/b2_world.h>
 
-#include "core/geometry.hpp"
-#include "core/pose2.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/sensor_model.hpp"
 #include "sim/ray_math.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "sim/cast/wall_view.hpp"
 
 namespace scanbench::sim {

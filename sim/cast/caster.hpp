@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry.hpp"
-#include "core/pose2.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/sensor_model.hpp"
 #include "sim/cast/ray.hpp"
 #include "sim/world.hpp"

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "core/angles.hpp"
 #include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "core/pose2.hpp"
+#include "core/geometry/angles.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/sensor_model.hpp"
 #include "sim/cast/beam_fan.hpp"
 #include "sim/cast/box_walk.hpp"

@@ -5,8 +5,8 @@
 #include <limits>
 #include <span>
 
-#include "core/geometry.hpp"
-#include "core/pose2.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/sensor_model.hpp"
 
 namespace scanbench::sim {

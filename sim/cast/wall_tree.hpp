@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "sim/cast/wall_view.hpp"
 
 namespace scanbench::sim {

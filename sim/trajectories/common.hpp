@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "core/angles.hpp"
 #include "core/error.hpp"
-#include "core/geometry.hpp"
+#include "core/geometry/angles.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/number_text.hpp"
 #include "core/params.hpp"
-#include "core/pose2.hpp"
 #include "sim/trajectory.hpp"
 
 namespace scanbench::sim {

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/angles.hpp"
 #include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "core/portable_math.hpp"
-#include "core/pose2.hpp"
+#include "core/geometry/angles.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/portable_math.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/registry.hpp"
 #include "sim/trajectories/common.hpp"
 

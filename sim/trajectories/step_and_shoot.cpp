@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/angles.hpp"
 #include "core/error.hpp"
-#include "core/geometry.hpp"
+#include "core/geometry/angles.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/portable_math.hpp"
 #include "core/number_text.hpp"
-#include "core/portable_math.hpp"
 #include "core/registry.hpp"
 #include "sim/trajectories/common.hpp"
 

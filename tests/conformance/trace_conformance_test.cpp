@@ -6,7 +6,7 @@
 
 #include "core/modules.hpp"
 #include "core/registry.hpp"
-#include "core/stage_time.hpp"
+#include "core/trace/stage_time.hpp"
 #include "tests/support/aligning.hpp"
 #include "tests/support/extraction.hpp"
 #include "tests/support/merging.hpp"

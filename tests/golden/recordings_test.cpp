@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/pose2.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/recording.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/run/make_recording.hpp"

@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/angles.hpp"
-#include "core/geometry.hpp"
-#include "core/pose2.hpp"
+#include "core/geometry/angles.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/rng.hpp"
 #include "core/sensor_model.hpp"
 #include "sim/ray_caster.hpp"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "core/pose2.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/recording.hpp"
 
 namespace scanbench::sim {

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/angles.hpp"
+#include "core/geometry/angles.hpp"
 #include "core/sensor_model.hpp"
 
 namespace scanbench::sim {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/pose2.hpp"
+#include "core/geometry/pose2.hpp"
 
 namespace scanbench::sim {
 namespace {

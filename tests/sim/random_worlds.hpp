@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/angles.hpp"
-#include "core/geometry.hpp"
-#include "core/pose2.hpp"
+#include "core/geometry/angles.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/rng.hpp"
 #include "core/sensor_model.hpp"
 #include "sim/world.hpp"

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/angles.hpp"
 #include "core/error.hpp"
+#include "core/geometry/angles.hpp"
 #include "core/params.hpp"
 #include "core/sensor_model.hpp"
 

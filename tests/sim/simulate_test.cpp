@@ -12,10 +12,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/angles.hpp"
 #include "core/error.hpp"
-#include "core/geometry.hpp"
-#include "core/pose2.hpp"
+#include "core/geometry/angles.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/recording.hpp"
 #include "core/truth.hpp"
 #include "sim/sensors.hpp"

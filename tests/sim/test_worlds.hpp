@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/angles.hpp"
-#include "core/geometry.hpp"
+#include "core/geometry/angles.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/rng.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/world.hpp"

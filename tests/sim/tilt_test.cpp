@@ -11,10 +11,10 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "core/angles.hpp"
-#include "core/geometry.hpp"
+#include "core/geometry/angles.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/params.hpp"
-#include "core/pose2.hpp"
 #include "core/recording.hpp"
 #include "core/rng.hpp"
 #include "sim/noise.hpp"

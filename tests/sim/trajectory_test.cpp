@@ -14,11 +14,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/angles.hpp"
 #include "core/error.hpp"
-#include "core/geometry.hpp"
+#include "core/geometry/angles.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/params.hpp"
-#include "core/pose2.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
 #include "tests/sim/test_worlds.hpp"

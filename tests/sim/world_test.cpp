@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "tests/sim/test_worlds.hpp"
 
 namespace scanbench::sim {

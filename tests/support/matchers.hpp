@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace scanbench::testing {
 

@@ -13,7 +13,7 @@
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
-#include "core/least_squares.hpp"
+#include "core/geometry/least_squares.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"

@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "core/geometry/pose2.hpp"
 #include "core/line_map.hpp"
-#include "core/pose2.hpp"
 
 namespace scanbench::testing {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/trace.hpp"
-#include "core/trace_rows.hpp"
+#include "core/trace/trace.hpp"
+#include "core/trace/trace_rows.hpp"
 
 namespace scanbench::testing {
 

@@ -12,7 +12,7 @@
 
 #include <vector>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace scanbench::align::ffs {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "algorithms/align/parts/cell_grid.hpp"
-#include "core/least_squares.hpp"
-#include "core/portable_math.hpp"
+#include "core/geometry/least_squares.hpp"
+#include "core/geometry/portable_math.hpp"
 
 namespace scanbench::align::ffs {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace scanbench::align::ffs {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/portable_math.hpp"
+#include "core/geometry/portable_math.hpp"
 
 namespace scanbench::align::ffs {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/portable_math.hpp"
+#include "core/geometry/portable_math.hpp"
 
 namespace scanbench::align::ffs {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "algorithms/align/ffs/meeting.hpp"
 #include "algorithms/align/ffs/rigid_step.hpp"
-#include "core/force_field_trace.hpp"
 #include "core/number_text.hpp"
+#include "core/trace/force_field_trace.hpp"
 
 namespace scanbench::align::ffs {
 namespace {

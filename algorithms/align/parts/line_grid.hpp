@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/pose2.hpp"
+#include "core/geometry/pose2.hpp"
 
 namespace scanbench::align {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pose2.hpp"
+#include "core/geometry/pose2.hpp"
 
 namespace scanbench::align {
 

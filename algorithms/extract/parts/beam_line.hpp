@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 #include "core/sensor_model.hpp"
 
 namespace scanbench::extract {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/portable_math.hpp"
 #include "core/index.hpp"
-#include "core/portable_math.hpp"
 
 namespace scanbench::extract {
 namespace {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/least_squares.hpp"
+#include "core/geometry/least_squares.hpp"
 #include "core/params.hpp"
 
 namespace scanbench::extract {

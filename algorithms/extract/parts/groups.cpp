@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/geometry/portable_math.hpp"
 #include "core/index.hpp"
-#include "core/portable_math.hpp"
 
 namespace scanbench::extract {
 namespace {

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "core/geometry/least_squares.hpp"
 #include "core/index.hpp"
-#include "core/least_squares.hpp"
 #include "core/params.hpp"
 #include "core/scan.hpp"
 

@@ -8,7 +8,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "core/angles.hpp"
+#include "core/geometry/angles.hpp"
 #include "core/index.hpp"
 #include "core/special_values.hpp"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "algorithms/extract/parts/fuzzy_clustering.hpp"
-#include "core/least_squares.hpp"
-#include "core/trace.hpp"
+#include "core/geometry/least_squares.hpp"
+#include "core/trace/trace.hpp"
 
 namespace scanbench::extract {
 

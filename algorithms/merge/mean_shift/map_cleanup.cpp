@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "algorithms/merge/parts/point_grid.hpp"
-#include "core/least_squares.hpp"
+#include "core/geometry/least_squares.hpp"
 
 namespace scanbench::merge {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/index.hpp"
-#include "core/mean_shift_trace.hpp"
+#include "core/trace/mean_shift_trace.hpp"
 
 namespace scanbench::merge {
 

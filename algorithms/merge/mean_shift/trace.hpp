@@ -1,4 +1,4 @@
-// The trace rows of mean_shift (core/mean_shift_trace.hpp). Each call does nothing unless somebody records.
+// The trace rows of mean_shift (core/trace/mean_shift_trace.hpp). Each call does nothing unless somebody records.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 #include "algorithms/merge/mean_shift/map_cleanup.hpp"
 #include "algorithms/merge/mean_shift/phases.hpp"
 #include "algorithms/merge/parts/joint_space.hpp"
-#include "core/trace.hpp"
+#include "core/trace/trace.hpp"
 
 namespace scanbench::merge {
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/rng.hpp"
+#include "core/trace/force_field_trace.hpp"
 #include "tests/support/aligning.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/trace_recorder.hpp"

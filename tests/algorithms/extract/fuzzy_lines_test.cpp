@@ -8,9 +8,9 @@
 #include <Eigen/Dense>
 
 #include "core/error.hpp"
-#include "core/least_squares.hpp"
+#include "core/geometry/least_squares.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/modules.hpp"
-#include "core/pose2.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
 

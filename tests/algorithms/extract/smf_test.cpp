@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
 
+#include "core/geometry/pose2.hpp"
 #include "core/modules.hpp"
-#include "core/pose2.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
 

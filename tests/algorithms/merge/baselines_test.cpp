@@ -87,8 +87,9 @@ TEST_P(MergeBaseline, AnswersBadInputWithAStatus) {
 }
 
 // Lakaemper 2009, section II: dissimilarities accumulate along a chain. Neighbours on the spiral's outer turn differ by
-// about 20 degrees, which is also the angle that mean shift separates with its defaults (it returns 30, see the spiral test):
-// with that tolerance the chain winds up the outer turn. It takes a tolerance below that to keep the segments apart.
+// about 20 degrees, which is also the angle that mean shift separates with its defaults (it returns 30, see the spiral
+// test): with that tolerance the chain winds up the outer turn. It takes a tolerance below that to keep the segments
+// apart.
 TEST(AmigoniChain, OverMergesTheSpiralAtTheToleranceAtWhichMeanShiftDoesNot) {
   const auto lines_at = [](const char* name, double angle_deg) {
     return merge(name, testing::spiral(), {{"max_angle_deg", angle_deg}}).map.lines.size();

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/portable_math.hpp"
+#include "core/geometry/portable_math.hpp"
 #include "core/rng.hpp"
 
 namespace scanbench::harness {

@@ -192,7 +192,8 @@ TEST(LogParams, AreCheckedWithoutTheLog) {
   EXPECT_EQ(refusal("csv", {{"step_deg", 1.0}}), "");
   EXPECT_EQ(refusal("csv", {{"beams", std::int64_t{1}}}), "") << "a single beam needs no step";
   EXPECT_THAT(refusal("csv", {}), HasSubstr("step_deg is 0"));
-  EXPECT_THAT(refusal("csv", {{"step_deg", 1.0}, {"columns", std::string("t_s rangs")}}), HasSubstr("columns has 'rangs'"));
+  EXPECT_THAT(refusal("csv", {{"step_deg", 1.0}, {"columns", std::string("t_s rangs")}}),
+              HasSubstr("columns has 'rangs'"));
   EXPECT_EQ(refusal("carmen", {}), "");
 }
 
@@ -209,7 +210,8 @@ TEST(Log, MoreThanTheLimitIsRefusedWithoutKeepingIt) {
   const auto refusal = [&](const std::string& name, const std::string& bytes) {
     return config_refusal([&] { read_log(folder.write(name, bytes), "carmen", {}, sensor(), 1 << 28); });
   };
-  EXPECT_THAT(refusal("line.gz", gzip("FLASER " + std::string(17 << 20, '1'))), HasSubstr("line.gz: a line longer than 16 MiB"));
+  EXPECT_THAT(refusal("line.gz", gzip("FLASER " + std::string(17 << 20, '1'))),
+              HasSubstr("line.gz: a line longer than 16 MiB"));
   EXPECT_THAT(refusal("zeros.gz", gzip(std::string(5 << 20, '\0'))), HasSubstr("zeros.gz:1:1: a byte 0"));
   std::string blanks;
   for (int i = 0; i < 4000; ++i) blanks += std::string(9999, ' ') + "\n";

@@ -48,7 +48,8 @@ TEST_F(Published, WrongFilesAreRefusedWhenTheScenarioIsRead) {
   EXPECT_THAT(refusal(head_ + "n_lines,a,LT,,\n"), HasSubstr("paper.csv:2: value is empty"));
   EXPECT_THAT(refusal(head_ + "n_line,a,LT,1,\n"),
               HasSubstr("paper.csv:2: no metric is called 'n_line'; did you mean 'n_lines'?"));
-  EXPECT_THAT(refusal(head_ + "n_lines,a,LT,1,furlong\n"), HasSubstr("paper.csv:2: unit is 'furlong'; allowed for n_lines"));
+  EXPECT_THAT(refusal(head_ + "n_lines,a,LT,1,furlong\n"),
+              HasSubstr("paper.csv:2: unit is 'furlong'; allowed for n_lines"));
   EXPECT_THAT(refusal(head_ + "n_lines,a,LT,1,\nn_lines,a,LT,2,\n"),
               HasSubstr("paper.csv:3: a second value for n_lines, a, LT; the first is in line 2"));
   EXPECT_THAT(refusal(head_ + "n_lines,a,IEPF,1,\n"), HasSubstr("pipeline lt reproduces 'LT', which is no method of"));

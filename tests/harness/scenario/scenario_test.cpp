@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "harness/files/text_file.hpp"
+#include "harness/run/cell_address.hpp"
 #include "harness/run/make_recording.hpp"
 #include "harness/scenario/effective.hpp"
 #include "harness/scenario/modules.hpp"

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <set>
 
-#include "core/mean_shift_trace.hpp"
 #include "core/registry.hpp"
-#include "core/trace_rows.hpp"
+#include "core/trace/mean_shift_trace.hpp"
+#include "core/trace/trace_rows.hpp"
 #include "merged.hpp"
 #include "render/backends/cairo.hpp"
 #include "render/backends/gl.hpp"

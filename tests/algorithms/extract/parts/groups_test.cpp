@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/portable_math.hpp"
+#include "core/geometry/portable_math.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/scan_builder.hpp"
 

@@ -1,5 +1,5 @@
 // The grid of segments compared with brute force.
-#include "core/segment_grid.hpp"
+#include "core/geometry/segment_grid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "core/angles.hpp"
+#include "core/geometry/angles.hpp"
 #include "core/index.hpp"
 #include "core/rng.hpp"
 #include "core/special_values.hpp"

@@ -1,5 +1,5 @@
 // Rigid motions: group laws, the exponential map, lines under motion.
-#include "core/pose2.hpp"
+#include "core/geometry/pose2.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Distances, canonical forms and differences of lines.
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/portable_math.hpp"
+#include "core/geometry/portable_math.hpp"
 
 namespace scanbench {
 

@@ -1,12 +1,12 @@
 // Argument reduction to a short interval, followed by a Taylor series whose remainder is below a tenth of an ulp.
-#include "core/portable_math.hpp"
+#include "core/geometry/portable_math.hpp"
 
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
-#include "core/angles.hpp"
+#include "core/geometry/angles.hpp"
 #include "core/index.hpp"
 #include "core/special_values.hpp"
 

@@ -1,9 +1,9 @@
 // Composition, inverse, exponential and logarithm of planar rigid motions.
-#include "core/pose2.hpp"
+#include "core/geometry/pose2.hpp"
 
 #include <cmath>
 
-#include "core/portable_math.hpp"
+#include "core/geometry/portable_math.hpp"
 
 namespace scanbench {
 

@@ -1,9 +1,9 @@
 // Central moments of points and the line that they determine.
-#include "core/least_squares.hpp"
+#include "core/geometry/least_squares.hpp"
 
 #include <cmath>
 
-#include "core/portable_math.hpp"
+#include "core/geometry/portable_math.hpp"
 
 namespace scanbench {
 

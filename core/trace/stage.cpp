@@ -1,4 +1,4 @@
-#include "core/stage.hpp"
+#include "core/trace/stage.hpp"
 
 #include <algorithm>
 #include <array>

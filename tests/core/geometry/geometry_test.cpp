@@ -1,5 +1,5 @@
 // Angles, segments and lines: identities on the circle and in degenerate cases.
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
-#include "core/stage.hpp"
-#include "core/trace_schema.hpp"
+#include "core/trace/stage.hpp"
+#include "core/trace/trace_schema.hpp"
 
 namespace scanbench {
 

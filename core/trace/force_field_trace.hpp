@@ -4,7 +4,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "core/trace_schema.hpp"
+#include "core/trace/trace_schema.hpp"
 
 namespace scanbench::force_field {
 

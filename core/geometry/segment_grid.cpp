@@ -1,6 +1,6 @@
 // Builds the grid with about four cells per segment, so that most cells hold few segments or none, and searches the
 // nearest segment in rings of cells around a point.
-#include "core/segment_grid.hpp"
+#include "core/geometry/segment_grid.hpp"
 
 #include <cmath>
 

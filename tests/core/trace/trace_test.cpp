@@ -1,12 +1,12 @@
 // Traces: what is written is what a listener gets, and rows come back as the structs that wrote them.
-#include "core/trace.hpp"
+#include "core/trace/trace.hpp"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/trace_rows.hpp"
+#include "core/trace/trace_rows.hpp"
 
 namespace scanbench {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/stage.hpp"
+#include "core/trace/stage.hpp"
 
 namespace scanbench {
 

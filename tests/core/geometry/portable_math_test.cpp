@@ -1,11 +1,11 @@
 // The portable functions compared with long double, and their special values.
-#include "core/portable_math.hpp"
+#include "core/geometry/portable_math.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/angles.hpp"
+#include "core/geometry/angles.hpp"
 #include "core/rng.hpp"
 #include "core/special_values.hpp"
 

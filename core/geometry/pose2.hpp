@@ -1,7 +1,7 @@
 // Rigid motions of the plane, named b_from_a so that composition cancels by eye: world_from_sensor * p_in_sensor.
 #pragma once
 
-#include "core/geometry.hpp"
+#include "core/geometry/geometry.hpp"
 
 namespace scanbench {
 

@@ -1,5 +1,5 @@
 // Makes polygon records from lines and joins neighbours in corners. Siadat et al. 1997, section 6.
-#include "core/polygon.hpp"
+#include "core/geometry/polygon.hpp"
 
 #include <cmath>
 #include <optional>

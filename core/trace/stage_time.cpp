@@ -1,4 +1,4 @@
-#include "core/stage_time.hpp"
+#include "core/trace/stage_time.hpp"
 
 #include <algorithm>
 #include <array>

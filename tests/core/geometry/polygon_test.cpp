@@ -1,5 +1,5 @@
 // The polygonal representation: its layout, its signs, and corners worked out by hand.
-#include "core/polygon.hpp"
+#include "core/geometry/polygon.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Total least squares against the eigenvalues of the covariance matrix and its invariances.
-#include "core/least_squares.hpp"
+#include "core/geometry/least_squares.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <vector>
 
-#include "core/pose2.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/rng.hpp"
 
 namespace scanbench {

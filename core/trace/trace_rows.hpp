@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/trace_schema.hpp"
+#include "core/trace/trace_schema.hpp"
 
 namespace scanbench {
 

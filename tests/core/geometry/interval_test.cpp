@@ -1,5 +1,5 @@
 // Intervals by hand, and the part of a segment near another one against sampling.
-#include "core/interval.hpp"
+#include "core/geometry/interval.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/stage.hpp"
-#include "core/stage_time.hpp"
+#include "core/trace/stage.hpp"
+#include "core/trace/stage_time.hpp"
 
 namespace scanbench {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "core/angles.hpp"
+#include "core/geometry/angles.hpp"
 
 namespace scanbench {
 

@@ -1,5 +1,5 @@
 // Sweeps over sorted intervals, and the intersection of a segment with the points near another one.
-#include "core/interval.hpp"
+#include "core/geometry/interval.hpp"
 
 #include <algorithm>
 #include <cmath>
