@@ -25,7 +25,7 @@ MethodStyle look(std::size_t index) {
   return {kColors[color], kDashes[(color + round) % kDashes.size()], kMarkers[(color + round) % kMarkers.size()]};
 }
 
-/// FNV-1a. The salt is one with which the methods that come with this program, two of a colour at most, look different.
+/// FNV-1a. With this salt the methods that come with this program use all colours evenly.
 std::size_t look_of(std::string_view name) {
   constexpr std::uint64_t kSalt = 101521;
   std::uint64_t hash = 14695981039346656037U ^ kSalt;

@@ -22,6 +22,7 @@ class VirtualScans final : public Aligner {
     double step_start = 10.0;
     double step_end = 1.0;
     double cut_sigmas = 4.0;
+    double soft_sigmas = 0.05;
     double line_weight = 1.0;
     double rectangle_weight = 1.0;
     int max_lines = 8;

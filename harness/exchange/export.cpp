@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "core/error.hpp"
 #include "core/names.hpp"
@@ -125,11 +126,14 @@ ParamSet import_params(const Recording& recording, std::string_view format) {
     return {{"no_return_m", no_return_value(recording.observed)},
             {"range_min_m", sensor.range_min_m},
             {"poses", std::string("odometry")}};
-  if (format == "csv")
-    return {{"columns", std::string(kColumns)},
-            {"first_angle_deg", degrees(sensor.geometry.angle_min())},
-            {"step_deg", degrees(sensor.geometry.angle_step())},
-            {"range_min_m", sensor.range_min_m}};
+  if (format == "csv") {
+    ParamSet params{{"columns", std::string(kColumns)},
+                    {"first_angle_deg", degrees(sensor.geometry.angle_min())},
+                    {"step_deg", degrees(sensor.geometry.angle_step())},
+                    {"range_min_m", sensor.range_min_m}};
+    if (sensor.geometry.beams() == 1) params["beams"] = std::int64_t{1};  // a single beam has no step
+    return params;
+  }
   refuse_format(format);
 }
 

@@ -10,8 +10,9 @@ namespace scanbench::harness {
 namespace {
 
 /// Takes a file out of an input: its bytes enter the address, its path does not. Returns the path; empty if none.
-std::filesystem::path take_file(SimulatedInput&) {
-  return {};  // the world itself is part of the text
+std::filesystem::path take_file(SimulatedInput& input) {
+  input.caster = sim::CasterKind::exact;  // both casters give the same bytes
+  return {};                              // the world itself is part of the text
 }
 
 std::filesystem::path take_file(RecordedInput& input) {

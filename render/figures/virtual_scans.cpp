@@ -21,7 +21,8 @@
 namespace scanbench::render {
 namespace {
 
-const Stroke kHypothesisStroke{kBlack, 0.9, Dash::solid};
+// Wide and pale under the lines that they explain: colours of scans may be dark.
+const Stroke kHypothesisStroke{Color{200, 200, 200}, 2.6, Dash::solid};
 constexpr double kScanWidthPt = 0.6;
 
 /// Rows of an aligner's trace by iteration.
@@ -118,15 +119,15 @@ class VirtualScans : public Figure {
     for (const auto& of_scan : shown.result->lines) lines += of_scan.lines.size();
     const std::size_t stride = lines / (kSegmentBudget / 5) + 1;
     std::size_t count = 0;
+    if (hypotheses != nullptr) {
+      for (const std::vector<Vec2>& corners : *hypotheses)
+        panel.items.emplace_back(Polyline{.points = corners, .stroke = kHypothesisStroke, .closed = true});
+    }
     for (std::size_t f = 0; f < poses.size(); ++f) {
       Lines of_scan{.stroke = {colors[f], kScanWidthPt, Dash::solid}};
       for (const LineFeature& line : shown.result->lines[f].lines)
         if (count++ % stride == 0) of_scan.segments.push_back(poses[f] * line.segment);
       panel.items.emplace_back(std::move(of_scan));
-    }
-    if (hypotheses != nullptr) {
-      for (const std::vector<Vec2>& corners : *hypotheses)
-        panel.items.emplace_back(Polyline{.points = corners, .stroke = kHypothesisStroke, .closed = true});
     }
     if (lines == 0) add_note("no lines", panel);
     scene.panels.push_back(std::move(panel));

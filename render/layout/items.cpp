@@ -159,7 +159,7 @@ class ItemDrawer {
                 .offset_pt = {2.5, 2.5},
                 .color = kGrey,
                 .movable = false};
-    labels_.insert(labels_.begin(), {&outside_, {box_.x0, box_.y1}});
+    labels_.insert(labels_.begin(), Label{&outside_, {box_.x0, box_.y1}});
   }
 
   /// Halos, then the solid lines below them again, then the texts: a halo hides no wall.

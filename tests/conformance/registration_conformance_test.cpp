@@ -2,6 +2,9 @@
 // on the easiest one.
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/special_values.hpp"
@@ -156,12 +159,18 @@ TEST_P(AlignerConformance, ScansWithoutLinesAndWithOneWallAreAnswered) {
   align(of_each({full, full, full, full}), std::vector<Pose2>(4, Pose2(0.1, 0.2, 0.3)));
 }
 
+/// Aligners of points that are resampled along the lines, 10 cm apart by default: they pair points, not lines, so they
+/// are exact to a fraction of that distance.
+const std::set<std::string> kPointAligners = {"ffs", "simultaneous_icp", "virtual_scans"};
+
 TEST_P(AlignerConformance, BringsScansOfARoomTogether) {
+  const double distance = kPointAligners.contains(GetParam()) ? 0.025 : 0.01;
+  const double angle = kPointAligners.contains(GetParam()) ? 0.01 : 0.005;
   const std::vector<Pose2> poses = align(rooms(0.0), believed()).world_from_sensor;
   for (std::size_t k = 0; k < kStops.size(); ++k) {
     const Pose2 off = (poses[0].inverse() * poses[k]).inverse() * (kStops[0].inverse() * kStops[k]);
-    EXPECT_LT(off.translation().norm(), 0.01) << "scan " << k;
-    EXPECT_THAT(off.yaw(), testing::AngleNear(0.0, 0.005)) << "scan " << k;
+    EXPECT_LT(off.translation().norm(), distance) << "scan " << k;
+    EXPECT_THAT(off.yaw(), testing::AngleNear(0.0, angle)) << "scan " << k;
   }
 }
 

@@ -1,7 +1,8 @@
-// Forces and potential of force field simulation by the plain double loop: equations 1 and 2 of Lakaemper 2010 as they
-// stand, without index, cut or single precision.
+// Forces and potential of force field simulation by the plain double loop: equations 1 and 2 of Lakaemper 2010, without
+// index, cut or single precision; with `soft` = 0 as they stand, else proportional to d nearer than that.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -9,7 +10,7 @@
 
 namespace scanbench::testing {
 
-inline std::vector<Vec2> plain_forces(const align::ffs::FieldPoints& points, double sigma) {
+inline std::vector<Vec2> plain_forces(const align::ffs::FieldPoints& points, double sigma, double soft = 0.0) {
   std::vector<Vec2> forces(points.size(), Vec2::Zero());
   for (std::size_t v = 0; v < points.size(); ++v)
     for (std::size_t u = 0; u < points.size(); ++u) {
@@ -19,7 +20,7 @@ inline std::vector<Vec2> plain_forces(const align::ffs::FieldPoints& points, dou
       const double cosine = std::abs(points.direction[u].dot(points.direction[v]));
       const double m = std::exp(-d * d / (2 * sigma * sigma)) / (sigma * std::sqrt(kTwoPi)) * points.weight[u] *
                        points.weight[v] * cosine;
-      forces[v] += m * to / d;
+      forces[v] += m * to / std::max(d, soft);
     }
   return forces;
 }

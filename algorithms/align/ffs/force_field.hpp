@@ -6,8 +6,10 @@
 //   V(v, u) = M (u - v) / d,   M = w_v w_u c exp(-d^2 / (2 sigma^2)) / (sigma sqrt(2 pi))              (1), (2)
 //
 // which is minus the derivative by v of the potential -1/2 w_v w_u c erfc(d / (sigma sqrt 2)). Equation 1 prints v - u,
-// which would drive scans apart; directions are those of lines, which have no sign, hence |cos|.
-// docs/algorithms/ffs.md has the derivations.
+// which would drive scans apart; directions are those of lines, which have no sign, hence |cos|. Two points that
+// coincide would pull at each other with full force in a direction that rounding chooses: nearer than soft_sigmas *
+// sigma the force is proportional to d, (u - v) / (soft_sigmas * sigma) in place of (u - v) / d. docs/algorithms/ffs.md
+// has the derivations.
 #pragma once
 
 #include <vector>
@@ -35,7 +37,7 @@ struct FieldPoints {
 /// How far and how hard a point is drawn.
 struct PointForce {
   Vec2 force = Vec2::Zero();
-  double stiffness = 0.0;  ///< sum of M / max(d, sigma / 20): the springs that a step must not overshoot
+  double stiffness = 0.0;  ///< sum of M / max(d, soft_sigmas * sigma): the springs that a step must not overshoot
 };
 
 /// Radius of the field: `sigma` > 0; pairs beyond `cut_sigmas` standard deviations exert nothing, which leaves out
@@ -43,8 +45,10 @@ struct PointForce {
 struct Field {
   double sigma = 1.0;
   double cut_sigmas = 4.0;
+  double soft_sigmas = 0.05;  ///< > 0
 
   double reach() const { return sigma * cut_sigmas; }
+  double soft() const { return sigma * soft_sigmas; }
 };
 
 /// The sum of V over all points of other bodies, per point. O(n) in memory, O(pairs within the cut) in time. Summed in

@@ -73,7 +73,7 @@ VirtualScan plotted(const std::vector<Hypothesis>& hypotheses, const HypothesisR
       scan.directions.resize(scan.points.size(), side.direction());
     }
     scan.weights.resize(scan.points.size(), weight);
-    scan.hypotheses.resize(scan.points.size(), static_cast<int>(h));
+    scan.holds.resize(scan.points.size(), is_line ? -1 : static_cast<int>(h));
   }
   return scan;
 }

@@ -71,7 +71,7 @@ class Simulation {
 
   /// One iteration; returns dt^2 / 2, which never grows.
   double iterate(int t, double step_before, Trace& trace) {
-    const Field field{schedule_.sigma_at(t), schedule_.cut_sigmas};
+    const Field field{schedule_.sigma_at(t), schedule_.cut_sigmas, schedule_.soft_sigmas};
     FieldPoints all = points_;
     for (std::size_t k = 0; k < virtual_scan_.points.size(); ++k)
       all.add(virtual_scan_.points[k], virtual_scan_.directions[k], virtual_scan_.weights[k],

@@ -7,12 +7,12 @@
 
 namespace scanbench::align::ffs {
 
-/// A virtual scan (section 4.3): points that attract and do not move. Those of one hypothesis have one number.
+/// A virtual scan (section 4.3): points that attract and do not move.
 struct VirtualScan {
   std::vector<Vec2> points;
   std::vector<Vec2> directions;
   std::vector<double> weights;
-  std::vector<int> hypotheses;
+  std::vector<int> holds;  ///< number of the hypothesis, if two scans on it hold each other; -1: they can slide
 };
 
 }  // namespace scanbench::align::ffs

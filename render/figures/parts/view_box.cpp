@@ -6,7 +6,6 @@
 #include <cmath>
 
 namespace scanbench::render {
-
 namespace {
 
 struct Interval {
@@ -34,16 +33,16 @@ Interval bulk_of(std::vector<double> v, const Interval& must) {
   if (v.size() < kFewValues) return all;
   std::sort(v.begin(), v.end());
   const auto quantile = [&](double q) { return v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1))]; };
-  // Many outliers without a gap, as returns at maximum range leave: the middle 99 %.
-  const double low = quantile(0.005), high = quantile(0.995), room = 0.1 * (high - low);
-  if (v.size() >= 200 && v.back() - v.front() > 1.6 * (high - low) && high > low)
-    return {std::min(must.low, std::max(v.front(), low - room)), std::max(must.high, std::min(v.back(), high + room))};
   Interval bulk = must;
   bulk.take(quantile(0.02)), bulk.take(quantile(0.98));
   std::vector<double> mirrored(v.rbegin(), v.rend());
   for (double& x : mirrored) x = -x;
-  return {without_stray_low(v, must, bulk.length()),
-          -without_stray_low(mirrored, {-must.high, -must.low}, bulk.length())};
+  const Interval rest{without_stray_low(v, must, bulk.length()),
+                      -without_stray_low(mirrored, {-must.high, -must.low}, bulk.length())};
+  // Many outliers without a gap, as returns at maximum range leave: the middle 99 %.
+  const double low = quantile(0.005), high = quantile(0.995), room = 0.1 * (high - low);
+  if (v.size() < 200 || rest.length() <= 1.6 * (high - low) || !(high > low)) return rest;
+  return {std::max(rest.low, std::min(must.low, low - room)), std::min(rest.high, std::max(must.high, high + room))};
 }
 
 }  // namespace

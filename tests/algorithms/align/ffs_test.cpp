@@ -135,9 +135,10 @@ TEST_P(AllToAll, LeaveEqualScansWhereTheyAre) {
   const ScanSeries scans = scans_of(room(), std::vector<Pose2>(4, Pose2(0.3, 0.2, 0.1)));
   const std::vector<Pose2> poses(4, Pose2(1, 2, 0.5));
   const Alignment result = align(GetParam(), scans, poses);
+  constexpr double kSettled = 1e-3 * 0.05;  // of sigma_end_m: below this movement a simulation ends
   for (const Pose2& p : result.world_from_sensor) {
-    EXPECT_THAT(p.translation(), testing::PointNear(Vec2(1, 2), 1e-6));
-    EXPECT_THAT(p.yaw(), testing::AngleNear(0.5, 1e-6));
+    EXPECT_THAT(p.translation(), testing::PointNear(Vec2(1, 2), kSettled));
+    EXPECT_THAT(p.yaw(), testing::AngleNear(0.5, kSettled));
   }
 }
 

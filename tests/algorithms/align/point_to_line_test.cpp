@@ -329,12 +329,14 @@ TEST(PointToLine, WritesARowForEachRound) {
       ->align(noisy_scans(room(), path(), 0.02).observations(), perturbed(path(), 14), recorder.trace);
   const auto& rows = recorder.all_rows.at("align.round");
   ASSERT_GE(rows.size(), 4u);
-  const std::vector<double> gates{0.5, 0.25, 0.125, 0.1};
+  constexpr double kFinalGate = 0.1;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     ASSERT_EQ(rows[k].values.size(), 6u);
     EXPECT_EQ(rows[k].values[0], static_cast<double>(k));
-    EXPECT_EQ(rows[k].values[1], gates[std::min<std::size_t>(k, 3)]);
+    EXPECT_EQ(rows[k].values[1], std::max(rows[0].values[1] / std::exp2(static_cast<double>(k)), kFinalGate));
   }
+  EXPECT_GT(rows[0].values[1], kFinalGate);
+  EXPECT_EQ(rows.back().values[1], kFinalGate);
   EXPECT_NEAR(rows.back().values[3], 0.02, 0.01) << "residual: the noise of a reading";
   EXPECT_LT(rows.back().values[4], 1e-4);
   EXPECT_LT(rows.back().values[5], 1e-5);

@@ -30,13 +30,13 @@ void keep(const std::string& name, const std::string& bytes) {
 
 const std::vector<std::string> kNames{"iepf", "line_tracking", "smf", "ransac", "hough"};
 
-/// Right, split, false, unjudged in turn, and a missed line in every third scan.
+/// The first four lines of a scan are right, split, false and unjudged, and one true line is missed.
 std::vector<ScanVerdict> some_verdicts(const PipelineResult& result) {
   std::vector<ScanVerdict> verdicts(result.lines.size());
   for (std::size_t f = 0; f < verdicts.size(); ++f) {
     for (std::size_t k = 0; k < result.lines[f].lines.size(); ++k)
-      verdicts[f].lines.push_back(k % 7 < 4 ? LineVerdict::right : static_cast<LineVerdict>(k % 4));
-    if (f % 3 == 0) verdicts[f].missed.push_back({{1, 1}, {2, 1}});
+      verdicts[f].lines.push_back(k < 4 ? static_cast<LineVerdict>(k) : LineVerdict::right);
+    verdicts[f].missed.push_back({{1, 1}, {2, 1}});
   }
   return verdicts;
 }
@@ -299,13 +299,15 @@ TEST(SetView, IsNotStretchedByTwoStrayPoints) {
   Panel held;
   set_view(points, far, held);
   EXPECT_GE(held.x.range->second, 17.0);
-  EXPECT_EQ(held.y.range, without.y.range);
+  // The margin is a share of the longer side; the other side is not stretched to its stray point at -7.
+  EXPECT_GT(held.y.range->first, without.y.range->first - 0.05 * 17.0);
+  EXPECT_NEAR(held.y.range->first + held.y.range->second, without.y.range->first + without.y.range->second, 1e-9);
 }
 
 // The end of a corridor, which few scans see, is not stray: no gap separates it from the rest.
 TEST(SetView, KeepsTheEndOfACorridor) {
   std::vector<Vec2> points;
-  for (int i = 0; i < 1000; ++i) points.emplace_back(10.0 * std::pow(i / 1000.0, 0.2), 0.0);
+  for (int i = 0; i < 1000; ++i) points.emplace_back(10.0 * std::sqrt(i / 1000.0), 0.0);
   Panel panel;
   set_view(points, {}, panel);
   EXPECT_LE(panel.x.range->first, points.front().x());

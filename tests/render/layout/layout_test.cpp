@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 
 #include "core/rng.hpp"
 #include "render/layout/labels.hpp"
@@ -229,13 +231,13 @@ TEST(Layout, SaysHowManyPointsAreOutsideOfAPanel) {
     Scene scene = one_panel({Points{.points = points}});
     scene.panels[0].x.range = scene.panels[0].y.range = {0, 3};
     scene.panels[0].tell_outside = "point";
-    std::vector<std::string> notes;
+    std::set<std::string> notes;  // a halo repeats its text
     for (const TextShape* text : shapes_of<TextShape>(layout(scene), 0))
-      if (text->text.ends_with("outside") && !text->halo) notes.push_back(text->text);
+      if (text->text.ends_with("outside")) notes.insert(text->text);
     if (stray == 0)
       EXPECT_TRUE(notes.empty());
     else
-      EXPECT_EQ(notes, (std::vector<std::string>{stray == 1 ? "1 point outside" : "2 points outside"}));
+      EXPECT_EQ(notes, (std::set<std::string>{stray == 1 ? "1 point outside" : "2 points outside"}));
   }
 }
 

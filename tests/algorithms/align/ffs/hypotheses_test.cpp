@@ -121,7 +121,7 @@ TEST(VirtualScan, PointsLieOnTheirHypothesesWithWeightsByCertainty) {
   ASSERT_EQ(scan.points.size(), scan.weights.size());
   ASSERT_EQ(scan.points.size(), scan.directions.size());
   for (std::size_t k = 0; k < scan.points.size(); ++k) {
-    const bool on_line = scan.hypotheses[k] == 0;
+    const bool on_line = scan.holds[k] < 0;
     EXPECT_NEAR(scan.weights[k], on_line ? 0.4 : 1.2, 1e-12);
     double nearest = 1e9;
     if (on_line) nearest = distance(scan.points[k], Segment{{0, 0}, {4, 0}});
