@@ -232,8 +232,10 @@ TEST(Layout, SaysHowManyPointsAreOutsideOfAPanel) {
     scene.panels[0].x.range = scene.panels[0].y.range = {0, 3};
     scene.panels[0].tell_outside = "point";
     std::set<std::string> notes;  // a halo repeats its text
-    for (const TextShape* text : shapes_of<TextShape>(layout(scene), 0))
-      if (text->text.ends_with("outside")) notes.insert(text->text);
+    const Layout placed = layout(scene);
+    for (const int clip : {-1, 0})
+      for (const TextShape* text : shapes_of<TextShape>(placed, clip))
+        if (text->text.ends_with("outside")) notes.insert(text->text);
     if (stray == 0)
       EXPECT_TRUE(notes.empty());
     else
