@@ -16,8 +16,10 @@
 #include "core/error.hpp"
 #include "core/registry.hpp"
 #include "harness/analysis/statistics.hpp"
+#include "harness/run/make_recording.hpp"
 #include "harness/run/pipeline.hpp"
 #include "harness/scenario/scenario.hpp"
+#include "harness/scenario/scenario_file.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::accuracy {
@@ -27,7 +29,7 @@ namespace {
 using Scores = std::map<std::string, std::vector<double>>;
 
 std::string interval_text(const std::vector<double>& values, int digits) {
-  const harness::Interval i = harness::mean_interval(values);
+  const harness::MeanInterval i = harness::mean_interval(values);
   return fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", i.mean, digits, i.low, digits, i.high, digits);
 }
 

@@ -62,7 +62,6 @@ std::string fault_of(const LineFeature& line, int beams) {
     return "goes from beam " + std::to_string(line.first_beam) + " to beam " + std::to_string(line.last_beam) +
            "; allowed: 0 .. " + std::to_string(beams - 1);
   if (!is_near(line.segment.a) || !is_near(line.segment.b)) return "has an end point beyond 1e6 m";
-  if (line.segment.a == line.segment.b) return "has no length";
   return "";
 }
 
