@@ -7,14 +7,12 @@
 #include <vector>
 
 #include "core/line_map.hpp"
+#include "core/match.hpp"
 #include "core/pose2.hpp"
 #include "core/scan.hpp"
 #include "core/trace.hpp"
 
 namespace scanbench {
-
-enum class Status { converged, max_iterations, degenerate, no_match };
-std::string_view to_string(Status status);
 
 /// Lines of one scan, in the sensor frame. Any scan has an answer: no valid beam gives no line and labels of -1.
 class LineExtractor {
@@ -51,12 +49,8 @@ struct Observation {
   const ScanLines& lines;
 };
 
-struct Match {
-  Status status = Status::converged;
-  Pose2 reference_from_current;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw); zero: not estimated
-};
-
+/// The pose of one scan in the frame of another, from a guess. Any two scans have an answer: without returns, or with
+/// too little in common, it is `no_match`.
 class ScanMatcher {
  public:
   static constexpr std::string_view kKind = "match";

@@ -27,7 +27,8 @@ bool has_slot(const PipelineSpec& pipeline, std::string_view kind);
 
 /// `extract` runs on every frame, unless the scan set holds lines in place of scans: the chain then begins behind it.
 /// `align` gets all scans and their odometry; `match` chains consecutive scans, each
-/// guess being the odometry between them (which stands where the matcher says no_match); `map` gets scan after scan
+/// guess being the odometry between them, or, if no scan has another odometry pose than the first, the step before it
+/// (at first: no motion); the guess is the step where the matcher says no_match; `map` gets scan after scan
 /// with its pose; `merge` gets the lines and the valid points placed in the world. Poses are those of `align` or
 /// `match`, else the odometry.
 ///

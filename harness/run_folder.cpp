@@ -107,8 +107,9 @@ bool is_run_file(const fs::path& relative) {
     return parts.size() == 4 && one_of({"walls.csv", "frames.csv", "lines.csv", "rotations.npy", "scan.json",
                                         "ranges.npy", "true_ranges.npy", "wall_ids.npy"});
   if (first == "cells")
-    return parts.size() == 5 && one_of({"status.json", "lines.csv", "labels.npy", "map.csv", "poses.csv",
-                                        "merge_labels.csv", "trace.csv", "timing.csv", "metrics.csv", "matches.csv"});
+    return parts.size() == 5 &&
+           one_of({"status.json", "lines.csv", "labels.npy", "map.csv", "poses.csv", "pose_matches.csv",
+                   "merge_labels.csv", "trace.csv", "timing.csv", "metrics.csv", "matches.csv", "pose_errors.csv"});
   return false;
 }
 

@@ -1,5 +1,5 @@
-// Names of the outcomes, as they stand in files.
-#include "core/modules.hpp"
+// Names of the outcomes, as files have them.
+#include "core/match.hpp"
 
 namespace scanbench {
 
