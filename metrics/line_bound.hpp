@@ -7,6 +7,10 @@
 
 namespace scanbench::metrics {
 
+/// Fisher information of the reading of one beam about (rho, alpha) of the line that it meets; zero for a beam that
+/// runs along or away from it. Absent for a sensor without noise.
+std::optional<Eigen::Matrix2d> beam_information(const SensorModel& sensor, int beam, const PolarLine& line);
+
 /// Smallest covariance that an unbiased estimate of (offset of the line at the midpoint of truth.segment [m], angle
 /// [rad]) can have, from the returns between the line's first and last beam. The offset counts along the line's
 /// canonical normal, the angle counter-clockwise, as in LineFeature::covariance. Absent where the bound does not exist:
