@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/atomic_file.hpp"
+#include "harness/pipeline.hpp"
 #include "harness/scenario_reader.hpp"
 #include "harness/yaml_reader.hpp"
 
@@ -34,16 +35,27 @@ std::vector<std::string> pipeline_names(const Scenario& scenario) {
   return names;
 }
 
-void check_metrics(const Scenario& scenario, YamlMark mark) {
-  for (const std::string family : {"segments", "efficiency", "timing"}) {
+void check_metrics(const Scenario& scenario, const BenchmarkSubject& subject, YamlMark mark) {
+  std::string allowed;
+  for (const auto& [family, parameter] : subject.required)
+    allowed += (allowed.empty() ? "" : ", ") +
+               (parameter.empty() ? family : fmt::format("{{name: {}, params: {{{}: true}}}}", family, parameter));
+  for (const auto& [family, parameter] : subject.required) {
     const auto choice = std::ranges::find(scenario.metrics, family, &ModuleChoice::module);
-    const bool writes_matches =
-        choice != scenario.metrics.end() && (family != "efficiency" || std::get<bool>(choice->params.at("matches")));
-    if (!writes_matches)
-      throw PlacedError(mark, fmt::format("{} has no metric {}; allowed: a benchmark of scenarios with the metrics "
-                                          "segments, {{name: efficiency, params: {{matches: true}}}} and timing",
-                                          scenario.name, family == "efficiency" ? "efficiency with matches" : family));
+    const bool fits =
+        choice != scenario.metrics.end() && (parameter.empty() || std::get<bool>(choice->params.at(parameter)));
+    if (!fits)
+      throw PlacedError(mark,
+                        fmt::format("{} has no metric {}{}; allowed: a benchmark of scenarios with the metrics {}",
+                                    scenario.name, family, parameter.empty() ? "" : " with " + parameter, allowed));
   }
+}
+
+void check_slots(const Scenario& scenario, const std::string& slot, YamlMark mark) {
+  for (const auto& pipeline : scenario.pipelines)
+    if (!has_slot(pipeline, slot))
+      throw PlacedError(mark, fmt::format("{} of {} has no slot {}; allowed: a benchmark of pipelines that have it",
+                                          pipeline.name, scenario.name, slot));
 }
 
 /// Each value over the baseline's in the same scenario and seed.
@@ -68,15 +80,22 @@ double average(const std::vector<double>& values, bool geometric) {
   return geometric ? std::exp(sum / count) : sum / count;
 }
 
-std::map<std::string, int> conditions_won(const CellValues& f1, const std::vector<std::string>& pipelines,
+bool better(double a, double b, Direction direction) {
+  return direction == Direction::lower_is_better ? a < b : a > b;
+}
+
+std::map<std::string, int> conditions_won(const CellValues& rank, const BenchmarkColumn& column,
+                                          const std::vector<std::string>& pipelines,
                                           const std::vector<std::uint64_t>& seeds,
                                           const std::vector<std::string>& scenarios) {
   std::map<std::string, int> won;
   for (const auto& scenario : scenarios) {
     std::vector<double> means;
-    for (const auto& pipeline : pipelines) means.push_back(average(per_seed(f1, pipeline, seeds, {scenario}), false));
-    double best = -1.0;
-    for (const double m : means) best = m > best ? m : best;
+    for (const auto& pipeline : pipelines)
+      means.push_back(average(per_seed(rank, pipeline, seeds, {scenario}), column.geometric));
+    double best = kNan;
+    for (const double m : means)
+      if (std::isnan(best) || better(m, best, column.direction)) best = m;
     for (std::size_t i = 0; i < means.size(); ++i) won[pipelines[i]] += means[i] == best;
   }
   return won;
@@ -97,15 +116,21 @@ TableCell interval_cell(const Interval& interval, const BenchmarkColumn& column)
   return cell;
 }
 
-TableCell next_cell(const RankedPipeline& ranked) {
+TableCell next_cell(const RankedPipeline& ranked, const BenchmarkColumn& column) {
   if (!std::isfinite(ranked.next_p)) return {"–"};
-  TableCell cell{fmt::format("{:+.2f}", 100.0 * ranked.next_difference)};
+  TableCell cell{column.geometric ? fmt::format("× {:.3f}", std::exp(ranked.next_difference))
+                                  : fmt::format("{:+.2f}", column.scale * ranked.next_difference)};
   cell.spread = ranked.next_p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", ranked.next_p);
   if (ranked.next_p >= 0.05) cell.spread += " n.s.";
   return cell;
 }
 
 }  // namespace
+
+std::string next_head(const BenchmarkColumn& rank) {
+  const std::string name = rank.head.substr(0, rank.head.find(" ["));
+  return rank.geometric ? name + " over next" : name + " − next";
+}
 
 CellValues values_of(const std::vector<SummaryRow>& rows, const std::string& metric) {
   CellValues values;
@@ -142,6 +167,11 @@ double noise_m(const Scenario& scenario) {
 BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& scenarios) {
   YamlMap map(node, "benchmark");
   BenchmarkSpec spec;
+  const YamlNode* of = map.find("of");
+  spec.of = map.text_or("of", spec.of);
+  if (const auto slots = benchmark_slots(); std::ranges::find(slots, spec.of) == slots.end())
+    throw PlacedError(of->mark,
+                      fmt::format("no benchmark ranks modules of the kind {}{}", spec.of, known_names(spec.of, slots)));
   const YamlNode& baseline = map.require("baseline", "a pipeline's name");
   spec.baseline = map.text("baseline", "a pipeline's name");
   spec.example = map.text_or("example", scenarios.front().name);
@@ -158,7 +188,8 @@ BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& 
       throw PlacedError(node.mark,
                         fmt::format("{} is not simulated; allowed: scenarios with a world, a sensor and a trajectory",
                                     scenario.name));
-    check_metrics(scenario, node.mark);
+    check_slots(scenario, spec.of, node.mark);
+    check_metrics(scenario, spec.subject(), node.mark);
   }
   if (std::ranges::find(pipelines, spec.baseline) == pipelines.end())
     throw PlacedError(baseline.mark,
@@ -171,7 +202,8 @@ BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& 
 }
 
 std::string benchmark_json(const BenchmarkSpec& spec) {
-  const nlohmann::ordered_json json{{"about", spec.about}, {"baseline", spec.baseline}, {"example", spec.example}};
+  const nlohmann::ordered_json json{
+      {"about", spec.about}, {"of", spec.of}, {"baseline", spec.baseline}, {"example", spec.example}};
   return json.dump(2) + "\n";
 }
 
@@ -180,36 +212,10 @@ std::optional<BenchmarkSpec> load_benchmark(const fs::path& run) {
   if (!fs::exists(path)) return std::nullopt;
   try {
     const auto json = nlohmann::json::parse(read_file(path));
-    return BenchmarkSpec{json.at("about"), json.at("baseline"), json.at("example")};
+    return BenchmarkSpec{json.at("about"), json.at("baseline"), json.at("example"), json.value("of", "extract")};
   } catch (const nlohmann::json::exception& error) {
     throw ConfigError(path.string() + ": " + error.what());
   }
-}
-
-const std::vector<BenchmarkColumn>& benchmark_columns() {
-  using enum Direction;
-  static const std::vector<BenchmarkColumn> kColumns{
-      {"f1", "F1 [%]", 100, 2, false, higher_is_better, "harmonic mean of precision and recall; decides the rank"},
-      {"precision", "precision [%]", 100, 2, false, higher_is_better,
-       "true lines over all lines found: true / (true + false + split)"},
-      {"recall", "recall [%]", 100, 2, false, higher_is_better, "true lines over lines that are there"},
-      {"split", "split [%]", 100, 2, false, lower_is_better, "share of the found lines that repeat a true line"},
-      {"merged", "merged [%]", 100, 2, false, lower_is_better,
-       "share of the found lines that cover more than half of two true lines of different walls"},
-      {"overlap", "overlap [%]", 100, 2, false, higher_is_better,
-       "extent that a true line and its match have in common over that of both together"},
-      {"sigma_offset", "σ offset [cm]", 100, 3, false, lower_is_better,
-       "root mean square distance of the matches' midpoints from the true line"},
-      {"sigma_angle", "σ angle [°]", 1, 3, false, lower_is_better,
-       "root mean square angle between the matches and the true line"},
-      {"efficiency_offset", "offset / bound", 1, 2, true, lower_is_better,
-       "mean square error of the offset at the true line's midpoint over its Cramér–Rao bound; 1 is the best that the "
-       "readings allow; lines with 20 returns or more"},
-      {"efficiency_angle", "angle / bound", 1, 2, true, lower_is_better, "the same of the angle"},
-      {"t_scan", "time [µs]", 1, 2, true, lower_is_better, "median CPU time per scan"},
-      {"t_ratio", "time ratio", 1, 2, true, lower_is_better,
-       "that time over the baseline's in the same condition and seed"}};
-  return kColumns;
 }
 
 std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenarios, const std::vector<SummaryRow>& rows,
@@ -219,12 +225,15 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenario
   const std::vector<std::string> conditions = scenario_names(scenarios);
   const std::vector<std::uint64_t> seeds = seeds_of(rows);
   std::map<std::string, RankedPipeline> by_name;
-  std::map<std::string, std::vector<double>> f1_of;
-  const CellValues f1 = values_of(rows, "f1");
-  const auto won = conditions_won(f1, names, seeds, conditions);
-  for (const auto& column : benchmark_columns()) {
-    const CellValues values = column.metric == "t_ratio" ? ratios_to(values_of(rows, "t_scan"), spec.baseline)
-                                                         : values_of(rows, column.metric);
+  std::map<std::string, std::vector<double>> rank_of;
+  const BenchmarkSubject& subject = spec.subject();
+  const BenchmarkColumn& rank = subject.rank_column();
+  const CellValues rank_values = values_of(rows, rank.metric);
+  const auto won = conditions_won(rank_values, rank, names, seeds, conditions);
+  for (const auto& column : subject.columns) {
+    const CellValues values = column.metric == "t_ratio"
+                                  ? ratios_to(values_of(rows, subject.time_metric), spec.baseline)
+                                  : values_of(rows, column.metric);
     for (const auto& name : names)
       by_name[name].values[column.metric] = mean_interval(per_seed(values, name, seeds, conditions, column.geometric));
   }
@@ -233,17 +242,20 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenario
     RankedPipeline& ranked = by_name[name];
     ranked.name = name;
     ranked.conditions_won = won.at(name);
-    f1_of[name] = per_seed(f1, name, seeds, conditions);
+    rank_of[name] = per_seed(rank_values, name, seeds, conditions, rank.geometric);
+    if (rank.geometric)
+      for (double& value : rank_of[name]) value = std::log(value);
     for (const auto& condition : conditions)
       for (const std::uint64_t seed : seeds) {
-        const auto found = f1.find({name, seed, condition});
-        ranked.missing += found == f1.end() || !std::isfinite(found->second);
+        const auto found = rank_values.find({name, seed, condition});
+        ranked.missing += found == rank_values.end() || !std::isfinite(found->second);
       }
     ranking.push_back(ranked);
   }
-  const auto key = [](const RankedPipeline& r) {
-    const double mean = r.values.at("f1").mean;
-    return std::tuple(r.missing > 0, std::isfinite(mean) ? -mean : 1.0, r.name);
+  const auto key = [&](const RankedPipeline& r) {
+    const double mean = r.values.at(rank.metric).mean;
+    const double sign = rank.direction == Direction::lower_is_better ? 1.0 : -1.0;
+    return std::tuple(r.missing > 0, !std::isfinite(mean), std::isfinite(mean) ? sign * mean : 0.0, r.name);
   };
   std::ranges::sort(ranking, {}, key);
 
@@ -251,7 +263,7 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenario
   for (std::size_t i = 0; i < ranking.size(); ++i) {
     std::vector<double> differences;
     if (i + 1 < ranking.size())
-      std::ranges::transform(f1_of[ranking[i].name], f1_of[ranking[i + 1].name], std::back_inserter(differences),
+      std::ranges::transform(rank_of[ranking[i].name], rank_of[ranking[i + 1].name], std::back_inserter(differences),
                              std::minus<>{});
     ranking[i].next_difference = average(differences, false);
     p_values.push_back(paired_p_value(differences));
@@ -262,28 +274,31 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenario
 }
 
 Table ranking_table(const std::vector<RankedPipeline>& ranking, const BenchmarkSpec& spec) {
-  Table table{"ranking", "", "", {"", "extractor"}, {}, {}};
-  for (const auto& column : benchmark_columns())
+  Table table{"ranking", "", "", {"", spec.subject().noun}, {}, {}};
+  const auto& columns = spec.subject().columns;
+  for (const auto& column : columns)
     table.columns.push_back({"", column.metric == "t_ratio" ? "time / " + spec.baseline : column.head, false});
-  table.columns.push_back({"", "F1 − next", false});
+  table.columns.push_back({"", next_head(spec.subject().rank_column()), false});
   table.columns.push_back({"", "best in", false});
   int rank = 0;
   for (const auto& ranked : ranking) {
     const std::string missing = ranked.missing > 0 ? fmt::format(" ({} cells missing)", ranked.missing) : "";
     Table::Row row{{std::to_string(++rank), ranked.name + missing}, {}, false};
-    for (const auto& column : benchmark_columns())
-      row.cells.push_back(interval_cell(ranked.values.at(column.metric), column));
-    row.cells.push_back(next_cell(ranked));
+    for (const auto& column : columns) row.cells.push_back(interval_cell(ranked.values.at(column.metric), column));
+    row.cells.push_back(next_cell(ranked, columns.front()));
     row.cells.push_back({std::to_string(ranked.conditions_won)});
     table.rows.push_back(std::move(row));
   }
   std::size_t c = 0;
-  for (const auto& column : benchmark_columns()) {
+  for (const auto& column : columns) {
+    if (column.direction == Direction::neither) {
+      ++c;
+      continue;
+    }
     double best = kNan;
     for (const auto& ranked : ranking) {
       const double v = ranked.values.at(column.metric).mean;
-      const bool better = column.direction == Direction::lower_is_better ? v < best : v > best;
-      if (std::isnan(best) || better) best = v;
+      if (std::isnan(best) || better(v, best, column.direction)) best = v;
     }
     for (std::size_t r = 0; r < ranking.size(); ++r)
       table.rows[r].cells[c].best = ranking[r].values.at(column.metric).mean == best;

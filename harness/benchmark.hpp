@@ -15,6 +15,7 @@
 #include <tuple>
 #include <vector>
 
+#include "harness/benchmark_subject.hpp"
 #include "harness/results_table.hpp"
 #include "harness/scenario.hpp"
 #include "harness/statistics.hpp"
@@ -24,15 +25,17 @@
 namespace scanbench::harness {
 
 struct BenchmarkSpec {
-  std::string about;     ///< the suite's
-  std::string baseline;  ///< pipeline that times are given as ratios to
-  std::string example;   ///< scenario of which one scan is shown
+  std::string about;           ///< the suite's
+  std::string baseline;        ///< pipeline that times are given as ratios to
+  std::string example;         ///< scenario of which one scan is shown
+  std::string of = "extract";  ///< slot whose modules are ranked
+
+  const BenchmarkSubject& subject() const { return benchmark_subject(of); }
 };
 
-/// Reads the key `benchmark` of a suite of these scenarios: {baseline: iepf, example: rooms-1cm}. The example is the
-/// first scenario unless it is named; `about` stays empty. Throws PlacedError for unknown names, and if the scenarios
-/// are not simulated, have not all the same pipelines, or not the metrics segments, efficiency (with matches: true) and
-/// timing.
+/// Reads the key `benchmark` of a suite of these scenarios: {of: extract, baseline: iepf, example: rooms-1cm}. `of` is
+/// extract unless given, the example the first scenario; `about` stays empty. Throws PlacedError for unknown names, and
+/// if the scenarios are not simulated, do not share the same pipelines, or lack a metric that the subject requires.
 BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& scenarios);
 
 std::string benchmark_json(const BenchmarkSpec& spec);
@@ -42,25 +45,14 @@ std::optional<BenchmarkSpec> load_benchmark(const std::filesystem::path& run);
 /// Standard deviation of the readings of a simulated scenario, the part that does not grow with range.
 double noise_m(const Scenario& scenario);
 
-/// A column of the ranking.
-struct BenchmarkColumn {
-  std::string metric;  ///< of summary.csv; or "t_ratio": time over that of the baseline in the same condition and seed
-  std::string head;    ///< with its unit
-  double scale = 1.0;
-  int decimals = 2;
-  bool geometric = false;
-  metrics::Direction direction = metrics::Direction::lower_is_better;
-  std::string definition;  ///< a sentence for the reader of the page
-};
-const std::vector<BenchmarkColumn>& benchmark_columns();
-
 struct RankedPipeline {
   std::string name;
   std::map<std::string, Interval> values;  ///< by the metric of a column; in the unit of summary.csv
-  int missing = 0;                         ///< cells without an F1: not ok, or not there
-  double next_difference = 0.0;            ///< mean F1 minus that of the next in rank, paired by seed; NaN for the last
-  double next_p = 1.0;                     ///< of that difference, paired t test, corrected after Holm; NaN: no test
-  int conditions_won = 0;                  ///< in which its F1, averaged over the seeds, is the best
+  int missing = 0;                         ///< cells without a value of the rank's metric: not ok, or not there
+  double next_difference = 0.0;  ///< mean of the rank's metric minus that of the next in rank, paired by seed, of the
+                                 ///< logarithms where the mean is geometric; NaN for the last
+  double next_p = 1.0;           ///< of that difference, paired t test, corrected after Holm; NaN: no test
+  int conditions_won = 0;        ///< in which it is the best, averaged over the seeds
 };
 
 /// The value of a metric (subject "all") in every cell: by pipeline, seed and scenario.
@@ -75,9 +67,13 @@ std::vector<double> per_seed(const CellValues& values, const std::string& pipeli
 /// Seeds of the rows, increasing: a run may have others than its scenarios name.
 std::vector<std::uint64_t> seeds_of(const std::vector<SummaryRow>& rows);
 
-/// Best F1 first; ties by name. Pipelines that miss cells come last: what they did not finish was not measured.
+/// Best first by the first column of the subject; ties by name. Pipelines that miss cells come last: what they did not
+/// finish was not measured.
 std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenarios, const std::vector<SummaryRow>& rows,
                                            const BenchmarkSpec& spec);
+
+/// "F1 − next", "MSE / bound over next": the column that compares a pipeline with the next in rank.
+std::string next_head(const BenchmarkColumn& rank);
 
 Table ranking_table(const std::vector<RankedPipeline>& ranking, const BenchmarkSpec& spec);
 
