@@ -6,6 +6,7 @@
 // along a corridor.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 
@@ -89,6 +90,7 @@ class Icp final : public ScanMatcher {
     Pose2 pose = guess;
     std::vector<Pair> pairs;
     bool settled = false;
+    double last_mean = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < params_.max_iterations && !settled; ++iteration) {
       pairs = nearest_pairs(now, pose, params_.gate_m, nearest, hints);
       const double overlap = static_cast<double>(pairs.size()) / static_cast<double>(now.size());
@@ -100,7 +102,9 @@ class Icp final : public ScanMatcher {
       const Pose2 next = rigid_fit(pairs, seen) * pose;
       const Motion step = motion_between(pose, next);
       pose = next;
-      settled = step.head<2>().norm() < kStillM && std::fabs(step.z()) < kStillRad;
+      const double mean = squares / static_cast<double>(pairs.size());
+      settled = std::fabs(mean - last_mean) < kStillM2;
+      last_mean = mean;
       trace.row("iteration", {static_cast<double>(pairs.size()), step.x(), step.y(), step.z(), squares});
     }
     for (Pair& pair : pairs) pair.point = pose * now.points[pair.current];
@@ -110,7 +114,7 @@ class Icp final : public ScanMatcher {
   }
 
  private:
-  static constexpr double kStillM = 1e-5, kStillRad = 1e-6;
+  static constexpr double kStillM2 = 1e-8;  // change of the mean squared distance
   Params params_;
 };
 

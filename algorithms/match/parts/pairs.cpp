@@ -7,12 +7,11 @@
 namespace scanbench::matching {
 namespace {
 
-constexpr double kLeastSigmaM = 1e-3;  // of sensors that claim to have no noise
 // A wall seen along has a normal that is too uncertain for the small noise across it.
 constexpr double kLeastCosine = 0.15;
 
 double variance_across(const ReturnedPoints& scan, std::size_t k, const Vec2& normal_in_scan) {
-  const double sigma = std::max(scan.scan.sensor.noise.range_sigma(scan.points[k].norm()), kLeastSigmaM);
+  const double sigma = std::max(scan.sigmas[k], kLeastSigmaM);
   const double cosine = std::max(std::fabs(normal_in_scan.dot(scan.direction(k))), kLeastCosine);
   return sigma * sigma * cosine * cosine;
 }

@@ -34,6 +34,7 @@ Match register_points_on_lines(const ReturnedPoints& reference, const std::vecto
   Pose2 pose = guess;
   PairInformation information;
   bool settled = false, near = false;
+  double last_size = 0.0;
   for (int iteration = 0; iteration < rules.max_iterations && !settled; ++iteration) {
     std::vector<Pair> pairs = nearest_pairs(current, pose, rules.gate_m, nearest, hints);
     const double overlap = static_cast<double>(pairs.size()) / static_cast<double>(current.size());
@@ -55,7 +56,9 @@ Match register_points_on_lines(const ReturnedPoints& reference, const std::vecto
     information = pair_information(pairs, current, lines, pose);
     const Motion step = Determined(information.equations, lever, kLeastRatioOfPoints).solve(information.equations.rhs);
     pose = moved(pose, step);
-    settled = near && (still(step) || (iteration >= 8 && nearly_still(step)));
+    const double size = step.head<2>().norm() + lever * std::fabs(step.z());
+    settled = near && (still(step) || (nearly_still(step) && size > 0.5 * last_size));
+    last_size = size;
     near = near || small(step) || iteration == rules.max_iterations / 2;
     trace.row("iteration", {static_cast<double>(pairs.size()), step.x(), step.y(), step.z(), information.misfit});
   }

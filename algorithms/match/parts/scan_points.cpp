@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kAngleSigma = 0.05;  // rad; what a window is long enough for
 constexpr std::size_t kMostNeighbours = 60;
-constexpr double kLeastSigmaM = 1e-3;  // of sensors that claim to have no noise
+constexpr int kMostMissing = 3;        // beams within a window
 constexpr double kLeastCosine = 0.2;   // of a beam with the normal
 constexpr double kCornerSigmas = 1.5;  // root mean square residual of what is taken for a line
 
@@ -33,6 +33,7 @@ class Windows {
     LocalLine line;
     double mean_square = 0.0;  // of the residuals
     double spread = 0.0;       // sum of squares along the line
+    int missing = 0;           // beams between the first and the last one without a return
   };
   /// Through points first .. last, whose noise is along the beam `direction`. Noise across a beam that meets the wall
   /// obliquely is correlated with noise along the wall, and would turn the line of least squares; its share in the
@@ -70,13 +71,9 @@ class Windows {
   std::vector<Sums> sums_;
 };
 
-double sigma_at(const ReturnedPoints& scan, std::size_t k) {
-  return std::max(scan.scan.sensor.noise.range_sigma(scan.points[k].norm()), kLeastSigmaM);
-}
-
 /// Noise across a line at return k.
 double noise_across(const ReturnedPoints& scan, std::size_t k, const LocalLine& line) {
-  return sigma_at(scan, k) * std::max(std::fabs(line.normal.dot(scan.direction(k))), kLeastCosine);
+  return std::max(scan.sigmas[k], kLeastSigmaM) * std::max(std::fabs(line.normal.dot(scan.direction(k))), kLeastCosine);
 }
 
 class Lines {
@@ -95,8 +92,9 @@ class Lines {
   std::size_t most() const { return std::min(kMostNeighbours, scan_.size()); }
   Windows::Fit window(std::size_t k, std::size_t before) const {
     const std::size_t start = std::min(k - std::min(k, before), scan_.size() - size_);
-    return windows_.fit(start, start + size_ - 1, scan_.direction(k),
-                        scan_.scan.sensor.noise.range_sigma(scan_.points[k].norm()));
+    Windows::Fit result = windows_.fit(start, start + size_ - 1, scan_.direction(k), scan_.sigmas[k]);
+    result.missing = scan_.beams[start + size_ - 1] - scan_.beams[start] - static_cast<int>(size_ - 1);
+    return result;
   }
   Windows::Fit middle(std::size_t k) const { return window(k, (size_ - 1) / 2); }
   bool long_enough(std::size_t k, const Windows::Fit& fit) const {
@@ -108,7 +106,8 @@ class Lines {
     Windows::Fit chosen = middle(k);
     const auto on_a_line = [&](const Windows::Fit& fit) {
       const double noise = noise_across(scan_, k, fit.line);
-      return fit.line.known() && fit.mean_square <= kCornerSigmas * kCornerSigmas * noise * noise &&
+      return fit.line.known() && fit.missing <= kMostMissing &&
+             fit.mean_square <= kCornerSigmas * kCornerSigmas * noise * noise &&
              std::fabs(fit.line.distance(scan_.points[k])) <= 3.0 * noise;
     };
     // Neighbours on both sides say more about the return between them than those on one.
@@ -131,13 +130,15 @@ class Lines {
 }  // namespace
 
 ReturnedPoints returned_points(const Scan& scan) {
-  ReturnedPoints result{scan, {}, {}};
+  ReturnedPoints result{scan, {}, {}, {}};
   result.points.reserve(scan.ranges.size());
   result.beams.reserve(scan.ranges.size());
+  result.sigmas.reserve(scan.ranges.size());
   for (int i = 0; i < scan.beams(); ++i) {
     if (!scan.valid(i) || scan.ranges[static_cast<std::size_t>(i)] > kFarthestM) continue;
     result.points.push_back(scan.point(i));
     result.beams.push_back(i);
+    result.sigmas.push_back(scan.sensor.noise.range_sigma(scan.ranges[static_cast<std::size_t>(i)]));
   }
   return result;
 }

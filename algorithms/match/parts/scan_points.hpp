@@ -10,11 +10,15 @@ namespace scanbench::matching {
 /// Returns farther away than this take no part: no scanner reads them, and their squares would swamp sums.
 inline constexpr double kFarthestM = 1e5;
 
+/// Least standard deviation that a range is taken to have, for sensors that claim to have no noise.
+inline constexpr double kLeastSigmaM = 1e-3;
+
 /// The valid returns, sensor frame: points[k] came from beam beams[k]. The scan must outlive it.
 struct ReturnedPoints {
   const Scan& scan;
   std::vector<Vec2> points;
   std::vector<int> beams;
+  std::vector<double> sigmas;  ///< standard deviation of each range by the data sheet, which may claim 0
 
   std::size_t size() const { return points.size(); }
   const Vec2& direction(std::size_t k) const { return scan.sensor.geometry.direction(beams[k]); }
@@ -37,7 +41,7 @@ struct LocalLine {
 
 /// One line per return. The window grows until the noise leaves the angle a standard deviation of 3 degrees, and lies
 /// before, around or behind the return, wherever the points are nearest to a line; those of a corner have a residual
-/// larger than the noise and no line.
+/// larger than the noise and no line. No window goes across more than three missing returns.
 std::vector<LocalLine> local_lines(const ReturnedPoints& scan);
 
 }  // namespace scanbench::matching
