@@ -73,9 +73,10 @@ int run(const std::vector<std::string>& args) {
   for (int seed = first_seed; seed < first_seed + seeds; ++seed)
     recordings.push_back(harness::make_recording(scenario, static_cast<std::uint64_t>(seed), 1));
 
-  fmt::print("| pipeline | position [m] | heading [deg] | largest [m] | largest [deg] | all placed | worse | "
-             "said good | ratio to {} | difference [m] | seconds |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-             scenario.pipelines.front().name);
+  fmt::print(
+      "| pipeline | position [m] | heading [deg] | largest [m] | largest [deg] | all placed | worse | "
+      "said good | ratio to {} | difference [m] | seconds |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+      scenario.pipelines.front().name);
   Scores first;
   for (const harness::PipelineSpec& pipeline : scenario.pipelines) {
     Scores s = scores_of(scenario, pipeline, recordings);
@@ -83,14 +84,13 @@ int run(const std::vector<std::string>& args) {
     std::vector<double> difference;
     for (std::size_t k = 0; k < s["position_error"].size(); ++k)
       difference.push_back(s["position_error"][k] - first["position_error"][k]);
-    const double ratio = harness::mean_interval(s["position_error"]).mean /
-                         harness::mean_interval(first["position_error"]).mean;
+    const double ratio =
+        harness::mean_interval(s["position_error"]).mean / harness::mean_interval(first["position_error"]).mean;
     fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {:.3f} | {} | {:.3f} |\n", pipeline.name,
                interval_text(s["position_error"], 4), interval_text(s["heading_error"], 3),
                interval_text(s["position_error_max"], 3), interval_text(s["heading_error_max"], 2),
-               count_above(s["all_placed"], 0.5), count_above(s["error_ratio"], 1.0),
-               count_above(s["said_good"], 0.5), ratio, interval_text(difference, 4),
-               harness::mean_interval(s["seconds"]).mean);
+               count_above(s["all_placed"], 0.5), count_above(s["error_ratio"], 1.0), count_above(s["said_good"], 0.5),
+               ratio, interval_text(difference, 4), harness::mean_interval(s["seconds"]).mean);
     std::fflush(stdout);
   }
   return 0;

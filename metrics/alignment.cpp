@@ -1,8 +1,10 @@
-// alignment: errors of the poses that a pipeline used, after the motion that is common to all of them is removed, beside
-// those of the poses it was given. Only relative poses are observable: a map that is right but turned has no error.
+// alignment: errors of the poses that a pipeline used, after the motion that is common to all of them is removed,
+// beside those of the poses it was given. Only relative poses are observable: a map that is right but turned has no
+// error.
 //
-// The common motion G minimises the sum over scans of |G p - q|^2 + lever^2 |G h - g|^2, p and q being the estimated and
-// the true position, h and g the unit headings: the squared distance of the pose and of a point `lever` ahead of it.
+// The common motion G minimises the sum over scans of |G p - q|^2 + lever^2 |G h - g|^2, p and q being the estimated
+// and the true position, h and g the unit headings: the squared distance of the pose and of a point `lever` ahead of
+// it.
 #include <algorithm>
 #include <cmath>
 #include <span>

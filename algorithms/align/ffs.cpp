@@ -20,6 +20,7 @@ class Ffs final : public Aligner {
     double step_start = 10.0;
     double step_end = 1.0;
     double cut_sigmas = 4.0;
+    double soft_sigmas = 0.05;
     static auto fields() { return align::ffs::schedule_fields<Params>(); }
   };
   explicit Ffs(const Params& params) : schedule_(align::ffs::schedule_of(params)) {}

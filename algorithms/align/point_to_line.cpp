@@ -35,9 +35,10 @@ class PointToLine final : public Aligner {
                 "standard deviation of a given position, each axis"),
           field("odometry_sigma_deg", &Params::odometry_sigma_deg, between(0, 180), "deg",
                 "standard deviation of a given heading"),
-          field("gate_m", &Params::gate_m, between(0, 1e6), "m",
-                "largest distance of a point from its line at first; halves from step to step; 0: what the error of the "
-                "given poses asks for"),
+          field(
+              "gate_m", &Params::gate_m, between(0, 1e6), "m",
+              "largest distance of a point from its line at first; halves from step to step; 0: what the error of the "
+              "given poses asks for"),
           field("final_gate_m", &Params::final_gate_m, between(1e-6, 1e6), "m",
                 "down to this; weights of pairs fall to 0 there (Tukey)"),
           field("margin_m", &Params::margin_m, between(0, 1e6), "m",

@@ -1,8 +1,8 @@
-// Simultaneous ICP: all pairs of scans, each point with the nearest point of every other scan, all poses solved together.
-// The network of pairwise relations of Lu & Milios, "Globally consistent range scan alignment for environment mapping",
-// Autonomous Robots 4, 1997, with the closest points themselves in place of the relations, as Borrmann et al. solve it
-// (Robotics and Autonomous Systems 56, 2008). The competitor that Lakaemper 2010, section 3, names: hard correspondences
-// where force field simulation has soft ones. It works on the same resampled points.
+// Simultaneous ICP: all pairs of scans, each point with the nearest point of every other scan, all poses solved
+// together. The network of pairwise relations of Lu & Milios, "Globally consistent range scan alignment for environment
+// mapping", Autonomous Robots 4, 1997, with the closest points themselves in place of the relations, as Borrmann et al.
+// solve it (Robotics and Autonomous Systems 56, 2008). The competitor that Lakaemper 2010, section 3, names: hard
+// correspondences where force field simulation has soft ones. It works on the same resampled points.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -34,19 +34,18 @@ class SimultaneousIcp final : public Aligner {
     int max_rounds = 100;
 
     static auto fields() {
-      return std::tuple{
-          field("resample_m", &Params::resample_m, between(1e-4, 1e3), "m",
-                "distance of the points along the lines of a scan"),
-          field("odometry_sigma_m", &Params::odometry_sigma_m, between(1e-6, 1e6), "m",
-                "standard deviation of a given position, each axis; sets the widest gate"),
-          field("odometry_sigma_deg", &Params::odometry_sigma_deg, between(0, 180), "deg",
-                "standard deviation of a given heading; sets the widest gate"),
-          field("final_gate_m", &Params::final_gate_m, between(1e-6, 1e6), "m",
-                "largest distance of two partners; the gate is halved from round to round down to this"),
-          field("max_angle_deg", &Params::max_angle_deg, between(0, 90), "deg",
-                "largest angle between the lines of two partners"),
-          field("max_rounds", &Params::max_rounds, between(1, 1e6), "",
-                "solutions at most; fewer once no pose moves 0.1 mm or 1e-5 rad")};
+      return std::tuple{field("resample_m", &Params::resample_m, between(1e-4, 1e3), "m",
+                              "distance of the points along the lines of a scan"),
+                        field("odometry_sigma_m", &Params::odometry_sigma_m, between(1e-6, 1e6), "m",
+                              "standard deviation of a given position, each axis; sets the widest gate"),
+                        field("odometry_sigma_deg", &Params::odometry_sigma_deg, between(0, 180), "deg",
+                              "standard deviation of a given heading; sets the widest gate"),
+                        field("final_gate_m", &Params::final_gate_m, between(1e-6, 1e6), "m",
+                              "largest distance of two partners; the gate is halved from round to round down to this"),
+                        field("max_angle_deg", &Params::max_angle_deg, between(0, 90), "deg",
+                              "largest angle between the lines of two partners"),
+                        field("max_rounds", &Params::max_rounds, between(1, 1e6), "",
+                              "solutions at most; fewer once no pose moves 0.1 mm or 1e-5 rad")};
     }
   };
 
@@ -164,9 +163,9 @@ Alignment SimultaneousIcp::align(std::span<const Observation> scans, std::span<c
   for (; rounds < params_.max_rounds && !converged; ++rounds) {
     last = solve_round(bodies, levers, gates.at(rounds), min_aligned, poses);
     converged = gates.narrow(rounds) && last.largest.small();
-    trace.row("round", {static_cast<double>(rounds), gates.at(rounds), static_cast<double>(last.pairs),
-                        std::sqrt(last.squares / std::max(last.pairs, 1)), last.largest.shift_m,
-                        last.largest.turn_rad});
+    trace.row("round",
+              {static_cast<double>(rounds), gates.at(rounds), static_cast<double>(last.pairs),
+               std::sqrt(last.squares / std::max(last.pairs, 1)), last.largest.shift_m, last.largest.turn_rad});
   }
   return align::judged({last.groups, last.lowest_rank < 3, converged, rounds, last.largest}, initial, poses);
 }

@@ -1,5 +1,5 @@
-// Virtual scans: force field simulation with hypotheses about lines and rectangles of the map as one more scan, made anew
-// in every iteration. Lakaemper, "Augmenting sparse laser scans with virtual scans to improve the performance of
+// Virtual scans: force field simulation with hypotheses about lines and rectangles of the map as one more scan, made
+// anew in every iteration. Lakaemper, "Augmenting sparse laser scans with virtual scans to improve the performance of
 // alignment algorithms", 2010, sections 4 and 5. docs/algorithms/virtual_scans.md has the rules and what they cost.
 #include "algorithms/align/ffs/hypotheses.hpp"
 #include "algorithms/align/ffs/simulation.hpp"
@@ -22,6 +22,7 @@ class VirtualScans final : public Aligner {
     double step_start = 10.0;
     double step_end = 1.0;
     double cut_sigmas = 4.0;
+    double soft_sigmas = 0.05;
     double line_weight = 1.0;
     double rectangle_weight = 1.0;
     int max_lines = 8;
@@ -62,8 +63,8 @@ class VirtualScans final : public Aligner {
     rules_.rectangles.min_side_m = p.rectangle_min_side_m;
     rules_.rectangles.misfit = p.rectangle_misfit;
     rules_.rectangles.min_certainty = p.rectangle_min_certainty;
-    rules_.merge_distance_m = p.merge_distance_m;
-    rules_.merge_gap_m = p.merge_gap_m;
+    rules_.prototypes.distance_m = p.merge_distance_m;
+    rules_.prototypes.gap_m = p.merge_gap_m;
     rules_.line_weight = p.line_weight;
     rules_.rectangle_weight = p.rectangle_weight;
     rules_.resample_m = p.resample_m;

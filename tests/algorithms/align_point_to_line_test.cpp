@@ -326,7 +326,7 @@ TEST(PointToLine, RefusesAFinalGateWiderThanTheFirst) {
 
 TEST(PointToLine, WritesARowForEachRound) {
   testing::TraceRecorder trace;
-  Registry<Aligner>::make("point_to_line")
+  Registry<Aligner>::make("point_to_line", {{"gate_m", 0.5}})
       ->align(noisy_scans(room(), path(), 0.02).observations(), perturbed(path(), 14), trace);
   const auto& rows = trace.rows["round"];
   ASSERT_GE(rows.size(), 4u);
@@ -360,6 +360,30 @@ TEST(ObservableMotions, AreThoseThatTheMatrixDetermines) {
   ASSERT_EQ(corridor.rank(), 2);
   EXPECT_NEAR(corridor.motions.row(0).norm(), 0.0, 1e-15);
   EXPECT_EQ(observable(Eigen::Vector3d(2e-3, 1.0, 0.5).asDiagonal()).rank(), 3);
+}
+
+TEST(PointToLine, NamesGroupsOfScansThatDoNotMeet) {
+  ScanSeries scans;
+  std::vector<Pose2> poses;
+  for (const Pose2& shift : {Pose2(0, 0, 0), Pose2(60, 0, 0)})
+    for (const Pose2& p : path()) {
+      scans.add_exact(cast(ring_sensor(360), room(), p));
+      poses.push_back(shift * p);
+    }
+  const Alignment result = align(scans, poses);
+  EXPECT_EQ(result.status, Status::degenerate);
+  EXPECT_NE(result.message.find("2 groups of scans do not meet: 7 scans; 7 scans"), std::string::npos)
+      << result.message;
+}
+
+TEST(PointToLine, LooksAsFarAsTheStatedErrorOfTheGivenPosesAsks) {
+  const ScanSeries scans = exact_scans(room(), path());
+  std::vector<Pose2> initial = path();
+  initial[3] = initial[3] * Pose2(0.7, -0.6, radians(5));
+  expect_poses(align(scans, initial, {{"odometry_sigma_m", 0.5}, {"odometry_sigma_deg", 6.0}}).world_from_sensor,
+               held_at_first(path(), initial), 1e-6);
+  const Alignment near = align(scans, initial, {{"odometry_sigma_m", 0.01}, {"odometry_sigma_deg", 0.1}});
+  EXPECT_GT((near.world_from_sensor[3].translation() - path()[3].translation()).norm(), 0.1);
 }
 
 }  // namespace

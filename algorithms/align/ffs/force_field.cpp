@@ -1,10 +1,12 @@
-// Forces eight pairs at a time over the runs of a cell grid; each pair is computed once and acts on both of its points.
+// Forces eight pairs at a time over the runs of a cell grid; each pair is computed once and acts on both of its
+// points.
 //
 // Only + - * and bit operations on single-precision lanes in a fixed order: the sums do not depend on how wide the
 // registers are that the compiler has for eight lanes. What is left out: the CPU's own estimates of reciprocal roots,
 // which differ between makers.
 #include "algorithms/align/ffs/force_field.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -13,17 +15,16 @@
 
 #include "algorithms/align/parts/cell_grid.hpp"
 
-// Eight lanes in registers of four change how vectors are passed between functions; all of these are inlined.
+// Eight lanes in narrower registers change how vectors are passed between functions; all of these are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace scanbench::align::ffs {
 namespace {
 
-using Float8 [[gnu::vector_size(32)]] = float;
-using Int8 [[gnu::vector_size(32)]] = std::int32_t;
-
 constexpr std::size_t kLanes = 8;
-constexpr double kStiffestSigmas = 0.05;  // below this distance a pair is as stiff as at it
+using Floats [[gnu::vector_size(4 * kLanes)]] = float;
+using Ints [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
+using Longs [[gnu::vector_size(4 * kLanes)]] = std::int64_t;
 
 /// Points in the order of the grid's cells, relative to its middle, with the sums of what acts on them.
 struct Lanes {
@@ -40,53 +41,73 @@ struct Pointers {
 };
 
 struct Constants {
-  float exponent;   ///< -log2(e) / (2 sigma^2)
+  float exponent;  ///< -log2(e) / (2 sigma^2)
   float squared_cut;
-  float stiffest;   ///< largest 1 / d in stiffness
+  float stiffest;  ///< largest 1 / d
 };
 
-[[gnu::always_inline]] inline Float8 all(float v) {
-  return Float8{v, v, v, v, v, v, v, v};
+[[gnu::always_inline]] inline Floats all(float v) {
+  return Floats{} + v;
 }
 
-[[gnu::always_inline]] inline Float8 load(const float* from) {
-  Float8 v;
+[[gnu::always_inline]] inline Ints all(std::int32_t v) {
+  return Ints{} + v;
+}
+
+[[gnu::always_inline]] inline Ints numbered() {
+  Ints lanes{};
+  for (std::size_t k = 0; k < kLanes; ++k) lanes[k] = static_cast<std::int32_t>(k);
+  return lanes;
+}
+
+[[gnu::always_inline]] inline Floats load(const float* from) {
+  Floats v;
   std::memcpy(&v, from, sizeof v);
   return v;
 }
 
-[[gnu::always_inline]] inline Float8 where(Int8 mask, Float8 v) {
-  return std::bit_cast<Float8>(std::bit_cast<Int8>(v) & mask);
+[[gnu::always_inline]] inline Floats where(Ints mask, Floats v) {
+  return std::bit_cast<Floats>(std::bit_cast<Ints>(v) & mask);
 }
 
-[[gnu::always_inline]] inline void subtract(float* from, Float8 v) {
-  const Float8 left = load(from) - v;
+[[gnu::always_inline]] inline bool none(Ints mask) {
+  const Longs pairs = std::bit_cast<Longs>(mask);
+  std::int64_t any = 0;
+  for (std::size_t k = 0; k < kLanes / 2; ++k) any |= pairs[k];
+  return any == 0;
+}
+
+[[gnu::always_inline]] inline void subtract(float* from, Floats v) {
+  const Floats left = load(from) - v;
   std::memcpy(from, &left, sizeof left);
 }
 
-[[gnu::always_inline]] inline float total(Float8 v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+[[gnu::always_inline]] inline float total(Floats v) {
+  float sum[kLanes];
+  std::memcpy(sum, &v, sizeof v);
+  for (std::size_t half = kLanes / 2; half > 0; half /= 2)
+    for (std::size_t k = 0; k < half; ++k) sum[k] += sum[k + half];
+  return sum[0];
 }
 
 /// 2^y for -126 < y <= 0; anything elsewhere. 2^y = 2^n 2^f with |f| <= 1/2: adding 1.5 * 2^23 rounds to the nearest
 /// integer and leaves it in the low bits; Taylor polynomial of degree 5, remainder below (ln 2 / 2)^6 / 6! = 2.5e-6.
-[[gnu::always_inline]] inline Float8 power_of_two(Float8 y) {
-  const Float8 rounded = y + all(12582912.0F);
-  const Float8 f = y - (rounded - all(12582912.0F));
-  Float8 p = all(0.0013333558F);
+[[gnu::always_inline]] inline Floats power_of_two(Floats y) {
+  const Floats rounded = y + all(12582912.0F);
+  const Floats f = y - (rounded - all(12582912.0F));
+  Floats p = all(0.0013333558F);
   p = p * f + all(0.0096181291F);
   p = p * f + all(0.0555041087F);
   p = p * f + all(0.2402265070F);
   p = p * f + all(0.6931471806F);
   p = p * f + all(1.0F);
-  return std::bit_cast<Float8>(std::bit_cast<Int8>(p) + (std::bit_cast<Int8>(rounded) << 23));
+  return std::bit_cast<Floats>(std::bit_cast<Ints>(p) + (std::bit_cast<Ints>(rounded) << 23));
 }
 
 /// 1 / sqrt(v), relative error below 5e-6; finite for 0. A guess from the exponent and two Newton steps.
-[[gnu::always_inline]] inline Float8 reciprocal_root(Float8 v) {
-  const Int8 magic = {0x5f3759df, 0x5f3759df, 0x5f3759df, 0x5f3759df, 0x5f3759df, 0x5f3759df, 0x5f3759df, 0x5f3759df};
-  Float8 r = std::bit_cast<Float8>(magic - (std::bit_cast<Int8>(v) >> 1));
-  const Float8 half = v * all(0.5F);
+[[gnu::always_inline]] inline Floats reciprocal_root(Floats v) {
+  Floats r = std::bit_cast<Floats>(all(std::int32_t{0x5f3759df}) - (std::bit_cast<Ints>(v) >> 1));
+  const Floats half = v * all(0.5F);
   r = r * (all(1.5F) - half * r * r);
   return r * (all(1.5F) - half * r * r);
 }
@@ -94,24 +115,25 @@ struct Constants {
 /// Point i against the points in places begin .. end - 1, all behind i. Arrays reach kLanes beyond their last point.
 [[gnu::always_inline]] inline void attract(const Pointers& p, const Constants& k, std::size_t i, std::size_t begin,
                                            std::size_t end) {
-  const Float8 x = all(p.x[i]), y = all(p.y[i]), c = all(p.c[i]), s = all(p.s[i]);
+  const Floats x = all(p.x[i]), y = all(p.y[i]), c = all(p.c[i]), s = all(p.s[i]);
   const std::int32_t own = p.body[i];
-  const Int8 body = {own, own, own, own, own, own, own, own};
-  const Int8 lane = {0, 1, 2, 3, 4, 5, 6, 7};
-  Float8 fx = all(0.0F), fy = all(0.0F), stiffness = all(0.0F);
+  const Ints body = all(own);
+  const Ints lane = numbered();
+  Floats fx = all(0.0F), fy = all(0.0F), stiffness = all(0.0F);
   for (std::size_t j = begin; j < end; j += kLanes) {
-    const Float8 dx = load(p.x + j) - x, dy = load(p.y + j) - y;
-    const Float8 squared = dx * dx + dy * dy;
-    Int8 others;
+    const Floats dx = load(p.x + j) - x, dy = load(p.y + j) - y;
+    const Floats squared = dx * dx + dy * dy;
+    Ints others;
     std::memcpy(&others, p.body + j, sizeof others);
     const auto left = static_cast<std::int32_t>(end - j);
-    const Int8 limit = {left, left, left, left, left, left, left, left};
-    const Int8 acts = (others != body) & (squared <= all(k.squared_cut)) & (lane < limit);
-    const Int8 magnitude = std::bit_cast<Int8>(c * load(p.c + j) + s * load(p.s + j)) & 0x7fffffff;  // |w w cos|
-    const Float8 m = where(acts, std::bit_cast<Float8>(magnitude) * power_of_two(squared * all(k.exponent)));  // (2)
-    const Float8 inverse = reciprocal_root(squared);
-    const Float8 gx = m * inverse * dx, gy = m * inverse * dy;  // (1)
-    const Float8 spring = m * (inverse < all(k.stiffest) ? inverse : all(k.stiffest));
+    const Ints limit = all(left);
+    const Ints acts = (others != body) & (squared <= all(k.squared_cut)) & (lane < limit);
+    if (none(acts)) continue;  // neighbours in memory are neighbours on a line: half of all blocks
+    const Ints magnitude = std::bit_cast<Ints>(c * load(p.c + j) + s * load(p.s + j)) & 0x7fffffff;  // |w w cos|
+    const Floats m = where(acts, std::bit_cast<Floats>(magnitude) * power_of_two(squared * all(k.exponent)));  // (2)
+    const Floats inverse = reciprocal_root(squared);
+    const Floats spring = m * (inverse < all(k.stiffest) ? inverse : all(k.stiffest));
+    const Floats gx = spring * dx, gy = spring * dy;  // (1)
     fx += gx;
     fy += gy;
     stiffness += spring;
@@ -144,20 +166,19 @@ void all_pairs_plain(const CellGrid& grid, const Pointers& p, const Constants& k
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void all_pairs_wide(const CellGrid& grid, const Pointers& p, const Constants& k) {
+[[gnu::target("avx2")]] void all_pairs_avx2(const CellGrid& grid, const Pointers& p, const Constants& k) {
   all_pairs(grid, p, k);
-}
-bool has_wide_registers() {
-  return __builtin_cpu_supports("avx2");
-}
-#else
-void all_pairs_wide(const CellGrid& grid, const Pointers& p, const Constants& k) {
-  all_pairs(grid, p, k);
-}
-bool has_wide_registers() {
-  return false;
 }
 #endif
+
+using Kernel = void (*)(const CellGrid&, const Pointers&, const Constants&);
+
+Kernel widest_kernel() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) return all_pairs_avx2;
+#endif
+  return all_pairs_plain;
+}
 
 Lanes lanes_of(const FieldPoints& points, const CellGrid& grid) {
   const std::size_t n = points.size(), padded = n + kLanes;
@@ -189,22 +210,26 @@ void point_forces(const FieldPoints& points, const Field& field, std::vector<Poi
   const Pointers pointers{lanes.x.data(),    lanes.y.data(),  lanes.c.data(),  lanes.s.data(),
                           lanes.body.data(), lanes.fx.data(), lanes.fy.data(), lanes.stiffness.data()};
   const Constants constants{static_cast<float>(-0.5 * std::numbers::log2e / (field.sigma * field.sigma)),
-                            static_cast<float>(field.reach() * field.reach()),
-                            static_cast<float>(1.0 / (kStiffestSigmas * field.sigma))};
-  if (has_wide_registers()) {
-    all_pairs_wide(grid, pointers, constants);
-  } else {
-    all_pairs_plain(grid, pointers, constants);
-  }
+                            static_cast<float>(field.reach() * field.reach()), static_cast<float>(1.0 / field.soft())};
+  static const Kernel kernel = widest_kernel();
+  kernel(grid, pointers, constants);
   forces.resize(points.size());
   const double scale = peak(field.sigma);
   for (std::size_t k = 0; k < points.size(); ++k)
     forces[grid.order()[k]] = {scale * Vec2(lanes.fx[k], lanes.fy[k]), scale * static_cast<double>(lanes.stiffness[k])};
 }
 
+double stiffness_on_line(double spacing_m, const Field& field) {
+  double sum = 0.0;
+  for (double d = 0.5 * spacing_m; d <= field.reach(); d += spacing_m)
+    sum += 2.0 * std::exp(-0.5 * d * d / (field.sigma * field.sigma)) / std::max(d, field.soft());
+  return peak(field.sigma) * sum;
+}
+
 double potential(const FieldPoints& points, const Field& field) {
   const CellGrid grid(points.at, field.reach());
-  const double scale = 1.0 / (field.sigma * std::numbers::sqrt2);
+  const double scale = 1.0 / (field.sigma * std::numbers::sqrt2), soft = field.soft();
+  const auto gauss = [&](double d) { return std::exp(-scale * scale * d * d); };
   double sum = 0.0;
   for (std::size_t v = 0; v < points.size(); ++v)
     grid.for_each_near(points.at[v], [&](std::size_t u) {
@@ -212,7 +237,9 @@ double potential(const FieldPoints& points, const Field& field) {
       const double d = (points.at[u] - points.at[v]).norm();
       if (d > field.reach()) return;
       const double aligned = std::fabs(points.direction[u].dot(points.direction[v]));
-      sum -= 0.5 * points.weight[u] * points.weight[v] * aligned * std::erfc(d * scale);
+      double depth = 0.5 * std::erfc(std::max(d, soft) * scale);
+      if (d < soft) depth += peak(field.sigma) * field.sigma * field.sigma / soft * (gauss(d) - gauss(soft));
+      sum -= points.weight[u] * points.weight[v] * aligned * depth;
     });
   return sum;
 }

@@ -6,8 +6,10 @@
 //   V(v, u) = M (u - v) / d,   M = w_v w_u c exp(-d^2 / (2 sigma^2)) / (sigma sqrt(2 pi))              (1), (2)
 //
 // which is minus the derivative by v of the potential -1/2 w_v w_u c erfc(d / (sigma sqrt 2)). Equation 1 prints v - u,
-// which would drive scans apart; directions are those of lines, which have no sign, hence |cos|.
-// docs/algorithms/ffs.md has the derivations.
+// which would drive scans apart; directions are those of lines, which have no sign, hence |cos|. Two points that
+// coincide would pull at each other with full force in a direction that rounding chooses: nearer than soft_sigmas *
+// sigma the force is proportional to d, (u - v) / (soft_sigmas * sigma) in place of (u - v) / d. docs/algorithms/ffs.md
+// has the derivations.
 #pragma once
 
 #include <vector>
@@ -24,6 +26,12 @@ struct FieldPoints {
   std::vector<int> body;        ///< points of one body do not attract each other
 
   std::size_t size() const { return at.size(); }
+  void resize(std::size_t n) {
+    at.resize(n);
+    direction.resize(n);
+    weight.resize(n);
+    body.resize(n);
+  }
   void add(const Vec2& p, const Vec2& along, double w, int of_body) {
     at.push_back(p);
     direction.push_back(along);
@@ -35,7 +43,7 @@ struct FieldPoints {
 /// How far and how hard a point is drawn.
 struct PointForce {
   Vec2 force = Vec2::Zero();
-  double stiffness = 0.0;  ///< sum of M / max(d, sigma / 20): the springs that a step must not overshoot
+  double stiffness = 0.0;  ///< sum of M / max(d, soft_sigmas * sigma): the springs that a step must not overshoot
 };
 
 /// Radius of the field: `sigma` > 0; pairs beyond `cut_sigmas` standard deviations exert nothing, which leaves out
@@ -43,14 +51,19 @@ struct PointForce {
 struct Field {
   double sigma = 1.0;
   double cut_sigmas = 4.0;
+  double soft_sigmas = 0.05;  ///< > 0
 
   double reach() const { return sigma * cut_sigmas; }
+  double soft() const { return sigma * soft_sigmas; }
 };
 
 /// The sum of V over all points of other bodies, per point. O(n) in memory, O(pairs within the cut) in time. Summed in
 /// single precision relative to the middle of the points: relative error some 1e-5, and 1e-7 of the map's extent in
 /// d. The same bytes on every x86-64, with wide registers or without.
 void point_forces(const FieldPoints& points, const Field& field, std::vector<PointForce>& forces);
+
+/// Stiffness of a point midway between points of weight 1 on a long line through it, `spacing_m` apart.
+double stiffness_on_line(double spacing_m, const Field& field);
 
 /// Potential of all pairs within the cut; 0 for no pairs, negative otherwise. Double precision, slower than the forces.
 double potential(const FieldPoints& points, const Field& field);

@@ -113,7 +113,8 @@ std::vector<Peak> peaks_of(const Accumulator& votes, const HoughRules& rules) {
                            v >= votes.smoothed(angle - 1, cell) && v >= votes.smoothed(angle + 1, cell);
       if (highest) candidates.push_back({angle, cell, v});
     }
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Peak& a, const Peak& b) { return a.votes > b.votes; });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Peak& a, const Peak& b) { return a.votes > b.votes; });
   std::vector<Peak> peaks;
   for (const Peak& c : candidates) {
     if (static_cast<int>(peaks.size()) == rules.most) break;

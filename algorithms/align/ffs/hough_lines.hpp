@@ -23,10 +23,10 @@ struct HoughLine {
   double certainty;  ///< votes per votes of the strongest line
 };
 
-/// Every point votes for the lines through it in steps of one degree; peaks by decreasing votes, none within five degrees
-/// and five cells of a stronger one; each then refitted (total least squares) to the points within 1.5 cells of it.
-/// Points must be finite. Points within half a cell vote together from their mean place: the votes are the same but for
-/// points within that of the border of a cell.
+/// Every point votes for the lines through it in steps of one degree; peaks by decreasing votes, none within five
+/// degrees and five cells of a stronger one; each then refitted (total least squares) to the points within 1.5 cells of
+/// it. Points must be finite. Points within half a cell vote together from their mean place: the votes are the same but
+/// for points within that of the border of a cell.
 std::vector<HoughLine> hough_lines(std::span<const Vec2> points, const HoughRules& rules);
 
 /// The part of a line inside the bounding box of the points; without length if it does not cross.

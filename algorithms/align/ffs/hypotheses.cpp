@@ -5,25 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/registry.hpp"
-
 namespace scanbench::align::ffs {
 namespace {
 
 constexpr double kSameSteps = 5.0;
-
-/// Segments that show one wall in several scans as one prototype: merging of section 4.2, figure 7.
-std::vector<Segment> prototypes_of(std::span<const Segment> lines, const HypothesisRules& rules) {
-  std::vector<MapLine> given;
-  for (const Segment& line : lines) given.push_back({.segment = line, .members = 1, .points = 2});
-  Trace silent;
-  const auto merger = Registry<SegmentMerger>::make("greedy_pairs", {{"max_angle_deg", rules.merge_angle_deg},
-                                                                     {"max_distance_m", rules.merge_distance_m},
-                                                                     {"max_gap_m", rules.merge_gap_m}});
-  std::vector<Segment> prototypes;
-  for (const MapLine& line : merger->merge({given, {}}, silent).map.lines) prototypes.push_back(line.segment);
-  return prototypes;
-}
 
 double distance_to_line(const Vec2& p, const Hypothesis& line) {
   const Vec2 along = (line.corners[1] - line.corners[0]).normalized();
@@ -46,8 +31,8 @@ double moved(const Hypothesis& from, const Hypothesis& to) {
 }
 
 void write(const Hypothesis& h, Fate fate, const CurrentMap& map, Trace& trace) {
-  std::vector<double> row{static_cast<double>(map.iteration), static_cast<double>(h.shape),
-                          static_cast<double>(h.id), static_cast<double>(fate), h.certainty};
+  std::vector<double> row{static_cast<double>(map.iteration), static_cast<double>(h.shape), static_cast<double>(h.id),
+                          static_cast<double>(fate), h.certainty};
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec2 p = map.world_from_map * h.corners[std::min(k, h.corners.size() - 1)];
     row.push_back(p.x());
@@ -68,7 +53,7 @@ std::vector<Hypothesis> hypotheses_of(const CurrentMap& map, const HypothesisRul
     }
   }
   if (rules.rectangle_weight > 0) {
-    for (const Rectangle& r : rectangles_of(prototypes_of(map.lines, rules), rules.rectangles))
+    for (const Rectangle& r : rectangles_of(prototypes_of(map.lines, rules.prototypes), rules.rectangles))
       result.push_back({Shape::rectangle, {r.corners.begin(), r.corners.end()}, r.certainty, -1});
   }
   return result;
@@ -88,7 +73,7 @@ VirtualScan plotted(const std::vector<Hypothesis>& hypotheses, const HypothesisR
       scan.directions.resize(scan.points.size(), side.direction());
     }
     scan.weights.resize(scan.points.size(), weight);
-    scan.hypotheses.resize(scan.points.size(), static_cast<int>(h));
+    scan.holds.resize(scan.points.size(), is_line ? -1 : static_cast<int>(h));
   }
   return scan;
 }

@@ -1,11 +1,12 @@
-// Hypotheses about the map: lines and rectangles, made anew in every iteration from real data only, plotted as a virtual
-// scan, and followed from iteration to iteration for the journal (Lakaemper 2010, sections 4 and 5).
+// Hypotheses about the map: lines and rectangles, made anew in every iteration from real data only, plotted as a
+// virtual scan, and followed from iteration to iteration for the journal (Lakaemper 2010, sections 4 and 5).
 #pragma once
 
 #include <string_view>
 #include <vector>
 
 #include "algorithms/align/ffs/hough_lines.hpp"
+#include "algorithms/align/ffs/prototypes.hpp"
 #include "algorithms/align/ffs/rectangles.hpp"
 #include "algorithms/align/ffs/simulation.hpp"
 
@@ -24,10 +25,8 @@ struct Hypothesis {
 struct HypothesisRules {
   HoughRules lines;
   RectangleRules rectangles;
-  double merge_angle_deg = 10.0;  ///< of segments of different scans that stand for one wall (section 4.2, figure 7)
-  double merge_distance_m = 0.2;
-  double merge_gap_m = 1.5;
-  double line_weight = 1.0;       ///< of a virtual point of a line of certainty 1; a real point has 1
+  PrototypeRules prototypes;
+  double line_weight = 1.0;  ///< of a virtual point of a line of certainty 1; a real point has 1
   double rectangle_weight = 1.0;
   double resample_m = 0.1;
 };
@@ -46,8 +45,8 @@ class HypothesisJournal {
  public:
   explicit HypothesisJournal(double step_m) : step_m_(step_m) {}
 
-  /// Gives ids and writes one trace row `hypothesis` each, and one for each that is dropped: iteration, shape, id, fate,
-  /// certainty, x1, y1 .. x4, y4 (a line's second end three times), world frame.
+  /// Gives ids and writes one trace row `hypothesis` each, and one for each that is dropped: iteration, shape, id,
+  /// fate, certainty, x1, y1 .. x4, y4 (a line's second end three times), world frame.
   void follow(const CurrentMap& map, std::vector<Hypothesis>& hypotheses, Trace& trace);
 
  private:

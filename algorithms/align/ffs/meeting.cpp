@@ -19,15 +19,16 @@ constexpr double kCosAligned = 0.8660254037844386;  // 30 degrees
 
 Meeting meeting_of(std::span<const Body> bodies, std::span<const Pose2> poses, const FieldPoints& real,
                    const VirtualScan& virtual_scan, double reach) {
-  // Behind the scans every hypothesis is a node of its own: two scans on two hypotheses do not hold each other.
+  // Behind the scans every hypothesis that holds is a node of its own: two scans on two of them do not hold each other.
   const int scans = static_cast<int>(bodies.size());
   int nodes = scans;
   std::vector<Vec2> at = real.at, along = real.direction;
   std::vector<int> node = real.body;
   for (std::size_t k = 0; k < virtual_scan.points.size(); ++k) {
+    if (virtual_scan.holds[k] < 0) continue;
     at.push_back(virtual_scan.points[k]);
     along.push_back(virtual_scan.directions[k]);
-    node.push_back(scans + virtual_scan.hypotheses[k]);
+    node.push_back(scans + virtual_scan.holds[k]);
     nodes = std::max(nodes, node.back() + 1);
   }
 
@@ -46,8 +47,8 @@ Meeting meeting_of(std::span<const Body> bodies, std::span<const Pose2> poses, c
     partners.erase(std::unique(partners.begin(), partners.end()), partners.end());
     for (const int partner : partners) ++shared[std::minmax(node[v], partner)];
     const auto b = static_cast<std::size_t>(node[v]);
-    const Eigen::Vector3d row = row_of(perpendicular(along[v]), at[v], poses[b] * bodies[b].centre,
-                                       std::max(bodies[b].radius, 1e-3));
+    const Eigen::Vector3d row =
+        row_of(perpendicular(along[v]), at[v], poses[b] * bodies[b].centre, std::max(bodies[b].radius, 1e-3));
     normal_matrix[b] += row * row.transpose();
   }
 

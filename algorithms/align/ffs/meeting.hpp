@@ -19,8 +19,8 @@ struct Meeting {
 };
 
 /// Two scans meet if at least five points of them lie within `reach` of a point of the other with nearly the same
-/// direction (30 degrees), or of the same hypothesis. A scan slides if the normals of its points that have such a
-/// partner determine fewer than three motions (see observable()).
+/// direction (30 degrees), or of the same rectangle (a line does not hold: both could slide along it). A scan slides if
+/// the normals of its points that have such a partner determine fewer than three motions (see observable()).
 Meeting meeting_of(std::span<const Body> bodies, std::span<const Pose2> poses, const FieldPoints& real,
                    const VirtualScan& virtual_scan, double reach);
 

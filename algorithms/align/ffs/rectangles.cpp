@@ -13,22 +13,22 @@ namespace {
 /// S, L of a segment; D is taken in the frame of the pair or rectangle at hand.
 struct Side {
   Vec2 middle;
-  double slope;  ///< [0, pi)
+  Vec2 along;  ///< unit, undirected
   double length;
   Segment segment;
 };
 
 struct Pair {
   std::size_t a, b;
-  double slope;
+  Vec2 along;         ///< unit, undirected
   double extent;      ///< of both sides' projections on their common direction
   double separation;  ///< of their midpoints across it
   Vec2 centre;
 };
 
-Vec2 unit(double angle) {
-  const auto [s, c] = portable::sincos(angle);
-  return {c, s};
+/// The square of a complex number: doubles the angle of a unit vector.
+Vec2 squared(const Vec2& z) {
+  return {z.x() * z.x() - z.y() * z.y(), 2.0 * z.x() * z.y()};
 }
 
 std::pair<double, double> ordered(double a, double b) {
@@ -38,25 +38,25 @@ std::pair<double, double> ordered(double a, double b) {
 std::vector<Side> sides_of(std::span<const Segment> segments) {
   std::vector<Side> sides;
   for (const Segment& s : segments)
-    if (s.length() > 0) sides.push_back({s.midpoint(), s.direction_angle(), s.length(), s});
+    if (s.length() > 0) sides.push_back({s.midpoint(), s.direction(), s.length(), s});
   // An order of their own: the result does not depend on the one given.
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     if (a.length != b.length) return a.length > b.length;
-    return a.slope < b.slope;
+    return a.middle.x() != b.middle.x() ? a.middle.x() < b.middle.x() : a.middle.y() < b.middle.y();
   });
   return sides;
 }
 
 std::vector<Pair> parallel_pairs(const std::vector<Side>& sides, const RectangleRules& rules) {
   std::vector<Pair> pairs;
+  const double sine = portable::sincos(rules.angle_rad).sin;
   for (std::size_t i = 0; i < sides.size(); ++i)
     for (std::size_t j = i + 1; j < sides.size(); ++j) {
       const Side &a = sides[i], &b = sides[j];  // a is the longer
       if (b.length < rules.min_length_ratio * a.length) break;
-      const double turn = wrap_direction(b.slope - a.slope);
-      if (std::fabs(turn) > rules.angle_rad) continue;
-      const double slope = a.slope + turn * b.length / (a.length + b.length);
-      const Vec2 along = unit(slope);
+      if (std::fabs(cross(a.along, b.along)) > sine) continue;
+      const double sign = a.along.dot(b.along) < 0 ? -1.0 : 1.0;
+      const Vec2 along = (a.length * a.along + sign * b.length * b.along).normalized();
       const auto interval = [&](const Side& side) {
         return ordered(along.dot(side.segment.a), along.dot(side.segment.b));
       };
@@ -68,7 +68,7 @@ std::vector<Pair> parallel_pairs(const std::vector<Side>& sides, const Rectangle
       if (separation < rules.min_side_m) continue;
       const double low = std::min(a_low, b_low), high = std::max(a_high, b_high);
       const double place = 0.5 * across.dot(a.middle + b.middle);
-      pairs.push_back({i, j, slope, high - low, separation, 0.5 * (low + high) * along + place * across});
+      pairs.push_back({i, j, along, high - low, separation, 0.5 * (low + high) * along + place * across});
     }
   return pairs;
 }
@@ -80,24 +80,25 @@ Rectangle ideal(const std::vector<Side>& sides, const Pair& p, const Pair& q) {
   Vec2 fourfold = Vec2::Zero();
   double seen = 0.0;
   for (const std::size_t m : members) {
-    fourfold += sides[m].length * unit(4.0 * sides[m].slope);
+    fourfold += sides[m].length * squared(squared(sides[m].along));
     seen += sides[m].length;
   }
-  double turn = 0.25 * portable::atan2(fourfold.y(), fourfold.x());  // modulo pi / 2
-  turn += std::round((p.slope - turn) / (kPi / 2)) * (kPi / 2);      // along the sides of p
-  const Vec2 along = unit(turn), across = perpendicular(along);
+  const double turn = 0.25 * portable::atan2(fourfold.y(), fourfold.x());  // modulo pi / 2
+  const auto [sine, cosine] = portable::sincos(turn);
+  Vec2 along(cosine, sine);
+  if (std::fabs(along.dot(p.along)) < std::fabs(cross(along, p.along))) along = perpendicular(along);
+  const Vec2 across = perpendicular(along);
   const auto [y0, y1] = ordered(across.dot(sides[p.a].middle), across.dot(sides[p.b].middle));
   const auto [x0, x1] = ordered(along.dot(sides[q.a].middle), along.dot(sides[q.b].middle));
   double certainty = std::min(1.0, seen / (2.0 * (x1 - x0 + y1 - y0)));
   for (const std::size_t m : members)
-    certainty *= std::max(std::fabs(along.dot(unit(sides[m].slope))), std::fabs(across.dot(unit(sides[m].slope))));
+    certainty *= std::max(std::fabs(along.dot(sides[m].along)), std::fabs(across.dot(sides[m].along)));
   const auto corner = [&](double x, double y) -> Vec2 { return x * along + y * across; };
   return {{corner(x0, y0), corner(x1, y0), corner(x1, y1), corner(x0, y1)}, certainty};
 }
 
-bool completes(const Pair& p, const Pair& q, const RectangleRules& rules) {
-  if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b) return false;
-  if (kPi / 2 - std::fabs(wrap_direction(p.slope - q.slope)) > rules.angle_rad) return false;
+bool completes(const Pair& p, const Pair& q, double sine, const RectangleRules& rules) {
+  if (std::fabs(p.along.dot(q.along)) > sine) return false;  // shares no side then: its own are parallel
   const auto fits = [&](double extent, double separation) {
     return std::fabs(extent - separation) <= rules.misfit * std::max(extent, separation);
   };
@@ -110,10 +111,11 @@ bool completes(const Pair& p, const Pair& q, const RectangleRules& rules) {
 std::vector<Rectangle> rectangles_of(std::span<const Segment> segments, const RectangleRules& rules) {
   const std::vector<Side> sides = sides_of(segments);
   const std::vector<Pair> pairs = parallel_pairs(sides, rules);
+  const double sine = portable::sincos(rules.angle_rad).sin;
   std::vector<Rectangle> candidates;
   for (std::size_t i = 0; i < pairs.size(); ++i)
     for (std::size_t j = i + 1; j < pairs.size(); ++j) {
-      if (!completes(pairs[i], pairs[j], rules)) continue;
+      if (!completes(pairs[i], pairs[j], sine, rules)) continue;
       const Rectangle rectangle = ideal(sides, pairs[i], pairs[j]);
       if (rectangle.certainty >= rules.min_certainty) candidates.push_back(rectangle);
     }
@@ -121,7 +123,8 @@ std::vector<Rectangle> rectangles_of(std::span<const Segment> segments, const Re
                    [](const Rectangle& a, const Rectangle& b) { return a.certainty > b.certainty; });
   std::vector<Rectangle> kept;
   for (const Rectangle& c : candidates)
-    if (std::ranges::none_of(kept, [&](const Rectangle& k) { return (k.centre() - c.centre()).norm() < rules.apart_m; }))
+    if (std::ranges::none_of(kept,
+                             [&](const Rectangle& k) { return (k.centre() - c.centre()).norm() < rules.apart_m; }))
       kept.push_back(c);
   return kept;
 }

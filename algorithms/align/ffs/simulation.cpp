@@ -11,7 +11,7 @@
 namespace scanbench::align::ffs {
 namespace {
 
-constexpr double kSettled = 1e-3;  // of sigma_end_m
+constexpr double kSettled = 1e-3;     // of sigma_end_m
 constexpr double kLongestStep = 1.0;  // of sigma: a longer one would leave the field that asked for it
 constexpr double kMeetingSigmas = 2.0;
 
@@ -61,7 +61,7 @@ class Simulation {
 
  private:
   void place() {
-    points_ = {};
+    points_.resize(0);
     lines_.clear();
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       for (std::size_t k = 0; k < bodies_[b].points.size(); ++k)
@@ -75,18 +75,20 @@ class Simulation {
 
   /// One iteration; returns dt^2 / 2, which never grows.
   double iterate(int t, double step_before, Trace& trace) {
-    const Field field{schedule_.sigma_at(t), schedule_.cut_sigmas};
-    FieldPoints all = points_;
+    const Field field{schedule_.sigma_at(t), schedule_.cut_sigmas, schedule_.soft_sigmas};
+    const std::size_t real = points_.size();
     for (std::size_t k = 0; k < virtual_scan_.points.size(); ++k)
-      all.add(virtual_scan_.points[k], virtual_scan_.directions[k], virtual_scan_.weights[k],
-              static_cast<int>(bodies_.size()));
-    point_forces(all, field, forces_);
-    const std::vector<Drive> drives = drives_of(bodies_, poses_, all, forces_);
-    double step = schedule_.step_at(t) * largest_step(drives);
+      points_.add(virtual_scan_.points[k], virtual_scan_.directions[k], virtual_scan_.weights[k],
+                  static_cast<int>(bodies_.size()));
+    point_forces(points_, field, forces_);
+    const double depth = trace.recording() ? potential(points_, field) : 0.0;
+    points_.resize(real);
+    const std::vector<Drive> drives = drives_of(bodies_, poses_, points_, forces_);
+    double step = schedule_.step_at(t) * largest_step(drives, stiffness_on_line(schedule_.resample_m, field));
     if (step_before > 0 && step > step_before) step = step_before;
     largest_move_ = move(bodies_, drives, step, kLongestStep * field.sigma, poses_);
     if (trace.recording())
-      trace.row("iteration", {static_cast<double>(t), field.sigma, step, potential(all, field), largest_move_,
+      trace.row("iteration", {static_cast<double>(t), field.sigma, step, depth, largest_move_,
                               static_cast<double>(virtual_scan_.points.size())});
     iterations_ = t + 1;
     return step;
@@ -137,9 +139,8 @@ double Schedule::step_at(int iteration) const {
 
 void Schedule::check() const {
   const auto refuse = [](const std::string& name, double value, const std::string& limit, double bound) {
-    throw ParamError(name,
-                     name + " = " + number_text(value) + " is beyond " + limit + " = " + number_text(bound) +
-                         "; allowed: up to " + limit);
+    throw ParamError(name, name + " = " + number_text(value) + " is beyond " + limit + " = " + number_text(bound) +
+                               "; allowed: up to " + limit);
   };
   if (sigma_end_m > sigma_start_m) refuse("sigma_end_m", sigma_end_m, "sigma_start_m", sigma_start_m);
   if (step_end > step_start) refuse("step_end", step_end, "step_start", step_start);

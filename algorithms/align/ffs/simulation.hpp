@@ -24,6 +24,7 @@ struct Schedule {
   double step_start = 10.0;
   double step_end = 1.0;
   double cut_sigmas = 4.0;
+  double soft_sigmas = 0.05;
 
   double sigma_at(int iteration) const;  ///< geometric from start to end, then constant
   double step_at(int iteration) const;   ///< the same
@@ -46,24 +47,26 @@ auto schedule_fields() {
             "step width in the first iteration: share of the largest step that no scan overshoots with"),
       field("step_end", &P::step_end, between(1e-6, 1e3), "", "step width once it has cooled"),
       field("cut_sigmas", &P::cut_sigmas, between(2, 10), "",
-            "pairs farther apart than this many radii exert no force: exp(-cut^2/2) of the largest is left out")};
+            "pairs farther apart than this many radii exert no force: exp(-cut^2/2) of the largest is left out"),
+      field("soft_sigmas", &P::soft_sigmas, between(1e-6, 1), "",
+            "pairs nearer than this many radii pull in proportion to their distance, not with full force")};
 }
 
 /// The members of Params that schedule_fields() names.
 template <class P>
 Schedule schedule_of(const P& p) {
-  const Schedule schedule{p.resample_m,     p.sigma_start_m, p.sigma_end_m, p.cooling_iterations,
-                          p.max_iterations, p.step_start,    p.step_end,    p.cut_sigmas};
+  const Schedule schedule{p.resample_m, p.sigma_start_m, p.sigma_end_m, p.cooling_iterations, p.max_iterations,
+                          p.step_start, p.step_end,      p.cut_sigmas,  p.soft_sigmas};
   schedule.check();
   return schedule;
 }
 
-/// A virtual scan (section 4.3): points that attract and do not move. Those of one hypothesis have one number.
+/// A virtual scan (section 4.3): points that attract and do not move.
 struct VirtualScan {
   std::vector<Vec2> points;
   std::vector<Vec2> directions;
   std::vector<double> weights;
-  std::vector<int> hypotheses;
+  std::vector<int> holds;  ///< number of the hypothesis, if two scans on it hold each other; -1: they can slide
 };
 
 /// The current map as hypotheses are made from it: real data only. Frame: that of the simulation.
