@@ -1,135 +1,327 @@
-// Beams per second of the simulator: fifteen walls, 200 scans of 451 beams, against a brute-force caster in double.
+// Casting and simulating against the named alternatives: a Markdown table on standard output.
 //
-//   simulate            whole recordings, gaussian noise of 5 cm included, one thread
-//   cast                the same beams through sim/ray_caster.hpp, no noise
-//   cast_brute_force    the same beams, every wall tried for every beam
-//   rooms/...           the two casters in an office of N walls
+//   sim_bench [rounds] [SUBJECT]     default: 11 rounds of all subjects; SUBJECT: only those whose name begins so
 //
-// items_per_second is beams per second of one core's time.
-#include <benchmark/benchmark.h>
+// Every round visits all methods of a world in rotated order. Times are CPU times of the thread; the factor is the
+// alternative's time over the method's in the same round, its median and 10th to 90th percentile. A scan has 451 beams
+// over 270 deg, 30 m; each world is scanned from 200 poses.
+#include <time.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <box2d/b2_body.h>
+#include <box2d/b2_edge_shape.h>
+#include <box2d/b2_fixture.h>
+#include <box2d/b2_world.h>
+#include <box2d/b2_world_callbacks.h>
+
+#include "core/angles.hpp"
+#include "core/geometry.hpp"
+#include "core/params.hpp"
+#include "core/pose2.hpp"
+#include "core/recording.hpp"
 #include "core/registry.hpp"
+#include "core/rng.hpp"
+#include "core/sensor_model.hpp"
+#include "core/truth.hpp"
+#include "sim/noise.hpp"
+#include "sim/odometry.hpp"
 #include "sim/ray_caster.hpp"
-#include "sim/ray_math.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulate.hpp"
+#include "sim/trajectory.hpp"
 
 namespace scanbench::sim {
 namespace {
 
+constexpr std::size_t kPoses = 200;
+
+void add(World& world, const Vec2& a, const Vec2& b) {
+  world.walls.push_back({std::to_string(world.walls.size() + 1), {a, b}});
+}
+
 World fifteen_walls() {
   World world;
-  world.name = "fifteen walls";
+  world.name = "15 walls";
   const double rows[15][4] = {{1.55, 0.75, 1.55, 1.65},    {1.95, 2.20, 2.45, 3.25},  {1.25, 11.25, 1.80, 11.25},
                               {1.55, 0.75, 1.55, 3.90},    {2.75, 0.00, 2.75, 0.45},  {9.75, 7.45, 9.75, 11.40},
                               {2.70, 10.00, 3.35, 10.00},  {0.00, 2.35, 0.00, 5.90},  {2.85, 5.15, 1.55, 3.75},
                               {11.15, 13.35, 13.5, 13.35}, {9.70, 7.40, 10.35, 7.40}, {1.90, 10.90, 2.50, 10.90},
                               {1.55, 10.90, 5.90, 10.90},  {3.20, 0.95, 3.20, 2.05},  {3.30, 9.90, 4.05, 9.70}};
-  for (const auto& r : rows)
-    world.walls.push_back({std::to_string(world.walls.size() + 1), {{r[0], r[1]}, {r[2], r[3]}}});
+  for (const auto& r : rows) add(world, {r[0], r[1]}, {r[2], r[3]});
   return world;
 }
 
-// `side` x `side` rooms of 6 m x 5 m with doors.
+// `side` x `side` rooms of 6 m x 5 m with doors and a piece of furniture.
 World rooms(int side) {
   World world;
-  world.name = "rooms";
-  const auto add = [&](const Vec2& a, const Vec2& b) {
-    world.walls.push_back({std::to_string(world.walls.size() + 1), {a, b}});
-  };
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j) {
       const Vec2 o(6.0 * i, 5.0 * j);
-      add(o, o + Vec2(2.5, 0));
-      add(o + Vec2(3.5, 0), o + Vec2(6, 0));
-      add(o, o + Vec2(0, 1.7));
-      add(o + Vec2(0, 2.6), o + Vec2(0, 5));
-      add(o + Vec2(1.1, 3.3), o + Vec2(2.3, 3.9));
+      add(world, o, o + Vec2(2.5, 0));
+      add(world, o + Vec2(3.5, 0), o + Vec2(6, 0));
+      add(world, o, o + Vec2(0, 1.7));
+      add(world, o + Vec2(0, 2.6), o + Vec2(0, 5));
+      add(world, o + Vec2(1.1, 3.3), o + Vec2(2.3, 3.9));
     }
+  world.name = "rooms, " + std::to_string(world.walls.size()) + " walls";
   return world;
 }
 
-Trajectory two_hundred_poses() {
+// A cave: one closed outline of short walls about the origin, all of them visible from the middle.
+World outline(int corners) {
+  World world;
+  world.name = "outline, " + std::to_string(corners) + " walls";
+  std::vector<Vec2> points;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = kTwoPi * i / corners;
+    const double radius = 10.0 + 1.5 * std::sin(5.0 * angle) + 0.5 * std::sin(31.0 * angle);
+    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  for (int i = 0; i < corners; ++i)
+    add(world, points[static_cast<std::size_t>(i)], points[static_cast<std::size_t>((i + 1) % corners)]);
+  return world;
+}
+
+Trajectory drive() {
   const NamedPoints corners{{"A", {6.45, 3.15}}, {"B", {4.60, 1.50}}, {"C", {2.30, 8.15}},
                             {"D", {7.25, 6.00}}, {"E", {5.10, 7.45}}, {"F", {1.35, 7.70}}};
-  return Registry<TrajectoryKind>::make("waypoints", {{"points_m", corners}, {"scans", std::int64_t{200}}})
+  return Registry<TrajectoryKind>::make("waypoints", {{"points_m", corners}, {"scans", std::int64_t{kPoses}}})
       ->generate(0.1);
 }
 
-// Scans cast as a batch; `Cast` writes ranges and wall ids of all of them.
-template <class Cast>
-void run(benchmark::State& state, const ScanGeometry& beams, const Cast& cast) {
+std::vector<Pose2> driven_poses() {
   std::vector<Pose2> poses;
-  for (const TimedPose& pose : two_hundred_poses().poses) poses.push_back(pose.world_from_sensor);
-  const std::size_t count = poses.size() * static_cast<std::size_t>(beams.beams());
-  std::vector<double> ranges(count);
-  std::vector<std::int32_t> wall_ids(count);
-  for (auto _ : state) {
-    cast(poses, ranges, wall_ids);
-    benchmark::DoNotOptimize(ranges.data());
-    benchmark::ClobberMemory();
+  for (const TimedPose& pose : drive().poses) poses.push_back(pose.world_from_sensor);
+  return poses;
+}
+
+std::vector<Pose2> random_poses(const Vec2& low, const Vec2& high) {
+  CounterRng rng(1, RngStream::resampling);
+  std::vector<Pose2> poses;
+  for (std::size_t k = 0; k < kPoses; ++k) {
+    const double x = low.x() + rng.uniform() * (high.x() - low.x());
+    const double y = low.y() + rng.uniform() * (high.y() - low.y());
+    poses.emplace_back(x, y, kTwoPi * rng.uniform());
   }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(count));
+  return poses;
 }
 
-void cast_with_ray_caster(benchmark::State& state, const World& world) {
-  const SensorModel sensor = make_sensor("ladar_2d30", {});
-  const RayCaster caster(world);
-  run(state, sensor.geometry, [&](const auto& poses, auto& ranges, auto& wall_ids) {
-    caster.cast_scans(poses, {}, sensor.geometry, sensor.range_max_m, {ranges, wall_ids, {}});
-  });
-}
+// The named alternative: b2World::RayCast for the closest hit, one static body, a table of beams.
+class Box2DRays {
+ public:
+  explicit Box2DRays(const World& world) {
+    const b2BodyDef definition;
+    b2Body& body = *world_.CreateBody(&definition);
+    for (std::size_t i = 0; i < world.walls.size(); ++i) {
+      const Segment& s = world.walls[i].segment;
+      b2EdgeShape edge;
+      edge.SetTwoSided(point(s.a), point(s.b));
+      b2FixtureDef fixture;
+      fixture.shape = &edge;
+      fixture.userData.pointer = i;
+      body.CreateFixture(&fixture);
+    }
+  }
 
-void cast_with_brute_force(benchmark::State& state, const World& world) {
-  const SensorModel sensor = make_sensor("ladar_2d30", {});
-  run(state, sensor.geometry, [&](const auto& poses, auto& ranges, auto& wall_ids) {
+  void cast(const std::vector<Pose2>& poses, std::size_t every, const SensorModel& sensor, std::vector<double>& ranges,
+            std::vector<std::int32_t>& ids) const {
     std::size_t at = 0;
-    for (const Pose2& pose : poses)
+    for (std::size_t k = 0; k < poses.size(); k += every)
       for (int i = 0; i < sensor.geometry.beams(); ++i, ++at) {
-        const Vec2 direction = pose.rotate(sensor.geometry.direction(i));
-        double best = kNoHit;
-        std::int32_t id = -1;
-        for (std::size_t w = 0; w < world.walls.size(); ++w) {
-          const double range = range_to_wall(pose.translation(), direction, world.walls[w].segment);
-          if (range >= best || range > sensor.range_max_m) continue;
-          best = range;
-          id = static_cast<std::int32_t>(w);
-        }
-        ranges[at] = best;
-        wall_ids[at] = id;
+        const Vec2 to = poses[k].translation() + sensor.range_max_m * poses[k].rotate(sensor.geometry.direction(i));
+        Closest closest;
+        world_.RayCast(&closest, point(poses[k].translation()), point(to));
+        ranges[at] = closest.id < 0 ? INFINITY : static_cast<double>(closest.fraction) * sensor.range_max_m;
+        ids[at] = closest.id;
       }
-  });
+  }
+
+ private:
+  struct Closest : b2RayCastCallback {
+    float fraction = 1.0F;
+    std::int32_t id = -1;
+    float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float at) override {
+      fraction = at;
+      id = static_cast<std::int32_t>(fixture->GetUserData().pointer);
+      return at;
+    }
+  };
+
+  static b2Vec2 point(const Vec2& p) { return {static_cast<float>(p.x()), static_cast<float>(p.y())}; }
+
+  b2World world_{b2Vec2(0.0F, 0.0F)};
+};
+
+struct Method {
+  std::string name;
+  std::function<std::size_t()> run;  ///< returns the number of rays
+  std::vector<double> ns_per_ray{};
+};
+
+double thread_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-void BM_simulate(benchmark::State& state) {
+double time_of(const Method& method) {
+  constexpr double kShortest = 0.02;
+  std::size_t rays = 0;
+  const double begin = thread_seconds();
+  double end = begin;
+  while (end - begin < kShortest) {
+    rays += method.run();
+    end = thread_seconds();
+  }
+  return 1e9 * (end - begin) / static_cast<double>(rays);
+}
+
+double quantile(std::vector<double> values, double q) {
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+// The first method is the alternative.
+void measure(const std::string& subject, std::vector<Method> methods, int rounds) {
+  for (const Method& method : methods) method.run();
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t k = 0; k < methods.size(); ++k) {
+      Method& method = methods[(k + static_cast<std::size_t>(round)) % methods.size()];
+      method.ns_per_ray.push_back(time_of(method));
+    }
+  for (const Method& method : methods) {
+    std::vector<double> factors;
+    for (std::size_t i = 0; i < method.ns_per_ray.size(); ++i)
+      factors.push_back(methods[0].ns_per_ray[i] / method.ns_per_ray[i]);
+    std::printf("| %s | %s | %.2f | %.1f | %.1f .. %.1f |\n", subject.c_str(), method.name.c_str(),
+                quantile(method.ns_per_ray, 0.5), quantile(factors, 0.5), quantile(factors, 0.1),
+                quantile(factors, 0.9));
+  }
+  std::fflush(stdout);
+}
+
+// `every`: the alternative casts from each so many-th pose, where it is slow.
+void measure_casting(const World& world, const std::vector<Pose2>& poses, std::size_t every, int rounds) {
+  const SensorModel sensor = make_sensor("ladar_2d30", {});
+  const auto beams = static_cast<std::size_t>(sensor.geometry.beams());
+  std::vector<double> ranges(poses.size() * beams);
+  std::vector<std::int32_t> ids(ranges.size());
+  const Box2DRays box2d(world);
+  const auto caster = [&](const std::string& name, const RayCaster& c) {
+    return Method{name, [&] {
+                    c.cast_scans(poses, {}, sensor.geometry, sensor.range_max_m, {ranges, ids, {}});
+                    return ranges.size();
+                  }};
+  };
+  std::vector<Pose2> few;
+  for (std::size_t k = 0; k < poses.size(); k += every) few.push_back(poses[k]);
+  const RayCaster reference(world, CasterKind::box2d);
+  const RayCaster exact(world);
+  const RayCaster baseline(world, CasterKind::exact, Isa::baseline);
+  measure(world.name,
+          {{"b2World::RayCast",
+            [&] {
+              box2d.cast(poses, every, sensor, ranges, ids);
+              return few.size() * beams;
+            }},
+           {"caster: box2d",
+            [&] {
+              const std::size_t count = few.size() * beams;
+              reference.cast_scans(few, {}, sensor.geometry, sensor.range_max_m,
+                                   {std::span(ranges).first(count), std::span(ids).first(count), {}});
+              return count;
+            }},
+           caster("caster: exact, any x86-64", baseline),
+           caster("caster: exact", exact)},
+          rounds);
+}
+
+// What simulate() did before scans were swept: one ray through Box2D's tree, then one reading, and so on.
+std::size_t simulate_one_by_one(const SimulationInput& input) {
+  validate(input.world);
+  check_clear(input.world, input.trajectory, input.sensor.range_max_m);
+  const RayCaster caster(input.world, CasterKind::box2d);
+  const auto n = static_cast<std::size_t>(input.sensor.geometry.beams());
+  const auto& poses = input.trajectory.poses;
+  Recording recording;
+  recording.observed.sensor = input.sensor;
+  recording.observed.frames.resize(poses.size());
+  Truth& truth = recording.truth.emplace();
+  truth.walls = input.world.walls;
+  truth.ranges.resize(poses.size() * n);
+  truth.wall_ids.resize(poses.size() * n);
+  for (const TimedPose& pose : poses) truth.world_from_sensor.push_back(pose.world_from_sensor);
+  const std::vector<Pose2> odometry = odometry_poses(truth.world_from_sensor, input.odometry, input.seed);
+  std::vector<double> cosines(n);
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    Frame& frame = recording.observed.frames[k];
+    frame.stamp_s = poses[k].stamp_s;
+    frame.odom_from_sensor = odometry[k];
+    frame.ranges.resize(n);
+    const std::span<double> ranges = std::span(truth.ranges).subspan(k * n, n);
+    caster.cast_scans({&poses[k].world_from_sensor, 1}, {&poses[k].stamp_s, 1}, input.sensor.geometry,
+                      input.sensor.range_max_m, {ranges, std::span(truth.wall_ids).subspan(k * n, n), cosines});
+    for (std::size_t i = 0; i < n; ++i)
+      frame.ranges[i] = observed_range(input.sensor, ranges[i], cosines[i],
+                                       {input.seed, static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(i)});
+  }
+  return truth.ranges.size();
+}
+
+void measure_simulation(int rounds) {
   SimulationInput input;
   input.world = fifteen_walls();
   input.sensor = make_sensor("ladar_2d30", {});
-  input.trajectory = two_hundred_poses();
-  for (auto _ : state) benchmark::DoNotOptimize(simulate(input));
-  state.SetItemsProcessed(state.iterations() * 200 * 451);
+  input.trajectory = drive();
+  measure("recording, 15 walls, 5 cm noise",
+          {{"one ray at a time, Box2D's tree", [&] { return simulate_one_by_one(input); }},
+           {"simulate", [&] { return simulate(input).truth->ranges.size(); }}},
+          rounds);
 }
-BENCHMARK(BM_simulate)->Name("simulate")->Unit(benchmark::kMillisecond);
 
-void BM_cast(benchmark::State& state) {
-  cast_with_ray_caster(state, fifteen_walls());
-}
-BENCHMARK(BM_cast)->Name("cast")->Unit(benchmark::kMillisecond);
+struct Subject {
+  std::string name;
+  std::function<void(int rounds)> measure;
+};
 
-void BM_brute_force(benchmark::State& state) {
-  cast_with_brute_force(state, fifteen_walls());
+std::vector<Subject> subjects() {
+  const auto office = [](int side) {
+    return [side](int rounds) {
+      measure_casting(rooms(side), random_poses({1, 1}, {6.0 * side - 1, 5.0 * side - 1}), 1, rounds);
+    };
+  };
+  const auto cave = [](int corners, std::size_t every) {
+    return [corners, every](int rounds) {
+      measure_casting(outline(corners), random_poses({-4, -4}, {4, 4}), every, rounds);
+    };
+  };
+  return {{"walls", [](int rounds) { measure_casting(fifteen_walls(), driven_poses(), 1, rounds); }},
+          {"rooms125", office(5)},
+          {"rooms1k", office(14)},
+          {"rooms10k", office(45)},
+          {"rooms100k", office(141)},
+          {"outline1k", cave(1000, 2)},
+          {"outline100k", cave(100000, 20)},
+          {"recording", measure_simulation}};
 }
-BENCHMARK(BM_brute_force)->Name("cast_brute_force")->Unit(benchmark::kMillisecond);
-
-void BM_rooms(benchmark::State& state) {
-  cast_with_ray_caster(state, rooms(static_cast<int>(state.range(0))));
-}
-BENCHMARK(BM_rooms)->Name("rooms/cast")->Arg(5)->Arg(14)->Arg(45)->Unit(benchmark::kMillisecond);
-
-void BM_rooms_brute_force(benchmark::State& state) {
-  cast_with_brute_force(state, rooms(static_cast<int>(state.range(0))));
-}
-BENCHMARK(BM_rooms_brute_force)->Name("rooms/cast_brute_force")->Arg(5)->Arg(14)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace scanbench::sim
+
+int main(int argc, char** argv) {
+  const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 11;
+  const std::string wanted = argc > 2 ? argv[2] : "";
+  std::puts("| what | method | ns per beam | factor | 10 % .. 90 % |\n|---|---|---|---|---|");
+  for (const auto& subject : scanbench::sim::subjects())
+    if (subject.name.starts_with(wanted)) subject.measure(rounds);
+}

@@ -77,7 +77,17 @@ class ScenarioReader {
     const YamlNode& sensor = map_.require("sensor", "{preset: NAME}, with any of its fields beside it");
     read_sensor(sensor, sim::sensor_param_specs(), input.sensor_preset, input.sensor_params, input.sensor);
     read_trajectory(map_.require("trajectory", "{kind: NAME, ...}"), input);
+    read_caster(input);
     scenario_.input = std::move(input);
+  }
+
+  void read_caster(SimulatedInput& input) {
+    const YamlNode* node = map_.find("caster");
+    if (node == nullptr) return;
+    const std::string name = map_.text("caster", "exact or box2d");
+    if (name != "exact" && name != "box2d")
+      throw PlacedError(node->mark, fmt::format("caster is '{}'; allowed: exact, box2d", name));
+    input.caster = name == "box2d" ? sim::CasterKind::box2d : sim::CasterKind::exact;
   }
 
   /// `text` is empty for a world that is written into the scenario.

@@ -8,6 +8,7 @@
 //   trajectory:                                  # kind, its parameters, errors of odometry and tilt
 //     {kind: waypoints, points_m: {A: [1, 1], B: [4, 1]}, scans: 200, odometry: {translation_per_m: 0.02}, sweep:
 //     false}
+//   caster: exact                                # optional; box2d: the reference, slower, equal recordings
 //   seed: 1                                      # or seeds: [1, 2], or seeds: {first: 1, count: 20}; default: seed: 1
 //   pipelines:                                   # slots: extract, then align or match, then map or merge
 //     - {name: iepf, extract: {module: iepf, params: {threshold_m: 0.10}}}
@@ -36,6 +37,7 @@
 #include "core/params.hpp"
 #include "core/recording.hpp"
 #include "sim/line_copies.hpp"
+#include "sim/ray_caster.hpp"
 #include "sim/simulate.hpp"
 
 namespace scanbench::harness {
@@ -69,6 +71,7 @@ struct SimulatedInput {
   ParamSet tilt_params;  ///< effective, in the units of the file
   sim::Tilt tilt;
   bool sweep = false;
+  sim::CasterKind caster = sim::CasterKind::exact;
 };
 
 /// ... or from a recorded log.

@@ -36,6 +36,7 @@ void add_input(YamlNode& root, const SimulatedInput& input) {
   yaml_add(trajectory, "odometry", to_yaml(input.odometry_params));
   yaml_add(trajectory, "tilt", to_yaml(input.tilt_params));
   yaml_add(trajectory, "sweep", yaml_plain(input.sweep ? "true" : "false"));
+  if (input.caster == sim::CasterKind::box2d) yaml_add(root, "caster", yaml_text("box2d"));
 }
 
 /// A path with the variable holds anywhere; any other is made absolute, for this text is read from another folder.

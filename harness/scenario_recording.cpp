@@ -56,7 +56,8 @@ sim::SimulationInput simulation_input(const Scenario& scenario, std::uint64_t se
           .odometry = simulated->odometry,
           .tilt = simulated->tilt,
           .sweep = simulated->sweep,
-          .seed = seed};
+          .seed = seed,
+          .caster = simulated->caster};
 }
 
 void check_scenario(const Scenario& scenario) {

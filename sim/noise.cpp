@@ -3,10 +3,14 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
 
 #include "core/geometry.hpp"
 #include "core/portable_math.hpp"
 #include "core/rng.hpp"
+#include "sim/lanes/draw_kernels.hpp"
 
 namespace scanbench::sim {
 namespace {
@@ -15,6 +19,54 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 
 CounterRng draws(const BeamAddress& address, RngStream stream) {
   return {address.seed, stream, address.frame, address.beam};
+}
+
+// The random numbers of one reading, drawn one by one.
+struct BeamDraws {
+  const SensorNoise& noise;
+  const BeamAddress& address;
+  double sigma(double range_m) const { return noise.gaussian_sigma(range_m); }
+  double dropout() const { return draws(address, RngStream::dropout).uniform(); }
+  double normal() const { return draws(address, RngStream::range).normal(); }
+};
+
+// `random` has the numbers of this reading, dropout() and normal(), and sigma(range) of the gaussian error.
+template <class Random>
+double reading(const SensorModel& sensor, double true_range_m, double cos_incidence, const BeamAddress& address,
+               const Random& random) {
+  const SensorNoise& noise = sensor.noise;
+  double range = true_range_m;
+  if (!(range <= sensor.range_max_m)) return kInf;
+  if (range < sensor.range_min_m) return -kInf;
+  if (noise.dropout_probability > 0 || noise.dropout_grazing > 0) {
+    const double slant = 1.0 - cos_incidence;
+    const double probability = noise.dropout_probability + noise.dropout_grazing * slant * slant;
+    if (random.dropout() < probability) return kInf;
+  }
+  if (noise.spurious_probability > 0) {
+    CounterRng spurious = draws(address, RngStream::spurious);
+    if (spurious.uniform() < noise.spurious_probability)
+      range = sensor.range_min_m + spurious.uniform() * (range - sensor.range_min_m);
+  }
+  const double sigma = random.sigma(range);
+  if (sigma > 0) range += sigma * random.normal();
+  if (noise.quantum_m > 0) range = std::floor(range / noise.quantum_m + 0.5) * noise.quantum_m;
+  if (range < sensor.range_min_m || range <= 0) return -kInf;
+  return range <= sensor.range_max_m ? range : kInf;
+}
+
+// Fills a list of beams up to a multiple of 4.
+void fill_up(std::vector<std::uint32_t>& beams) {
+  while (beams.size() % 4 != 0) beams.push_back(beams.back());
+}
+
+// One number for each of `beams`, whose size is a multiple of 4.
+template <class Kernel>
+void draw(Kernel kernel, std::uint64_t seed, RngStream stream, std::uint32_t frame,
+          const std::vector<std::uint32_t>& beams, std::vector<double>& numbers) {
+  numbers.resize(beams.size());
+  kernel({.seed = seed, .stream = static_cast<std::uint32_t>(stream), .frame = frame, .beams = beams.data()},
+         static_cast<int>(beams.size()), numbers.data());
 }
 
 }  // namespace
@@ -35,25 +87,69 @@ double mixed_range(double range_a_m, double range_b_m, const BeamAddress& addres
 
 double observed_range(const SensorModel& sensor, double true_range_m, double cos_incidence,
                       const BeamAddress& address) {
-  const SensorNoise& noise = sensor.noise;
-  double range = true_range_m;
-  if (!(range <= sensor.range_max_m)) return kInf;
-  if (range < sensor.range_min_m) return -kInf;
-  if (noise.dropout_probability > 0 || noise.dropout_grazing > 0) {
-    const double slant = 1.0 - cos_incidence;
-    const double probability = noise.dropout_probability + noise.dropout_grazing * slant * slant;
-    if (draws(address, RngStream::dropout).uniform() < probability) return kInf;
+  return reading(sensor, true_range_m, cos_incidence, address, BeamDraws{sensor.noise, address});
+}
+
+ScanNoise::ScanNoise(const SensorModel& sensor, std::uint64_t seed, Isa isa)
+    : sensor_(sensor), seed_(seed), kernels_(isa == Isa::v3 ? v3::kDrawKernels : baseline::kDrawKernels) {}
+
+bool ScanNoise::needs_incidence(const SensorNoise& noise) {
+  return noise.dropout_probability > 0 || noise.dropout_grazing > 0;
+}
+
+std::span<const double> ScanNoise::bearing_errors(std::uint32_t frame, std::size_t beams) {
+  const double sigma = sensor_.noise.bearing_sigma_rad;
+  if (!(sigma > 0) || beams == 0) return {};
+  beams_.resize(beams);
+  std::iota(beams_.begin(), beams_.end(), 0U);
+  fill_up(beams_);
+  draw(kernels_.normals, seed_, RngStream::bearing, frame, beams_, bearings_);
+  for (double& angle : bearings_) angle = sigma * angle;
+  return std::span(bearings_).first(beams);
+}
+
+// Beams that return nothing need no random numbers: `beams_` becomes the list of the others.
+std::size_t ScanNoise::list_returns(std::span<const double> true_ranges, std::span<double> readings) {
+  const std::size_t n = true_ranges.size();
+  beams_.resize(n + 4);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double range = true_ranges[i];
+    const bool too_close = range < sensor_.range_min_m;
+    beams_[count] = static_cast<std::uint32_t>(i);
+    count += !too_close && range <= sensor_.range_max_m ? 1 : 0;
+    readings[i] = too_close ? -kInf : kInf;
   }
-  if (noise.spurious_probability > 0) {
-    CounterRng spurious = draws(address, RngStream::spurious);
-    if (spurious.uniform() < noise.spurious_probability)
-      range = sensor.range_min_m + spurious.uniform() * (range - sensor.range_min_m);
+  beams_.resize(count);
+  if (count > 0) fill_up(beams_);
+  return count;
+}
+
+void ScanNoise::observe(std::uint32_t frame, std::span<const double> true_ranges, std::span<const double> cos_incidence,
+                        std::span<double> readings) {
+  const SensorNoise& noise = sensor_.noise;
+  const std::size_t count = list_returns(true_ranges, readings);
+  const bool gaussian = noise.sigma_m > 0 || noise.sigma_relative > 0;
+  if (gaussian) draw(kernels_.normals, seed_, RngStream::range, frame, beams_, normals_);
+  if (needs_incidence(noise)) draw(kernels_.uniforms, seed_, RngStream::dropout, frame, beams_, dropouts_);
+  struct ScanDraws {
+    const ScanNoise& scan;
+    std::size_t place;
+    bool constant;  ///< without a proportional part sigma is the same for all ranges
+    double constant_sigma;
+    double sigma(double range_m) const {
+      return constant ? constant_sigma : scan.sensor_.noise.gaussian_sigma(range_m);
+    }
+    double dropout() const { return scan.dropouts_[place]; }
+    double normal() const { return scan.normals_[place]; }
+  };
+  const bool constant = noise.sigma_relative == 0 && noise.relative_from_m == 0;
+  const double sigma = noise.gaussian_sigma(0.0);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = beams_[k];
+    readings[i] = reading(sensor_, true_ranges[i], cos_incidence.empty() ? 0.0 : cos_incidence[i],
+                          {seed_, frame, beams_[k]}, ScanDraws{*this, k, constant, sigma});
   }
-  const double sigma = noise.gaussian_sigma(range);
-  if (sigma > 0) range += sigma * draws(address, RngStream::range).normal();
-  if (noise.quantum_m > 0) range = std::floor(range / noise.quantum_m + 0.5) * noise.quantum_m;
-  if (range < sensor.range_min_m || range <= 0) return -kInf;
-  return range <= sensor.range_max_m ? range : kInf;
 }
 
 }  // namespace scanbench::sim

@@ -2,13 +2,18 @@
 // same for any number of threads, and enabling one part does not change the others.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <span>
+#include <vector>
 
 #include "core/geometry.hpp"
 #include "core/sensor_model.hpp"
+#include "sim/lanes/isa.hpp"
 
 namespace scanbench::sim {
+
+struct DrawKernels;
 
 /// Address of one reading: its recording, frame and beam.
 struct BeamAddress {
@@ -36,5 +41,31 @@ double mixed_range(double range_a_m, double range_b_m, const BeamAddress& addres
 ///   gaussian error with SensorNoise::gaussian_sigma of that range; rounding to multiples of the quantum;
 ///   a reading below range_min or not positive: -inf, above range_max: +inf (REP-117).
 double observed_range(const SensorModel& sensor, double true_range_m, double cos_incidence, const BeamAddress& address);
+
+/// The same for whole scans: the random numbers of all beams are drawn at once. The readings are equal to the bit.
+class ScanNoise {
+ public:
+  /// `sensor` must outlive this. `isa` is for tests.
+  ScanNoise(const SensorModel& sensor, std::uint64_t seed, Isa isa = best_isa());
+
+  /// True if readings depend on the angle of incidence.
+  static bool needs_incidence(const SensorNoise& noise);
+
+  /// bearing_error() of every beam of a frame; empty without bearing noise. Valid until the next call.
+  std::span<const double> bearing_errors(std::uint32_t frame, std::size_t beams);
+
+  /// observed_range() of every beam of a frame. `cos_incidence` may be empty if needs_incidence() is false.
+  void observe(std::uint32_t frame, std::span<const double> true_ranges, std::span<const double> cos_incidence,
+               std::span<double> readings);
+
+ private:
+  std::size_t list_returns(std::span<const double> true_ranges, std::span<double> readings);
+
+  const SensorModel& sensor_;
+  std::uint64_t seed_;
+  const DrawKernels& kernels_;
+  std::vector<std::uint32_t> beams_;
+  std::vector<double> normals_, dropouts_, bearings_;
+};
 
 }  // namespace scanbench::sim

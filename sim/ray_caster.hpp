@@ -1,70 +1,50 @@
-// Exact ranges of a world, a batch at a time. Memory is the caller's; nothing is allocated per ray.
+// Exact ranges of a world, computed in batches. The caller owns the memory; nothing is allocated per ray.
 #pragma once
 
-#include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 
-#include "core/geometry.hpp"
 #include "core/pose2.hpp"
 #include "core/sensor_model.hpp"
+#include "sim/cast/caster.hpp"
+#include "sim/cast/ray.hpp"
+#include "sim/lanes/isa.hpp"
 #include "sim/world.hpp"
 
 namespace scanbench::sim {
 
-/// World frame; `direction` is a unit vector. The time places moving bodies.
-struct Ray {
-  Vec2 origin = Vec2::Zero();
-  Vec2 direction{1.0, 0.0};
-  double time_s = 0.0;
+/// How rays are cast. Recordings are equal to the byte; time is not.
+enum class CasterKind {
+  exact,  ///< walls are swept over the beams of a scan: the fast one
+  box2d,  ///< Box2D's broad phase, one ray at a time: the reference
 };
 
-/// What a ray meets first.
-struct RayHit {
-  double range_m = std::numeric_limits<double>::infinity();  ///< +inf: nothing within the largest range
-  std::int32_t wall = -1;                                    ///< index into World::walls; -1: nothing, or a round body
-  std::int32_t surface = -1;   ///< walls, then circles, then moving bodies, counted through; -1: nothing
-  double cos_incidence = 0.0;  ///< |cos| of the angle to the surface's normal; 0 without a hit
-};
-
-/// Where the answers go: one number per ray. An empty span is not wanted.
-struct HitBuffers {
-  std::span<double> ranges;
-  std::span<std::int32_t> wall_ids;
-  std::span<double> cos_incidence;
-};
-
-/// A frozen world that answers rays; const calls may come from many threads at once.
+/// A frozen world that answers rays; const calls may come from several threads at once.
 ///
-/// Box2D's broad phase names the surfaces near a ray; double arithmetic says which is hit and how far
-/// (sim/ray_math.hpp). Box2D's own narrow phase is not asked, since its floats lose grazing rays and take the wrong one
-/// of two walls at nearly one distance. Of surfaces within 1e-9 m of the nearest the lowest index wins (walls that
-/// overlap, corners).
+/// Double arithmetic decides which surface is hit and how far it is (sim/wall_range.hpp). Of surfaces within 1e-9 m of
+/// the nearest the lowest index wins (walls that overlap, corners).
 class RayCaster {
  public:
-  /// Copies what it needs. Throws what validate() throws.
-  explicit RayCaster(const World& world);
-  ~RayCaster();
-  RayCaster(const RayCaster&) = delete;
-  RayCaster& operator=(const RayCaster&) = delete;
-  RayCaster(RayCaster&&) noexcept;
-  RayCaster& operator=(RayCaster&&) noexcept;
+  /// Copies what it needs. Throws what validate() throws. `isa` is for tests.
+  explicit RayCaster(const World& world, CasterKind kind = CasterKind::exact, Isa isa = best_isa());
 
-  /// One ray. Surfaces beyond `range_max_m` are nothing.
+  /// One ray. Surfaces beyond `range_max_m` are ignored.
   RayHit cast(const Ray& ray, double range_max_m) const;
 
-  /// Whole scans that are taken in an instant: poses x beams, row-major. `stamps_s`: one time per pose, or empty for 0.
-  /// Every buffer that is wanted has poses x beams places, else InternalError.
+  /// Whole scans, each taken in an instant: poses x beams, row-major. `stamps_s`: one time per pose, or empty for 0.
+  /// A buffer has poses x beams places or none, else InternalError.
   void cast_scans(std::span<const Pose2> world_from_sensor, std::span<const double> stamps_s, const ScanGeometry& beams,
                   double range_max_m, const HitBuffers& out) const;
 
-  /// Rays each from its own place and time, as a scan that is swept while the sensor moves has them.
+  /// One scan whose beams do not point where the data sheet says. A buffer has one place per beam or none, and
+  /// `scan.directions` has one per beam, else InternalError.
+  void cast_bent_scan(const BentScan& scan, const ScanGeometry& beams, double range_max_m, const HitBuffers& out) const;
+
+  /// Rays that each have their own origin and time, for a scan that is swept while the sensor moves.
   void cast_rays(std::span<const Ray> rays, double range_max_m, const HitBuffers& out) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<const Caster> caster_;
 };
 
 }  // namespace scanbench::sim

@@ -3,47 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/geometry.hpp"
+#include "sim/wall_range.hpp"
 
 namespace scanbench::sim {
 
-/// A ray that passes an end of a wall within this distance hits it, so that a ray aimed exactly at a corner hits in
-/// spite of rounding: the error from coordinates of 100 km and a rounded direction is smaller.
-inline constexpr double kEndToleranceM = 1e-10;
-
-inline constexpr double kNoHit = std::numeric_limits<double>::infinity();
-
-/// Range from `origin` along the unit vector `direction` to the wall; +inf if there is no hit. A wall is hit from both
-/// sides and at its ends; one seen exactly edge-on is hit at its nearer end; from a point on it the range is 0.
-///
-/// The test compares the sides of the ray on which the two ends are. Both walls at a corner compute the corner's side
-/// from the same numbers, hence with the same sign, so no ray passes between them (the idea of Woop, Benthin & Wald,
-/// "Watertight ray/triangle intersection", JCGT 2013).
+/// Range from `origin` along the unit vector `direction` to the wall; +inf if there is no hit. See range_along_wall().
 inline double range_to_wall(const Vec2& origin, const Vec2& direction, const Segment& wall) {
   const Vec2 a = wall.a - origin;
   const Vec2 b = wall.b - origin;
-  const double side_a = cross(direction, a);
-  const double side_b = cross(direction, b);
-  if ((side_a > kEndToleranceM && side_b > kEndToleranceM) || (side_a < -kEndToleranceM && side_b < -kEndToleranceM))
-    return kNoHit;
-  const double along_a = direction.dot(a);
-  const double along_b = direction.dot(b);
-  const bool on_a = std::fabs(side_a) <= kEndToleranceM;
-  const bool on_b = std::fabs(side_b) <= kEndToleranceM;
-  if (on_a && on_b && (along_a < 0) != (along_b < 0)) return 0.0;  // edge-on, from a point of the wall
-  double range = kNoHit;
-  const auto consider = [&range](double along) {
-    if (along >= -kEndToleranceM) range = std::min(range, std::max(along, 0.0));
-  };
-  if (on_a) consider(along_a);
-  if (on_b) consider(along_b);
-  if ((side_a < 0) != (side_b < 0)) {
-    const double share = std::clamp(side_a / (side_a - side_b), 0.0, 1.0);
-    consider(along_a + share * (along_b - along_a));
-  }
-  return range;
+  return range_along_wall(a.x(), a.y(), b.x(), b.y(), direction.x(), direction.y());
 }
 
 /// |cos| of the angle between the ray and the wall's normal: 1 head-on, 0 edge-on.

@@ -1,13 +1,11 @@
-// Frames are shared out in chunks; every frame writes to its own preassigned place.
+// Simulation in chunks of frames, shared by threads; every frame writes to its own place.
 #include "sim/simulate.hpp"
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstddef>
 #include <exception>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <thread>
 #include <vector>
@@ -19,13 +17,14 @@
 #include "core/truth.hpp"
 #include "sim/noise.hpp"
 #include "sim/ray_caster.hpp"
+#include "sim/real_beams.hpp"
 
 namespace scanbench::sim {
 namespace {
 
-constexpr std::size_t kFramesPerChunk = 8;  // about a millisecond of work
-// Of Box2D: an empty world, and per surface a fixture, a shape, a proxy and two tree nodes (measured: 360 to 450
-// bytes).
+constexpr std::size_t kFramesPerChunk = 8;
+// Of Box2D, which needs more than the other caster: an empty world, and per surface a fixture, a shape, a proxy and two
+// tree nodes (measured: 360 to 450 bytes).
 constexpr std::uint64_t kBytesPerWorld = 160 * 1024;
 constexpr std::uint64_t kBytesPerSurface = 512;
 
@@ -33,130 +32,124 @@ std::size_t surfaces(const World& world) {
   return world.walls.size() + world.circles.size() + world.moving.size();
 }
 
-// Scratch of one thread.
-struct Scratch {
-  std::vector<Ray> rays;
-  std::vector<double> cos_incidence;
-};
-
 class Simulation {
  public:
   Simulation(const SimulationInput& input, Recording& recording)
-      : input_(input),
-        caster_(input.world),
-        floor_surface_(static_cast<std::int32_t>(surfaces(input.world))),
-        recording_(recording) {}
+      : input_(input), caster_(input.world, input.caster), recording_(recording) {}
 
-  void frame(std::size_t k, Scratch& scratch) const {
-    const SensorModel& sensor = input_.sensor;
-    const auto n = static_cast<std::size_t>(sensor.geometry.beams());
-    Truth& truth = *recording_.truth;
-    const std::span<double> true_ranges(truth.ranges.data() + k * n, n);
-    const std::span<std::int32_t> wall_ids(truth.wall_ids.data() + k * n, n);
-    scratch.cos_incidence.resize(n);
-    const HitBuffers buffers{true_ranges, wall_ids, scratch.cos_incidence};
-    const TimedPose& start = input_.trajectory.poses[k];
-    std::optional<TiltRotation> tilt;
-    if (!input_.tilt.level()) tilt.emplace(tilt_angles(input_.tilt, input_.seed, static_cast<std::uint32_t>(k)));
-    const bool imperfect_beams = tilt || sensor.noise.bearing_sigma_rad > 0 || sensor.noise.beam_divergence_rad > 0;
-    if (input_.sweep || imperfect_beams) aim(k, scratch);
-    if (input_.sweep)
-      caster_.cast_rays(scratch.rays, sensor.range_max_m, buffers);
-    else
-      caster_.cast_scans({&start.world_from_sensor, 1}, {&start.stamp_s, 1}, sensor.geometry, sensor.range_max_m,
-                         buffers);
-    std::vector<double>& ranges = recording_.observed.frames[k].ranges;
-    for (std::size_t i = 0; i < n; ++i) {
-      const BeamAddress address{input_.seed, static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(i)};
-      RayHit hit;
-      if (imperfect_beams) {
-        hit = real_beam({scratch.rays[i], sensor.geometry.direction(static_cast<int>(i))}, tilt, address);
-      } else {
-        hit.range_m = true_ranges[i];
-        hit.cos_incidence = scratch.cos_incidence[i];
-      }
-      ranges[i] = observed_range(sensor, hit.range_m, hit.cos_incidence, address);
-    }
-  }
+  const SimulationInput& input() const { return input_; }
+  const RayCaster& caster() const { return caster_; }
+  Recording& recording() const { return recording_; }
 
  private:
-  struct Beam {
-    Ray ray;         // of a level sensor
-    Vec2 in_sensor;  // direction in the sensor's frame
-
-    Beam aside(double angle_rad) const {
-      return {{ray.origin, rotated(ray.direction, angle_rad), ray.time_s}, rotated(in_sensor, angle_rad)};
-    }
-  };
-
-  // The nominal beams of a frame.
-  void aim(std::size_t k, Scratch& scratch) const {
-    const SensorModel& sensor = input_.sensor;
-    const TimedPose& start = input_.trajectory.poses[k];
-    scratch.rays.clear();
-    for (int i = 0; i < sensor.geometry.beams(); ++i) {
-      const double after_s = input_.sweep ? i * sensor.time_per_beam_s : 0.0;
-      const Pose2 pose = input_.sweep ? pose_during_scan(input_.trajectory, k, after_s) : start.world_from_sensor;
-      scratch.rays.push_back({pose.translation(), pose.rotate(sensor.geometry.direction(i)), start.stamp_s + after_s});
-    }
-  }
-
-  // What the light of a beam meets, the range being along it. The floor counts as one more surface.
-  RayHit meet(const Beam& beam, const std::optional<TiltRotation>& tilt) const {
-    const double range_max_m = input_.sensor.range_max_m;
-    if (!tilt) return caster_.cast(beam.ray, range_max_m);
-    const TiltedBeam tilted = tilt->beam(beam.in_sensor);
-    const Vec2& level = beam.ray.direction;
-    const Vec2 direction(tilted.turn.x() * level.x() - tilted.turn.y() * level.y(),
-                         tilted.turn.y() * level.x() + tilted.turn.x() * level.y());
-    RayHit hit = caster_.cast({beam.ray.origin, direction, beam.ray.time_s}, range_max_m * tilted.horizontal);
-    hit.range_m = tilted.range(hit.range_m);
-    hit.cos_incidence *= tilted.horizontal;
-    const double floor_m = tilted.range_to_floor(input_.tilt.height_m);
-    if (floor_m < hit.range_m && floor_m <= range_max_m)
-      hit = {.range_m = floor_m, .wall = -1, .surface = floor_surface_, .cos_incidence = -tilted.up};
-    return hit;
-  }
-
-  // What a beam meets that points a little beside its nominal direction and is a little wide.
-  RayHit real_beam(const Beam& nominal, const std::optional<TiltRotation>& tilt, const BeamAddress& address) const {
-    const SensorModel& sensor = input_.sensor;
-    const Beam beam = nominal.aside(bearing_error(sensor.noise, address));
-    RayHit hit = meet(beam, tilt);
-    const double half_width = 0.5 * sensor.noise.beam_divergence_rad;
-    if (!(half_width > 0)) return hit;
-    const RayHit left = meet(beam.aside(half_width), tilt);
-    const RayHit right = meet(beam.aside(-half_width), tilt);
-    // A depth edge: two surfaces, farther apart in range than the beam is wide. Less is a corner seen at a slant.
-    const double width = sensor.noise.beam_divergence_rad * std::min(left.range_m, right.range_m);
-    if (hit.surface >= 0 && left.surface >= 0 && right.surface >= 0 && left.surface != right.surface &&
-        std::fabs(left.range_m - right.range_m) > width)
-      hit.range_m = mixed_range(left.range_m, right.range_m, address);
-    return hit;
-  }
-
   const SimulationInput& input_;
   RayCaster caster_;
-  const std::int32_t floor_surface_;  // after all surfaces of the world
   Recording& recording_;
 };
 
-// Runs work(first, last) over [0, count) in chunks on `threads` threads, this one included; all are joined before it
-// returns or throws. The first exception ends the rest.
-template <class Work>
-void in_chunks(std::size_t count, int threads, const std::function<void(double)>& progress, const Work& work) {
+// The frames that one thread simulates, and its scratch memory.
+class Worker {
+ public:
+  explicit Worker(const Simulation& simulation)
+      : input_(simulation.input()),
+        caster_(simulation.caster()),
+        recording_(simulation.recording()),
+        noise_(input_.sensor, input_.seed),
+        real_beams_(caster_, input_.sensor, input_.tilt, input_.seed,
+                    static_cast<std::int32_t>(surfaces(input_.world))),
+        real_(RealBeams::needed(input_.sensor.noise, input_.tilt)),
+        incidence_(ScanNoise::needs_incidence(input_.sensor.noise)) {}
+
+  void frames(std::size_t first, std::size_t last) {
+    cast_nominal(first, last);
+    for (std::size_t k = first; k < last; ++k) observe(k, first);
+  }
+
+ private:
+  std::size_t beams() const { return static_cast<std::size_t>(input_.sensor.geometry.beams()); }
+  const TimedPose& start(std::size_t k) const { return input_.trajectory.poses[k]; }
+
+  // The truth: ranges and walls of the nominal beams.
+  void cast_nominal(std::size_t first, std::size_t last) {
+    const std::size_t n = beams();
+    Truth& truth = *recording_.truth;
+    const std::size_t count = (last - first) * n;
+    cos_incidence_.resize(incidence_ ? count : 0);
+    const HitBuffers out{.ranges = std::span(truth.ranges).subspan(first * n, count),
+                         .wall_ids = std::span(truth.wall_ids).subspan(first * n, count),
+                         .cos_incidence = cos_incidence_};
+    if (input_.sweep) {
+      rays_.clear();
+      for (std::size_t k = first; k < last; ++k) aim(k);
+      caster_.cast_rays(rays_, input_.sensor.range_max_m, out);
+      return;
+    }
+    stamps_.clear();
+    for (std::size_t k = first; k < last; ++k) stamps_.push_back(start(k).stamp_s);
+    caster_.cast_scans(std::span(truth.world_from_sensor).subspan(first, last - first), stamps_, input_.sensor.geometry,
+                       input_.sensor.range_max_m, out);
+  }
+
+  // Appends the nominal beams of a frame.
+  void aim(std::size_t k) {
+    const SensorModel& sensor = input_.sensor;
+    for (int i = 0; i < sensor.geometry.beams(); ++i) {
+      const double after_s = input_.sweep ? i * sensor.time_per_beam_s : 0.0;
+      const Pose2 pose = input_.sweep ? pose_during_scan(input_.trajectory, k, after_s) : start(k).world_from_sensor;
+      rays_.push_back({pose.translation(), pose.rotate(sensor.geometry.direction(i)), start(k).stamp_s + after_s});
+    }
+  }
+
+  void observe(std::size_t k, std::size_t first) {
+    const std::size_t n = beams();
+    const auto frame = static_cast<std::uint32_t>(k);
+    const std::span<double> readings(recording_.observed.frames[k].ranges);
+    if (!real_) {
+      const std::span<const double> incidence(cos_incidence_);
+      noise_.observe(frame, std::span(recording_.truth->ranges).subspan(k * n, n),
+                     incidence_ ? incidence.subspan((k - first) * n, n) : incidence, readings);
+      return;
+    }
+    if (!input_.sweep) {
+      rays_.clear();
+      aim(k);
+    }
+    const std::size_t at = input_.sweep ? (k - first) * n : 0;
+    real_ranges_.resize(n);
+    real_cos_.resize(n);
+    real_beams_.meet({frame, start(k), input_.sweep, std::span<const Ray>(rays_).subspan(at, n)},
+                     noise_.bearing_errors(frame, n), real_ranges_, real_cos_);
+    noise_.observe(frame, real_ranges_, real_cos_, readings);
+  }
+
+  const SimulationInput& input_;
+  const RayCaster& caster_;
+  Recording& recording_;
+  ScanNoise noise_;
+  RealBeams real_beams_;
+  bool real_;
+  bool incidence_;
+  std::vector<double> stamps_, cos_incidence_, real_ranges_, real_cos_;
+  std::vector<Ray> rays_;
+};
+
+// Runs make_worker()'s frames(first, last) over [0, count) in chunks on `threads` threads, this one included, with a
+// worker each; all are joined before it returns or throws. The first exception ends the rest.
+template <class MakeWorker>
+void in_chunks(std::size_t count, int threads, const std::function<void(double)>& progress,
+               const MakeWorker& make_worker) {
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   std::size_t done = 0;
   std::exception_ptr failure;
   const auto worker = [&] {
     try {
-      Scratch scratch;
+      auto frames = make_worker();
       for (;;) {
         const std::size_t first = next.fetch_add(kFramesPerChunk);
         if (first >= count) return;
         const std::size_t last = std::min(first + kFramesPerChunk, count);
-        work(first, last, scratch);
+        frames.frames(first, last);
         const std::lock_guard lock(mutex);
         done += last - first;
         if (progress && !failure) progress(static_cast<double>(done) / static_cast<double>(count));
@@ -205,7 +198,7 @@ std::uint64_t memory_estimate(const SimulationInput& input) {
   const auto beams = static_cast<std::uint64_t>(input.sensor.geometry.beams());
   const std::uint64_t per_beam = 2 * sizeof(double) + sizeof(std::int32_t);
   const std::uint64_t per_frame = sizeof(Frame) + 2 * sizeof(Pose2) + 32;
-  const std::uint64_t scratch = beams * (sizeof(Ray) + sizeof(double));
+  const std::uint64_t scratch = kFramesPerChunk * beams * (sizeof(Ray) + 8 * sizeof(double));
   return frames * (beams * per_beam + per_frame) + kBytesPerWorld +
          surfaces(input.world) * (sizeof(Wall) + kBytesPerSurface) + scratch;
 }
@@ -218,10 +211,7 @@ Recording simulate(const SimulationInput& input, int threads, const std::functio
   check_clear(input.world, input.trajectory, input.sensor.range_max_m);
   Recording recording = prepare(input);
   const Simulation simulation(input, recording);
-  in_chunks(input.trajectory.poses.size(), threads, progress,
-            [&](std::size_t first, std::size_t last, Scratch& scratch) {
-              for (std::size_t k = first; k < last; ++k) simulation.frame(k, scratch);
-            });
+  in_chunks(input.trajectory.poses.size(), threads, progress, [&] { return Worker(simulation); });
   return recording;
 }
 

@@ -8,6 +8,7 @@
 #include "core/recording.hpp"
 #include "core/sensor_model.hpp"
 #include "sim/odometry.hpp"
+#include "sim/ray_caster.hpp"
 #include "sim/tilt.hpp"
 #include "sim/trajectory.hpp"
 #include "sim/world.hpp"
@@ -22,6 +23,7 @@ struct SimulationInput {
   Tilt tilt;
   bool sweep = false;  ///< the scan is swept while the sensor moves: sensor.time_per_beam_s per beam
   std::uint64_t seed = 1;
+  CasterKind caster = CasterKind::exact;
 };
 
 /// Bytes that simulate() will hold at once, for the check against the memory limit before it starts.

@@ -17,6 +17,7 @@
 #include "core/recording.hpp"
 #include "harness/hash.hpp"
 #include "harness/scenario.hpp"
+#include "sim/ray_caster.hpp"
 #include "tests/support/places.hpp"
 
 namespace scanbench {
@@ -63,16 +64,30 @@ std::vector<fs::path> scenario_files() {
   return files;
 }
 
-TEST(Recordings, KeepTheBytesOfTheGoldenList) {
-  std::string list = "scenario,seed,ranges,true_ranges,wall_ids,poses\n";
+std::string list(sim::CasterKind caster) {
+  std::string rows = "scenario,seed,ranges,true_ranges,wall_ids,poses\n";
   for (const fs::path& file : scenario_files()) {
-    const harness::Scenario scenario = harness::load_scenario(file);
-    if (!std::holds_alternative<harness::SimulatedInput>(scenario.input)) continue;
-    for (const std::uint64_t seed : {1U, 2U, 3U}) list += row(scenario, seed);
+    harness::Scenario scenario = harness::load_scenario(file);
+    auto* input = std::get_if<harness::SimulatedInput>(&scenario.input);
+    if (input == nullptr) continue;
+    input->caster = caster;
+    for (const std::uint64_t seed : {1U, 2U, 3U}) rows += row(scenario, seed);
   }
+  return rows;
+}
+
+std::string golden_list() {
   std::ifstream file(places::source_dir() / "tests/golden/recordings.csv");
-  const std::string golden((std::istreambuf_iterator<char>(file)), {});
-  EXPECT_EQ(list, golden) << "the list as computed now:\n" << list;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Recordings, KeepTheBytesOfTheGoldenList) {
+  const std::string now = list(sim::CasterKind::exact);
+  EXPECT_EQ(now, golden_list()) << "the list as computed now:\n" << now;
+}
+
+TEST(Recordings, AreTheSameBytesWithTheReferenceCaster) {
+  EXPECT_EQ(list(sim::CasterKind::box2d), golden_list());
 }
 
 }  // namespace

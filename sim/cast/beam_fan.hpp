@@ -1,0 +1,60 @@
+// Beams of one scan as the kernels of sim/lanes/ see them: plain numbers and pointers.
+#pragma once
+
+#include <cstdint>
+
+namespace scanbench::sim {
+
+/// Beams from one origin, sorted by angle: beam i points within `slack_rad` of start_rad + i * step_rad, world frame.
+/// Arrays have `padded` places, a multiple of 4; those behind the last beam hold copies of it.
+struct BeamFan {
+  double origin_x;
+  double origin_y;
+  const double* dx;  ///< unit directions, world frame
+  const double* dy;
+  int beams;
+  int padded;
+  double start_rad;  ///< in [-pi, pi]
+  double step_rad;   ///< not 0; |step| * (beams - 1) < 2 pi
+  double slack_rad;
+};
+
+/// The nearest surface of each beam so far. Before the first, -1 at unhit_range().
+struct BeamHits {
+  double* range;
+  double* surface;  ///< index of the surface; -1: none
+};
+
+/// A range that is beyond `range_max_m`, by so much that a surface farther away cannot win over one within it, nor a
+/// tie of the two go unnoticed.
+[[gnu::always_inline]] inline double unhit_range(double range_max_m) {
+  return range_max_m * (1 + 1e-12) + 2e-9;
+}
+
+/// Places of consecutive beams, both included; empty if last < first.
+struct BeamRun {
+  int first;
+  int last;
+};
+
+/// Beams whose numbers lie within [from, from + width], modulo a full turn of `period` beams: up to two runs. `from`
+/// within one period of 0.
+struct BeamRuns {
+  BeamRun runs[2];
+};
+
+[[gnu::always_inline]] inline BeamRuns beam_runs(double from, double width, double period, int beams) {
+  const BeamRun none{0, -1};
+  if (!(width < period)) return {{{0, beams - 1}, none}};
+  if (from < 0) from += period;
+  if (from < 0) from += period;
+  const double to = from + width;
+  int first = static_cast<int>(from);
+  first += first < from ? 1 : 0;
+  const int last = to < beams - 1 ? static_cast<int>(to) : beams - 1;
+  if (to < period) return {{{first, last}, none}};
+  const double behind = to - period;
+  return {{{first, last}, {0, behind < beams - 1 ? static_cast<int>(behind) : beams - 1}}};
+}
+
+}  // namespace scanbench::sim

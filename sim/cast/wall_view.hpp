@@ -1,0 +1,33 @@
+// Walls in a tree of boxes as the kernels of sim/lanes/ read them: plain numbers and pointers.
+#pragma once
+
+#include <cstdint>
+
+namespace scanbench::sim {
+
+/// Boxes of four children, relative to the world's coordinates. Each is larger than its walls by kBoxMarginM on all
+/// sides, more than rounding moves anything in a world that validate() accepts.
+struct alignas(32) TreeNode {
+  static constexpr int kChildren = 4;
+  double low_x[kChildren];
+  double low_y[kChildren];
+  double high_x[kChildren];
+  double high_y[kChildren];
+  std::int32_t child[kChildren];  ///< >= 0: a node; < 0: walls from place ~child on; kNone: there is no such child
+  std::int32_t count[kChildren];  ///< walls of a leaf
+
+  static constexpr std::int32_t kNone = 0x7fffffff;
+};
+
+/// The arrays of a WallTree.
+struct WallView {
+  const double* ax;  ///< ends of the walls in the tree's order
+  const double* ay;
+  const double* bx;
+  const double* by;
+  const double* id;  ///< index of the wall in the world; a double so that lanes can compare it
+  const TreeNode* nodes;
+  int walls;  ///< a multiple of 4: leaves are filled up by repeating a wall
+};
+
+}  // namespace scanbench::sim

@@ -1,0 +1,11 @@
+// Detection of the processor's instruction set.
+#include "sim/lanes/isa.hpp"
+
+namespace scanbench::sim {
+
+Isa best_isa() {
+  static const Isa best = __builtin_cpu_supports("avx2") ? Isa::v3 : Isa::baseline;
+  return best;
+}
+
+}  // namespace scanbench::sim

@@ -1,0 +1,14 @@
+// Which build of the kernels in sim/lanes/ this processor can run.
+#pragma once
+
+namespace scanbench::sim {
+
+enum class Isa {
+  baseline,  ///< any x86-64
+  v3,        ///< AVX2, as in x86-64-v3
+};
+
+/// The best that the processor has. Both give equal bytes.
+Isa best_isa();
+
+}  // namespace scanbench::sim
