@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "harness/cell_files.hpp"
 #include "harness/scenario_modules.hpp"
 #include "harness/suite.hpp"
 #include "harness/text_file.hpp"
@@ -89,6 +90,18 @@ TEST(Scenario, ReadsTiltInDegreesAndPassesItOn) {
   EXPECT_EQ(tilt.height_m, 1.2);
   EXPECT_THAT(effective_yaml(s), HasSubstr("roll_sigma_deg: 2"));
   EXPECT_EQ(parse_scenario(kSmall, "x.yaml", {"trajectory.tilt={}"}).seeds, s.seeds);
+}
+
+TEST(Scenario, TheCasterIsExactUnlessTheReferenceIsRequested) {
+  const Scenario s = parse_scenario(kSmall, "x.yaml");
+  EXPECT_EQ(simulation_input(s, 1).caster, sim::CasterKind::exact);
+  EXPECT_THAT(effective_yaml(s), testing::Not(HasSubstr("caster")));
+  const Scenario reference = parse_scenario(kSmall, "x.yaml", {"caster=box2d"});
+  EXPECT_EQ(simulation_input(reference, 1).caster, sim::CasterKind::box2d);
+  EXPECT_EQ(simulation_input(parse_scenario(effective_yaml(reference), "x.yaml"), 1).caster, sim::CasterKind::box2d);
+  EXPECT_EQ(input_address(reference), input_address(s));
+  EXPECT_THAT(config_refusal([] { parse_scenario(kSmall, "x.yaml", {"caster=fast"}); }),
+              HasSubstr("caster is 'fast'; allowed: exact, box2d"));
 }
 
 TEST(Scenario, OneSeedIsTheDefault) {
