@@ -15,6 +15,7 @@
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
+#include "harness/store/run_files.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_target.hpp"
 
@@ -32,7 +33,7 @@ struct Options {
 
 /// A recording alone would replace the results of a run that share its default folder.
 void refuse_to_replace_cells(const fs::path& out) {
-  if (!fs::exists(out / "manifest.json")) return;
+  if (!fs::exists(out / harness::kManifestFile)) return;
   const std::size_t cells = harness::load_manifest(out).cells.size();
   if (cells > 0)
     throw ConfigError(
@@ -50,16 +51,11 @@ int simulate(const Options& options, const std::vector<std::string>& argv) {
   const InterruptGuard guard;
   Progress progress(progress_style(options.quiet));
   harness::RunTarget target(out, false);
-  harness::Manifest manifest{"running", harness::utc_now(), "", argv, {}, {}};
   std::vector<std::string> printed;
   try {
-    harness::make_folders(target.path());
-    harness::write_manifest(target.path(), manifest);
-    for (const auto& scenario : scenarios) {
-      manifest.scenarios.push_back(scenario.name);
-      harness::write_file_atomically(
-          target.path() / (scenarios.size() == 1 ? "effective.yaml" : "effective/" + scenario.name + ".yaml"),
-          harness::effective_yaml(scenario));
+    harness::Manifest manifest =
+        harness::start_run(target, {scenarios, {}, argv, std::nullopt, harness::effective_yaml});
+    for (const auto& scenario : scenarios)
       for (const auto seed : scenario.seeds) {
         const std::string what = fmt::format("recording {}/{}", scenario.name, seed);
         const Recording recording =
@@ -69,15 +65,11 @@ int simulate(const Options& options, const std::vector<std::string>& argv) {
         printed.push_back(fmt::format("{}  {} scans x {} beams  {}", what, recording.observed.frames.size(),
                                       recording.observed.sensor.geometry.beams(), hash));
       }
-    }
-    manifest.state = "complete";
-    manifest.end = harness::utc_now();
-    harness::write_manifest(target.path(), manifest);
+    harness::end_run(target, manifest, "complete");
   } catch (...) {
     target.abandon();
     throw;
   }
-  target.finish();
   progress.finish();
   if (!options.quiet)
     for (const auto& line : printed) fmt::print("{}\n", line);

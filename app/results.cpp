@@ -39,7 +39,8 @@ int score(const fs::path& run, const std::vector<std::string>& files, bool quiet
       run, scenarios, [&](double share, const std::string& what) { progress.update(share, "score " + what); });
   progress.finish();
   harness::write_reports(run, harness::load_report_input(run, scenarios));
-  if (!quiet) fmt::print("{} cell{} scored: {}\n", cells, cells == 1 ? "" : "s", (run / "summary.csv").string());
+  if (!quiet)
+    fmt::print("{} cell{} scored: {}\n", cells, cells == 1 ? "" : "s", (run / harness::kSummaryFile).string());
   const auto planned = harness::load_manifest(run).cells;
   const auto missing = std::ranges::count_if(
       planned, [&](const auto& key) { return !fs::exists(harness::cell_path(run, key) / "status.json"); });
@@ -73,7 +74,7 @@ int report(const fs::path& run) {
   const harness::RunLock lock(run);
   harness::refuse_linked_folders(run);
   harness::write_reports(run, harness::load_report_input(run, scenarios));
-  fmt::print("{}\n{}\n", (run / "report.html").string(), (run / "report.md").string());
+  fmt::print("{}\n{}\n", (run / harness::kReportPage).string(), (run / harness::kReportMarkdown).string());
   return kGood;
 }
 

@@ -135,7 +135,7 @@ int run(const Options& options, const std::vector<std::string>& argv) {
     print_json(result);
   } else if (!options.quiet && report) {
     print_tables(*report);
-    fmt::print("{}\n", (result.out / "report.html").string());
+    fmt::print("{}\n", (result.out / harness::kReportPage).string());
   }
   return result.exit_code();
 }

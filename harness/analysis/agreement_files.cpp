@@ -9,6 +9,10 @@
 namespace scanbench::harness {
 namespace {
 
+const RunFile kCellsFile("published/cells.csv");
+const RunFile kOrderingsFile("published/orderings.csv");
+const RunFile kAgreementFile("published/agreement.csv");
+
 using Scenarios = std::vector<std::pair<std::string, std::vector<ComparedColumn>>>;
 
 std::string cells_csv(const Scenarios& scenarios) {
@@ -83,9 +87,9 @@ std::string agreement_csv(const Scenarios& scenarios) {
 }  // namespace
 
 std::vector<NamedBytes> agreement_files(const Scenarios& scenarios) {
-  return {{"cells.csv", cells_csv(scenarios)},
-          {"orderings.csv", orderings_csv(scenarios)},
-          {"agreement.csv", agreement_csv(scenarios)}};
+  return {{kCellsFile.name(), cells_csv(scenarios)},
+          {kOrderingsFile.name(), orderings_csv(scenarios)},
+          {kAgreementFile.name(), agreement_csv(scenarios)}};
 }
 
 }  // namespace scanbench::harness

@@ -5,16 +5,16 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/median.hpp"
 #include "core/rng.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench::harness {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTail = 0.025;
 constexpr int kResamples = 2000;
 
@@ -124,11 +124,7 @@ std::vector<double> holm_adjusted(std::span<const double> p_values) {
 }
 
 double median(std::span<const double> all) {
-  std::vector<double> values = finite(all);
-  if (values.empty()) return kNaN;
-  std::ranges::sort(values);
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+  return scanbench::median(finite(all));
 }
 
 MedianInterval median_interval(std::span<const double> all) {

@@ -123,7 +123,7 @@ class Drawer {
       : run_(run),
         scenarios_(scenarios),
         pdf_(pdf),
-        rows_(load_summary(run / "summary.csv")),
+        rows_(load_summary(run / kSummaryFile)),
         seeds_(seeds_of(rows_)),
         example_(example_of(scenarios, spec)) {
     for (const auto& ranked : rank_pipelines(scenarios, rows_, spec)) names_.push_back(ranked.name);

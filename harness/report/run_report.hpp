@@ -8,8 +8,12 @@
 
 #include "harness/report/page_input.hpp"
 #include "harness/report/table.hpp"
+#include "harness/store/run_file.hpp"
 
 namespace scanbench::harness {
+
+inline const RunFile kReportPage("report.html");
+inline const RunFile kReportMarkdown("report.md");
 
 /// All that the reports show, read from the run folder. Throws ConfigError.
 ReportInput load_report_input(const std::filesystem::path& run, const std::vector<Scenario>& scenarios);

@@ -100,18 +100,10 @@ class Run {
   }
 
   void write_start() {
-    const fs::path& run = target_->path();
-    manifest_.state = "running";
-    manifest_.start = utc_now();
-    manifest_.argv = options_.argv;
-    for (const auto& scenario : scenarios_) manifest_.scenarios.push_back(scenario.name);
-    for (const auto& cell : cells_) manifest_.cells.push_back(cell.result.key);
-    write_manifest(run, manifest_);  // first of all files: with it the folder is ours
-    if (options_.benchmark)
-      write_file_atomically(run / "benchmark.json", benchmark_json(*options_.benchmark));
-    else
-      remove_file(run / "benchmark.json");  // of an earlier run
-    write_run_scenarios(run, scenarios_, services_.effective_yaml);
+    std::vector<CellKey> keys;
+    for (const auto& cell : cells_) keys.push_back(cell.result.key);
+    manifest_ =
+        start_run(*target_, {scenarios_, std::move(keys), options_.argv, options_.benchmark, services_.effective_yaml});
   }
 
   /// Cells of an earlier run that are ok and have the same address are kept; the others of the selection wait to be
@@ -270,7 +262,7 @@ class Run {
       if (outcome.status != CellStatus::ok) cell.staged->clear();
       if (outcome.status == CellStatus::ok)
         cell.summary = summary_lines(cell.result.key, load_metrics(cell.staged->path()));
-      write_staged_file(cell.staged->path() / "status.json", status_json(cell.result.record));
+      write_staged_file(cell.staged->path() / kStatusFile, status_json(cell.result.record));
       cell.staged->commit();
       cell.result.done = true;
     } catch (const ConfigError& e) {
@@ -326,7 +318,7 @@ class Run {
   void write_summary() {
     std::string text = summary_header();
     for (const auto& cell : cells_) text += cell.summary;
-    write_file_atomically(target_->path() / "summary.csv", text);
+    write_file_atomically(target_->path() / kSummaryFile, text);
   }
 
   void refuse_if_all_input_is_bad(bool interrupted) {
@@ -352,10 +344,7 @@ class Run {
       return result;
     }
     write_summary();
-    manifest_.state = interrupted ? "interrupted" : missing ? "incomplete" : "complete";
-    manifest_.end = utc_now();
-    write_manifest(target_->path(), manifest_);
-    target_->finish();
+    end_run(*target_, manifest_, interrupted ? "interrupted" : missing ? "incomplete" : "complete");
     return result;
   }
 

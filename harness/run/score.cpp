@@ -60,15 +60,6 @@ class ScenarioAddresses {
   std::map<std::string, std::string> inputs_;  // a log's is the hash of the whole file
 };
 
-/// Files that a score of any families may have left in a cell, beside metrics.csv.
-std::set<std::string> table_files() {
-  std::set<std::string> files;
-  for (const auto& family : Registry<metrics::MetricFamily>::names())
-    for (const auto& table : Registry<metrics::MetricFamily>::make(family, {})->table_names())
-      files.insert(table + ".csv");
-  return files;
-}
-
 }  // namespace
 
 std::vector<metrics::MetricRow> evaluate_metrics(const std::vector<ModuleChoice>& families, const Recording& recording,
@@ -110,7 +101,7 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
   const Manifest manifest = load_manifest(run);
   std::string summary = summary_header();
   std::size_t scored = 0;
-  const std::set<std::string> known_tables = table_files();
+  const std::set<std::string> known_tables = metric_table_files();
   std::vector<std::pair<fs::path, std::string>> files;  // written when all are known: whoever stops it changes nothing
   std::vector<fs::path> stale;                          // tables of an earlier score that this one does not make
   ScenarioAddresses addresses;
@@ -119,7 +110,7 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
     const CellKey& key = manifest.cells[i];
     if (progress) progress(static_cast<double>(i) / static_cast<double>(manifest.cells.size()), to_string(key));
     const fs::path cell = cell_path(run, key);
-    if (!fs::exists(cell / "status.json") || load_status(cell).outcome.status != CellStatus::ok) continue;
+    if (!fs::exists(cell / kStatusFile) || load_status(cell).outcome.status != CellStatus::ok) continue;
     const auto scenario = std::ranges::find(scenarios, key.scenario, &Scenario::name);
     if (scenario == scenarios.end())
       throw ConfigError(run.string() + ": the scenario '" + key.scenario + "' of a cell is not at hand");
@@ -129,10 +120,10 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
       recordings.emplace(source, load_recording(recording_path(run, key.scenario, key.seed)));
     }
     const Scores scores = score_cell(scenario->metrics, recordings.at(source), cell);
-    files.emplace_back(cell / "metrics.csv", metrics_csv(scores.rows));
+    files.emplace_back(cell / kMetricsFile, metrics_csv(scores.rows));
     if (CellRecord record = load_status(cell); !addresses.is_of(*scenario, key, record.address)) {
       record.address.clear();  // no run makes what is scored with other metrics: --resume makes the cell anew
-      files.emplace_back(cell / "status.json", status_json(record));
+      files.emplace_back(cell / kStatusFile, status_json(record));
     }
     std::set<std::string> others = known_tables;
     for (const auto& table : scores.tables) {
@@ -145,7 +136,7 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
   }
   for (const auto& path : stale) remove_file(path);
   for (const auto& [path, text] : files) write_file_atomically(path, text);
-  write_file_atomically(run / "summary.csv", summary);
+  write_file_atomically(run / kSummaryFile, summary);
   refresh_manifest(run);
   return scored;
 }

@@ -194,10 +194,9 @@ class ScenarioReader {
       refuse_many_seeds("a file of lines");
       if (const YamlNode* world = map_.find("world")) input.world = read_world_section(*world).world;
     } else {
-      const auto params = make_params<LineCopiesParams>(map.params(param_specs<LineCopiesParams>()));
+      input.params = map.params(param_specs<sim::LineCopies>());
       map.done();
-      input.params = to_param_set(params);
-      input.copies = params.copies_of();
+      input.copies = make_params<sim::LineCopies>(input.params);
       input.world = read_world_section(
                         map_.require("world", "{file: PATH}, or the keys of a world file: the walls that are copied"))
                         .world;

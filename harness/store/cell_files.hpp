@@ -8,9 +8,19 @@
 #include "core/result.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/store/cell_status.hpp"
+#include "harness/store/run_file.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::harness {
+
+inline const RunFile kLinesFile("cells/*/*/*/lines.csv");
+inline const RunFile kLabelsFile("cells/*/*/*/labels.npy");
+inline const RunFile kMapFile("cells/*/*/*/map.csv");
+inline const RunFile kPosesFile("cells/*/*/*/poses.csv");
+inline const RunFile kMergeFile("cells/*/*/*/merge_labels.csv");
+inline const RunFile kTimingFile("cells/*/*/*/timing.csv");
+inline const RunFile kStatusFile("cells/*/*/*/status.json");
+inline const RunFile kMetricsFile("cells/*/*/*/metrics.csv");
 
 /// status.json
 struct CellRecord {

@@ -44,7 +44,7 @@ Json artefacts(const fs::path& run) {
   std::set<std::string> paths;  // in a fixed order
   for (const auto& entry : fs::recursive_directory_iterator(run)) {
     const fs::path relative = entry.path().lexically_relative(run);
-    if (entry.is_regular_file() && is_run_file(relative) && relative != "manifest.json")
+    if (entry.is_regular_file() && is_run_file(relative) && relative != kManifestFile.name())
       paths.insert(relative.generic_string());
   }
   Json list = Json::array();
@@ -53,7 +53,7 @@ Json artefacts(const fs::path& run) {
 }
 
 Json load_json(const fs::path& run) {
-  const fs::path file = run / "manifest.json";
+  const fs::path file = run / kManifestFile;
   std::error_code absent;
   if (!fs::exists(file, absent)) throw ConfigError(run.string() + ": not the folder of a run: it has no manifest.json");
   Json json = load_json_object(file);
@@ -65,7 +65,7 @@ Json load_json(const fs::path& run) {
 }
 
 void write_json(const fs::path& run, const Json& json) {
-  write_file_atomically(run / "manifest.json", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(run / kManifestFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ Manifest load_manifest(const fs::path& run) {
     }
     return manifest;
   } catch (const Json::exception& e) {
-    refuse_json(run / "manifest.json", e);
+    refuse_json(run / kManifestFile, e);
   }
 }
 
@@ -130,7 +130,7 @@ std::map<std::string, std::string> listed_hashes(const fs::path& run) {
     for (const auto& file : json.at("artefacts")) hashes.emplace(file.at("path"), file.at("sha256"));
     return hashes;
   } catch (const Json::exception& e) {
-    refuse_json(run / "manifest.json", e);
+    refuse_json(run / kManifestFile, e);
   }
 }
 
@@ -167,7 +167,7 @@ std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& 
           {"processor", text("cpu")},
           {"files", "effective.yaml holds every parameter; manifest.json the SHA-256 of every file"}};
 } catch (const Json::exception& e) {
-  refuse_json(run / "manifest.json", e);
+  refuse_json(run / kManifestFile, e);
 }
 
 }  // namespace scanbench::harness

@@ -7,9 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "harness/store/run_file.hpp"
 #include "harness/store/run_folder.hpp"
 
 namespace scanbench::harness {
+
+inline const RunFile kManifestFile("manifest.json");
 
 /// manifest.json, less what is the same for every run of this program (version, commit, compiler, libraries, CPU).
 struct Manifest {

@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "core/recording.hpp"
+#include "harness/store/run_file.hpp"
 
 namespace scanbench::harness {
+
+inline const RunFile kScanFile("recordings/*/*/scan.json");
 
 /// The files of a recording: name and bytes, in the order in which they enter the content hash. Walls, true ranges and
 /// wall ids are absent without truth, lines.csv unless lines are given in place of scans. `rotations.npy` (frames x 4:

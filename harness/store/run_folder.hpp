@@ -25,7 +25,4 @@ void check_name(const std::string& what, const std::string& name);
 /// Throws ConfigError if a folder that a run writes into is a symbolic link: its files would be written elsewhere.
 void refuse_linked_folders(const std::filesystem::path& run);
 
-/// True for the paths, relative to the run folder, that a run, its figures and its reports write.
-bool is_run_file(const std::filesystem::path& relative);
-
 }  // namespace scanbench::harness

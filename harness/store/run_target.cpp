@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "harness/files/system_error.hpp"
 #include "harness/store/manifest.hpp"
+#include "harness/store/run_file.hpp"
 #include "harness/store/run_folder.hpp"
 
 namespace scanbench::harness {
@@ -30,7 +31,7 @@ void remove_stale_siblings(const fs::path& out) {
   for (const auto& entry : fs::directory_iterator(out.parent_path(), ignored)) {
     const fs::path& path = entry.path();
     if (!path.filename().string().starts_with(prefix) || !fs::is_directory(entry.symlink_status(ignored))) continue;
-    if (fs::exists(path / "manifest.json", ignored) || holds_only_temporaries(path)) stale.push_back(path);
+    if (fs::exists(path / kManifestFile, ignored) || holds_only_temporaries(path)) stale.push_back(path);
   }
   for (const auto& path : stale) fs::remove_all(path, ignored);
 }
@@ -56,7 +57,7 @@ void carry_along(const fs::path& from, const fs::path& to) try {
       continue;
     }
     if (it->is_directory() && !it->is_symlink()) {
-      if (fs::is_empty(it->path()) && !is_run_file(relative / "x.png")) make_folders(to / relative);
+      if (fs::is_empty(it->path()) && !is_run_folder(relative)) make_folders(to / relative);
       continue;
     }
     if (is_run_file(relative) || fs::exists(fs::symlink_status(to / relative))) continue;
@@ -83,7 +84,7 @@ RunTarget::RunTarget(fs::path out, bool resume) : out_(fs::absolute(out).lexical
   if (fs::exists(out_, error) && !fs::is_directory(out_, error))
     throw ConfigError(out_.string() + " is a file; the folder of a run must be a folder of its own");
   const bool empty = !fs::is_directory(out_, error) || holds_only_temporaries(out_);
-  if (!empty && !fs::exists(out_ / "manifest.json"))
+  if (!empty && !fs::exists(out_ / kManifestFile))
     throw ConfigError(out_.string() +
                       " is not empty and has no manifest.json, so it is no run of ours and is left alone");
   if (!empty) load_manifest(out_);  // refuses a manifest.json that is not ours

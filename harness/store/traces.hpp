@@ -10,8 +10,11 @@
 #include "core/trace/trace.hpp"
 #include "core/trace/trace_rows.hpp"
 #include "harness/scenario/trace_choice.hpp"
+#include "harness/store/run_file.hpp"
 
 namespace scanbench::harness {
+
+inline const RunFile kTraceFile("cells/*/*/*/trace.csv");
 
 /// Rows as trace.csv: slot,frame,stage,name,values; `values` are numbers separated by blanks.
 class Journal {

@@ -9,6 +9,7 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/files/npy.hpp"
+#include "harness/store/run_file.hpp"
 #include "harness/store/run_folder.hpp"
 #include "sim/line_copies.hpp"
 #include "tests/support/runs.hpp"
