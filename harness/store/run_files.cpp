@@ -1,4 +1,4 @@
-// scenario.yaml and effective.yaml of a run, or a folder of each.
+// Writes and loads the scenario files of a run: scenario.yaml and effective.yaml, or a folder of each.
 #include "harness/store/run_files.hpp"
 
 #include "harness/files/atomic_file.hpp"

@@ -1,4 +1,4 @@
-// The scenarios that a run folder holds.
+// Scenario files in a run folder.
 #pragma once
 
 #include <filesystem>
