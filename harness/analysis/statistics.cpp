@@ -1,4 +1,4 @@
-// Student's t and BCa bootstrap intervals of a mean.
+// Computes intervals of means and medians, tests of paired differences, and correlations.
 #include "harness/analysis/statistics.hpp"
 
 #include <algorithm>
@@ -131,7 +131,8 @@ MedianInterval median_interval(std::span<const double> all) {
   std::vector<double> values = finite(all);
   std::ranges::sort(values);
   const std::size_t n = values.size();
-  // The number of values below the median is binomial(n, 1/2): ranks k and n + 1 - k miss it with 2 P(X < k).
+  // The number of values below the median is binomial(n, 1/2): the values of rank k and n + 1 - k do not enclose it
+  // with probability 2 P(X < k).
   std::size_t k = 0;
   double term = std::pow(0.5, static_cast<double>(n));
   for (double below = term; below <= kTail && k < n / 2; below += term) {

@@ -1,4 +1,4 @@
-// Recording and results from files, through the registered figures, to files.
+// Draws the registered figures from the files of a run, and writes them.
 #include "harness/report/figures.hpp"
 
 #include <cmath>
@@ -45,7 +45,7 @@ std::vector<LoadedResult> finished_results(const fs::path& run, const Scenario& 
   return results;
 }
 
-/// The values of metrics.csv of all finished cells, pipeline by pipeline.
+/// The values of metrics.csv of all finished cells, by pipeline.
 std::vector<render::MeasuredPipeline> measured_pipelines(const fs::path& run, const Scenario& scenario) {
   std::vector<render::MeasuredPipeline> all;
   for (const auto& pipeline : scenario.pipelines) {

@@ -1,4 +1,4 @@
-// Gathers what a report shows; writes figures and reports.
+// Collects the contents of reports, and writes figures and reports.
 #include "harness/report/run_report.hpp"
 
 #include <system_error>
@@ -34,7 +34,7 @@ namespace scanbench::harness {
 namespace fs = std::filesystem;
 namespace {
 
-// published/*.csv, if a scenario has values of a paper.
+// Writes published/*.csv if a scenario has values of a paper.
 void write_agreement(const fs::path& run, const ReportInput& input) {
   std::vector<std::pair<std::string, std::vector<ComparedColumn>>> compared;
   for (const auto& scenario : input.scenarios)
@@ -45,11 +45,11 @@ void write_agreement(const fs::path& run, const ReportInput& input) {
   for (const auto& file : agreement_files(compared)) write_file_atomically(run / "published" / file.name, file.bytes);
 }
 
-/// "SHA-256 ...; 180 beams from -90 deg in steps of 1 deg, the rule for logs without angles".
+/// "SHA-256 ...; 180 beams from -90 deg in steps of 1 deg, from first_angle_deg and step_deg".
 std::string source_of(const fs::path& run, const Scenario& scenario, const RecordedInput& recorded) {
   std::error_code absent;
   const bool readable = fs::is_regular_file(recorded.log, absent);
-  std::string text = readable ? "SHA-256 " + sha256_of_file(recorded.log) : "the log is no longer there";
+  std::string text = readable ? "SHA-256 " + sha256_of_file(recorded.log) : "the log no longer exists";
   if (scenario.seeds.empty()) return text;
   const fs::path file = recording_path(run, scenario.name, scenario.seeds.front()) / kScanFile;
   if (!fs::is_regular_file(file, absent)) return text;
@@ -61,8 +61,8 @@ std::string source_of(const fs::path& run, const Scenario& scenario, const Recor
     return text + fmt::format("; {} beams from {:.6g} deg in steps of {:.6g} deg, {}", json.at("beams").get<int>(),
                               degrees(json.at("angle_min_rad").get<double>()),
                               degrees(json.at("angle_step_rad").get<double>()),
-                              given ? "as first_angle_deg and step_deg say"
-                                    : "as the log states or by the rule of its format for this number of beams");
+                              given ? "from first_angle_deg and step_deg"
+                                    : "from the log or the rule of its format for this number of beams");
   } catch (const nlohmann::json::exception& error) {
     throw ConfigError(file.string() + ": " + error.what());
   }

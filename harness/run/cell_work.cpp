@@ -1,4 +1,4 @@
-// One pipeline on one recording, to files.
+// Runs and scores one pipeline on one recording, and writes the files of the cell.
 #include "harness/run/cell_work.hpp"
 
 #include "harness/files/atomic_file.hpp"

@@ -16,11 +16,11 @@ struct LimitParams {
   static auto fields() {
     return std::tuple{field("seconds", &LimitParams::seconds, above(0), "s", "wall time of a cell"),
                       field("memory_mib", &LimitParams::memory_mib, at_least(16), "MiB",
-                            "memory of a cell, and of a recording before it starts")};
+                            "memory of a cell; a recording that needs more is refused before it starts")};
   }
 };
 
-/// A format of recorded logs (key `recording`): its options and the rules behind them.
+/// A format of recorded logs (key `recording`): its options and the rules of its reader.
 struct RecordingFormat {
   ModuleInfo info;
   std::vector<ParamSpec> params;

@@ -1,4 +1,4 @@
-// PipelineResult <-> lines.csv, labels.npy, map.csv, poses.csv, merge_labels.csv, timing.csv; status.json; metrics.csv.
+// Writes and reads the files of a cell: results of a pipeline, status.json and metrics.csv.
 #include "harness/store/cell_files.hpp"
 
 #include <cmath>
@@ -81,7 +81,7 @@ void write_lines(const fs::path& cell, const std::vector<ScanLines>& scans) {
   write_staged_file(cell / kLabelsFile, npy_bytes(labels, scans.size(), beams));
 }
 
-/// Only the header states their number: no byte of the file belongs to them.
+/// Frames without beams occupy no bytes, so only this limit protects from a damaged header that states too many.
 constexpr std::size_t kMostFramesWithoutBeams = 1000000;
 
 std::vector<ScanLines> load_lines(const fs::path& cell) {
@@ -116,7 +116,7 @@ std::vector<ScanLines> load_lines(const fs::path& cell) {
       if (label < -1 || label >= static_cast<int>(scans[k].lines.size()))
         throw ConfigError((cell / kLabelsFile).string() + ": frame " + std::to_string(k) + " has the label " +
                           std::to_string(label) + ", but lines.csv has " + std::to_string(scans[k].lines.size()) +
-                          " lines of it");
+                          " lines of this frame");
   return scans;
 }
 
@@ -148,7 +148,7 @@ std::string status_json(const CellRecord& record) {
                   {"cpu_seconds", record.outcome.cpu_seconds},
                   {"peak_memory_bytes", record.outcome.peak_memory_bytes},
                   {"address", record.address}};
-  // What a module printed need not be UTF-8.
+  // Output of a module may not be valid UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,4 @@
-// The manifest as JSON, and what the build knows of itself.
+// Writes and reads manifest.json, and describes the build.
 #include "harness/store/manifest.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::string cpu_name() {
   return colon == std::string::npos ? "unknown" : info.substr(colon + 2, info.find('\n', colon) - colon - 2);
 }
 
-/// "name 1.2,other 3.4" as an object.
+/// Converts "name 1.2,other 3.4" to an object.
 Json libraries() {
   Json json = Json::object();
   std::string_view rest = version::kLibraries;
@@ -141,7 +141,7 @@ void refresh_manifest(const fs::path& run) {
 }
 
 std::string version_text() {
-  // Twelve digits of the commit, and what follows its 40: "-dirty-" with a hash of the code.
+  // Keeps twelve of the commit's 40 digits, and the suffix "-dirty-" with a hash of the code.
   std::string commit = version::kCommit;
   if (commit.size() >= 40 && !commit.starts_with("unknown")) commit.erase(12, 28);
   return std::string("scanbench ") + version::kVersion + " (" + commit + ", " + version::kCompiler + ", " +
@@ -154,7 +154,7 @@ std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& 
   for (const auto& word : json.value("argv", Json::array()))
     command += (command.empty() ? "" : " ") + word.get<std::string>();
   std::string used;
-  const Json libraries = json.value("libraries", Json::object());  // items() only refers to it
+  const Json libraries = json.value("libraries", Json::object());  // items() keeps a reference to it
   for (const auto& [name, number] : libraries.items())
     used += (used.empty() ? "" : ", ") + name + " " + number.get<std::string>();
   const auto text = [&](const char* key) { return json.value(key, std::string()); };

@@ -1,4 +1,4 @@
-// Recording <-> walls.csv, frames.csv, lines.csv, rotations.npy, ranges.npy, true_ranges.npy, wall_ids.npy, scan.json.
+// Writes and reads the files of a recording, and computes their content hash.
 #include "harness/store/recording_folder.hpp"
 
 #include <cmath>
@@ -31,7 +31,7 @@ const RunFile kWallIdsFile("recordings/*/*/wall_ids.npy");
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// The numbers of a sensor that scan.json holds, by key.
+/// Numbers of a sensor in scan.json, by key.
 struct SensorNumber {
   const char* key;
   double SensorModel::*member;
@@ -54,7 +54,7 @@ constexpr NoiseNumber kNoiseNumbers[] = {{"sigma_m", &SensorNoise::sigma_m},
                                          {"spurious_probability", &SensorNoise::spurious_probability},
                                          {"beam_divergence_rad", &SensorNoise::beam_divergence_rad}};
 
-/// JSON knows no infinities: they are text.
+/// JSON has no infinities, so they are written as text.
 Json json_number(double value) {
   return std::isfinite(value) ? Json(value) : Json(number_text(value));
 }
@@ -191,7 +191,7 @@ SensorModel sensor_from(const Json& json, const fs::path& file) try {
     throw ConfigError(file.string() + ": beams is " + number_text(beams) + "; allowed: a whole number 0 .. 10000000");
   sensor.geometry = ScanGeometry(number_of(json, "angle_min_rad", file), number_of(json, "angle_step_rad", file),
                                  static_cast<int>(beams));
-  // Only the geometry and the range limits are demanded of a recording made elsewhere.
+  // A recording made by another program needs only the geometry and the range limits.
   for (const auto& [key, member] : kSensorNumbers)
     if (json.contains(key) || member == &SensorModel::range_min_m || member == &SensorModel::range_max_m)
       sensor.*member = number_of(json, key, file);
@@ -210,7 +210,7 @@ void check_shape(const NpyArray<T>& array, std::size_t rows, std::size_t columns
                       " values; expected frames x beams = " + std::to_string(rows) + " x " + std::to_string(columns));
 }
 
-/// The pose of a row of frames.csv; the exact rotation if there is one.
+/// Reads a pose from a row of frames.csv, with the exact rotation if there is one.
 Pose2 pose_from(const CsvTable& csv, std::size_t row, const std::string& prefix, const double* rotation) {
   const Vec2 t(csv.number(row, prefix + "_x_m"), csv.number(row, prefix + "_y_m"));
   const double yaw = csv.number(row, prefix + "_yaw_rad");

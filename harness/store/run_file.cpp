@@ -1,4 +1,4 @@
-// The list of the files of a run, filled by those who write them.
+// The files of a run, as their writers name them.
 #include "harness/store/run_file.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The files that a run leaves. The code that writes a file names it here, so that a new run knows which files of an old
-// folder it replaces and which belong to somebody else.
+// Names of the files of a run. Each writer declares its files, so that a new run knows which files of an old folder it
+// replaces. It keeps all others, because they belong to the user.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The beginning and the end of a run folder: its manifest, its scenarios, and the benchmark that it is, if it is one.
+// Begins and ends a run folder: its manifest, its scenarios and, if it is a benchmark, the specification of its page.
 #pragma once
 
 #include <filesystem>
@@ -17,9 +17,9 @@ namespace scanbench::harness {
 /// What a run folder says of its run before any cell is made.
 struct RunStart {
   const std::vector<Scenario>& scenarios;
-  std::vector<CellKey> cells;                     ///< that the run is to have, in the order of summary.csv; may be none
-  std::vector<std::string> argv;                  ///< the command line
-  const std::optional<BenchmarkSpec>& benchmark;  ///< that of an earlier run is removed if there is none
+  std::vector<CellKey> cells;     ///< of the run, in the order of summary.csv; empty for recordings alone
+  std::vector<std::string> argv;  ///< the command line
+  const std::optional<BenchmarkSpec>& benchmark;  ///< without one, benchmark.json of an earlier run is removed
   std::function<std::string(const Scenario&)> effective_yaml;
 };
 
@@ -33,7 +33,7 @@ void end_run(RunTarget& target, Manifest& manifest, const std::string& state);
 /// The scenarios of a run folder, from effective.yaml or effective/*.yaml, in the order of its manifest.
 std::vector<Scenario> load_run_scenarios(const std::filesystem::path& run);
 
-/// The benchmark that a run folder is; none if it is a plain run. Throws ConfigError.
+/// Reads benchmark.json; nothing if the run is a plain one. Throws ConfigError.
 std::optional<BenchmarkSpec> load_benchmark(const std::filesystem::path& run);
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// Paths, replacement and locking of run folders.
+// Builds paths in a run folder, and checks its names and links.
 #include "harness/store/run_folder.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Traces as CSV.
+// Writes and reads traces as CSV.
 #include "harness/store/traces.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Traces of modules as a file of the cell.
+// Traces of modules in the file trace.csv of a cell.
 #pragma once
 
 #include <filesystem>
@@ -16,11 +16,12 @@ namespace scanbench::harness {
 
 inline const RunFile kTraceFile("cells/*/*/*/trace.csv");
 
-/// Rows as trace.csv: slot,frame,stage,name,values; `values` are numbers separated by blanks.
+/// Collects the rows of trace.csv: slot,frame,stage,name,values; `values` are numbers separated by blanks.
 class Journal {
  public:
   explicit Journal(TraceChoice choice = {.all = true});
-  /// A trace of this slot and frame (-1: the whole recording). It records while the journal lives, until the next one.
+  /// A trace of this slot and frame (-1: the whole recording). It records until the next begin(), and only while the
+  /// journal exists.
   Trace begin(std::string_view slot, int frame);
   const std::string& csv() const { return text_; }
 

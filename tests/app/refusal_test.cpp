@@ -148,13 +148,14 @@ TEST(OutputFolder, ThatIsNotARunIsLeftAlone) {
   folder.write("file", "text");
   folder.write("other/manifest.json", "{\"program\": \"somebody else's\"}");
   fs::create_symlink("nowhere", folder / "dangling");
-  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "thesis"}), HasSubstr("no run of ours"));
-  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "thesis", "--resume"}), HasSubstr("no run of ours"));
-  EXPECT_THAT(refusal_in(folder, {"simulate", "room.yaml", "--out", "thesis"}), HasSubstr("no run of ours"));
+  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "thesis"}), HasSubstr("not the folder of a run"));
+  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "thesis", "--resume"}),
+              HasSubstr("not the folder of a run"));
+  EXPECT_THAT(refusal_in(folder, {"simulate", "room.yaml", "--out", "thesis"}), HasSubstr("not the folder of a run"));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "file"}), HasSubstr("is a file"));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "file/below"}), HasSubstr("file/below"));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "other"}), HasSubstr("manifest.json"));
-  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "dangling"}), HasSubstr("leads nowhere"));
+  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "dangling"}), HasSubstr("broken symbolic link"));
   EXPECT_FALSE(fs::exists(folder / "nowhere"));
 }
 

@@ -180,7 +180,7 @@ TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
     EXPECT_THAT(page, HasSubstr("3 extractors on 2 conditions"));
     EXPECT_THAT(page, HasSubstr("2 seeds make 4 recordings with 40 scans"));
     EXPECT_THAT(page, HasSubstr("noise of 2 cm"));
-    EXPECT_THAT(page, HasSubstr("All of them differ at the 5 % level but b and a"));
+    EXPECT_THAT(page, HasSubstr("All of them differ at the 5 % level, except b and a"));
     EXPECT_THAT(page, HasSubstr("threshold_m 0.25"));
     EXPECT_THAT(page, HasSubstr("What it does not show"));
     EXPECT_THAT(page, HasSubstr("1 of 2 cells ok"));
