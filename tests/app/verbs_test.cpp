@@ -105,7 +105,7 @@ TEST_F(Verbs, CompareIsGoodWithItselfAndFailsWithAWorseOne) {
   const auto same = here({"compare", "run", "run"});
   EXPECT_EQ(same.code, 0);
   EXPECT_THAT(same.out, AllOf(HasSubstr(" same"), Not(HasSubstr("worse"))));
-  // Two metres of threshold round every corner off: walls go unfound.
+  // A threshold of two metres rounds off every corner, so walls are not found.
   ASSERT_EQ(here({"run", "room.yaml", "-q", "--no-figures", "--out", "worse", "--set",
                   "pipelines.iepf.extract.params.threshold_m=2"})
                 .code,

@@ -101,7 +101,7 @@ TEST(Benchmark, TestsNeighboursInRankAndCountsTheConditionsWon) {
   EXPECT_EQ(ranking[2].conditions_won, 0);
 }
 
-TEST(Benchmark, WhoMissesCellsComesLast) {
+TEST(Benchmark, APipelineWithMissingCellsComesLast) {
   auto rows = made_up_rows();
   std::erase_if(rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
   const auto ranking = rank_pipelines(two_scenarios(), rows, kSpec);

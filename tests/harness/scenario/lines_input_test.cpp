@@ -1,4 +1,4 @@
-// Lines in place of scans: files of lines, scenarios that begin with them, and whole runs.
+// Lines instead of scans: files of lines, scenarios that begin with them, and whole runs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
