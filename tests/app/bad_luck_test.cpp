@@ -66,7 +66,7 @@ TEST_F(BadLuck, NothingWritesIntoAFolderThatAnotherProcessHasLocked) {
         Args{"score", "run"}, Args{"figures", "run"}, Args{"report", "run"}}) {
     const auto outcome = here(args);
     EXPECT_EQ(outcome.code, 2) << args[0];
-    EXPECT_THAT(outcome.err, HasSubstr("at work")) << args[0];
+    EXPECT_THAT(outcome.err, HasSubstr("another run is writing")) << args[0];
   }
   EXPECT_THAT(differences(before, files(folder_.path())), IsEmpty());
   close(lock);

@@ -20,6 +20,7 @@
 #include "harness/run/score.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
+#include "harness/store/run_file.hpp"
 #include "harness/store/run_lock.hpp"
 #include "harness/store/run_target.hpp"
 #include "tests/support/runs.hpp"
@@ -28,6 +29,7 @@ namespace scanbench::harness {
 namespace {
 
 namespace fs = std::filesystem;
+const RunFile kFigures("figures/*.png");  // its writer, the report, is not in this program
 using testing::cell_of;
 using ::testing::ElementsAre;
 using testing::extract_with;
