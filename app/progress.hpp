@@ -15,6 +15,9 @@ struct Interrupted {};
 /// nobody reads must not end a run.
 void say(const std::string& text) noexcept;
 
+/// "8 s", "3 min 05 s", "2 h 10 min"; "0.3 s" below two seconds.
+std::string duration_text(double seconds);
+
 /// Opens what a caller has closed of standard input, output and error, so that no file of ours gets its number.
 void open_standard_streams() noexcept;
 

@@ -15,6 +15,7 @@
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
+#include "harness/store/run_files.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_target.hpp"
 
@@ -52,18 +53,20 @@ int simulate(const Options& options, const std::vector<std::string>& argv) {
   harness::RunTarget target(out, false);
   harness::Manifest manifest{"running", harness::utc_now(), "", argv, {}, {}};
   std::vector<std::string> printed;
+  std::size_t total = 0;
+  for (const auto& scenario : scenarios) total += scenario.seeds.size();
   try {
     harness::make_folders(target.path());
     harness::write_manifest(target.path(), manifest);
+    harness::write_run_scenarios(target.path(), scenarios, harness::effective_yaml);
     for (const auto& scenario : scenarios) {
       manifest.scenarios.push_back(scenario.name);
-      harness::write_file_atomically(
-          target.path() / (scenarios.size() == 1 ? "effective.yaml" : "effective/" + scenario.name + ".yaml"),
-          harness::effective_yaml(scenario));
       for (const auto seed : scenario.seeds) {
         const std::string what = fmt::format("recording {}/{}", scenario.name, seed);
-        const Recording recording =
-            harness::make_recording(scenario, seed, options.jobs, [&](double share) { progress.update(share, what); });
+        const auto report = [&](double share) {
+          progress.update((static_cast<double>(printed.size()) + share) / static_cast<double>(total), what);
+        };
+        const Recording recording = harness::make_recording(scenario, seed, options.jobs, report);
         const std::string hash =
             harness::save_recording(harness::recording_path(target.path(), scenario.name, seed), recording);
         printed.push_back(fmt::format("{}  {} scans x {} beams  {}", what, recording.observed.frames.size(),

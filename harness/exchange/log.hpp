@@ -11,6 +11,10 @@
 //          t_s t_ms t_us  x_m x_cm x_mm  y_m y_cm y_mm  yaw_rad yaw_deg  skip skip:20  ranges
 //          "inf", "-inf" and "nan" are allowed among the ranges.
 //
+// Scanners whose number of beams changes from scan to scan: with span_deg the beams of each scan divide that angle.
+// What is not like the first scan is refused (angles: same) or put onto the first scan's beams (resampled): each gets
+// the reading of the nearest beam, at most half a step away; NaN if there is none.
+//
 // What a reading means (REP-117): 0, negative and NaN: no reading (NaN); below range_min_m: too close (-inf); at
 // no_return_m or above (if that is > 0): nothing in range (+inf).
 #pragma once
@@ -42,8 +46,9 @@ LogFormatText log_format_text(std::string_view format);
 
 /// The scans of a log. `sensor` gives name, noise and timing; beam angles and range limits come from the log and its
 /// options. Stamps are the log's, or the sensor's scan period apart if it has none. No truth. Throws ConfigError with
-/// file:line:col for a line that is cut short, fields that are no numbers, beam counts that change, no scan at all;
-/// and, before it keeps any of the text, for a log that needs more than max_bytes. Throws as read_text_file() does.
+/// file:line:col for a line that is cut short, fields that are no numbers, beams that change unless the options allow
+/// it, no scan at all; and, before it keeps any of the text, for a log that needs more than max_bytes. Throws as
+/// read_text_file() does.
 Recording read_log(const std::filesystem::path& path, std::string_view format, const ParamSet& params,
                    const SensorModel& sensor, double max_bytes);
 
