@@ -1,4 +1,4 @@
-// Scenarios x pipelines x seeds.
+// Plans the cells of a run: scenarios x pipelines x seeds.
 #include "harness/run/run_plan.hpp"
 
 #include <algorithm>
@@ -42,8 +42,8 @@ void check_scenarios(const std::vector<Scenario>& scenarios, const RunOptions& o
                                  [&](const auto& pipeline) { return only == scenario.name + "/" + pipeline.name; });
     };
     if (std::ranges::count(known, only) == 0 && std::ranges::none_of(scenarios, is_cell))
-      throw ConfigError("nothing is named '" + only + "' here" + known_names(only, known) +
-                        ", and scenario/pipeline of these");
+      throw ConfigError("no scenario or pipeline is named '" + only + "'" + known_names(only, known) +
+                        "; or scenario/pipeline");
   }
 }
 

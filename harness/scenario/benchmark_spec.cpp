@@ -78,15 +78,4 @@ std::string benchmark_json(const BenchmarkSpec& spec) {
   return json.dump(2) + "\n";
 }
 
-std::optional<BenchmarkSpec> load_benchmark(const fs::path& run) {
-  const fs::path path = run / "benchmark.json";
-  if (!fs::exists(path)) return std::nullopt;
-  try {
-    const auto json = nlohmann::json::parse(read_file(path));
-    return BenchmarkSpec{json.at("about"), json.at("baseline"), json.at("example")};
-  } catch (const nlohmann::json::exception& error) {
-    throw ConfigError(path.string() + ": " + error.what());
-  }
-}
-
 }  // namespace scanbench::harness

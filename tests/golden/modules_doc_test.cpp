@@ -1,4 +1,4 @@
-// docs/modules.md says what the program says of itself, and docs/write-a-module.md names every helper of the sources.
+// docs/modules.md has the program's own description of its modules, and docs/write-a-module.md names every helper.
 #include <gtest/gtest.h>
 
 #include <algorithm>
