@@ -19,7 +19,7 @@ struct ScenarioForecast {
   double seconds = 0.0;             ///< of work, before jobs share it
   std::size_t sample = 0;           ///< scans that the estimate rests on
   bool in_proportion = true;        ///< false: a pipeline has a slot whose work grows faster than the number of scans
-  std::vector<std::string> faults;  ///< pipelines that did not end well on the sample: "iepf: crashed: ..."
+  std::vector<std::string> faults;  ///< pipelines that are not ok on the sample: "iepf: crashed: ..."
 };
 
 struct Forecast {
