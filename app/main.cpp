@@ -14,6 +14,7 @@
 #include "app/recordings.hpp"
 #include "app/results.hpp"
 #include "app/run.hpp"
+#include "app/show.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "harness/report/plain_text.hpp"
@@ -79,6 +80,7 @@ int run_program(int argc, char** argv) {
   app::add_inspection(context);
   app::add_recordings(context);
   app::add_results(context);
+  app::add_show(context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <thread>
+#include <algorithm>
+#include <utility>
 
 #include "app/inputs.hpp"
 #include "app/progress.hpp"
@@ -15,6 +16,7 @@
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
+#include "harness/store/run_files.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_target.hpp"
 
@@ -55,11 +57,9 @@ int simulate(const Options& options, const std::vector<std::string>& argv) {
   try {
     harness::make_folders(target.path());
     harness::write_manifest(target.path(), manifest);
+    harness::write_run_scenarios(target.path(), scenarios, harness::effective_yaml);
     for (const auto& scenario : scenarios) {
       manifest.scenarios.push_back(scenario.name);
-      harness::write_file_atomically(
-          target.path() / (scenarios.size() == 1 ? "effective.yaml" : "effective/" + scenario.name + ".yaml"),
-          harness::effective_yaml(scenario));
       for (const auto seed : scenario.seeds) {
         const std::string what = fmt::format("recording {}/{}", scenario.name, seed);
         const Recording recording =
@@ -100,18 +100,28 @@ int export_polygons(const Options& options) {
   return kGood;
 }
 
+/// The folders in a folder; names with fewer letters first, so that seed 10 comes after seed 9.
+std::vector<fs::path> folders_of(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_directory()) folders.push_back(entry.path());
+  std::ranges::sort(folders, {}, [](const fs::path& path) {
+    const std::string name = path.filename().string();
+    return std::pair(name.size(), name);
+  });
+  return folders;
+}
+
 int export_recordings(const Options& options) {
   const fs::path folder = fs::path(options.run) / "recordings";
   if (!fs::exists(folder)) throw ConfigError(options.run + ": not a run folder: it has no recordings/");
   const std::string ending = options.format == "carmen" ? ".log" : options.format == "csv" ? ".csv" : ".txt";
   const fs::path out = options.out.empty() ? fs::path(options.run) / "export" : fs::path(options.out);
   int written = 0;
-  for (const auto& scenario : fs::directory_iterator(folder)) {
-    if (!scenario.is_directory()) continue;
-    for (const auto& seed : fs::directory_iterator(scenario.path())) {
-      const Recording recording = harness::load_recording(seed.path());
-      const fs::path path =
-          out / (scenario.path().filename().string() + "_" + seed.path().filename().string() + ending);
+  for (const fs::path& scenario : folders_of(folder)) {
+    for (const fs::path& seed : folders_of(scenario)) {
+      const Recording recording = harness::load_recording(seed);
+      const fs::path path = out / (scenario.filename().string() + "_" + seed.filename().string() + ending);
       const std::string text = harness::export_text(recording, options.format);
       harness::make_folders(out);
       harness::write_file_atomically(path, text);

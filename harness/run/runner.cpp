@@ -18,6 +18,7 @@
 #include "harness/run/worker.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/effective.hpp"
+#include "harness/store/benchmark_file.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
@@ -77,7 +78,7 @@ class Run {
     refuse_if_all_input_is_bad(interrupted);
     RunResult result = end(interrupted);
     pool_.reset();  // from here on an interrupt is the caller's
-    if (!interrupted && !result.old_run_kept && options_.finish) options_.finish(result);
+    if (!interrupted && !result.old_run_kept) finish_run(result);
     return result;
   }
 
@@ -158,6 +159,20 @@ class Run {
     cell.summary = summary_lines(cell.result.key, found->metrics);
     cell.result.record = found->record;
     cell.result.done = cell.result.reused = true;
+  }
+
+  /// Figures and reports belong to the run: it is complete when they are there. Killed before, it is still running, as
+  /// any other run that was killed.
+  void finish_run(const RunResult& result) {
+    if (!options_.finish) return;
+    const bool is_complete = manifest_.state == "complete";
+    try {
+      options_.finish(result);
+    } catch (...) {
+      if (is_complete) set_run_state(result.out, "interrupted");
+      throw;
+    }
+    if (is_complete) set_run_state(result.out, manifest_.state);
   }
 
   /// A cell whose recording is there, else the next recording. False if there is nothing to start now.
@@ -355,6 +370,7 @@ class Run {
     manifest_.state = interrupted ? "interrupted" : missing ? "incomplete" : "complete";
     manifest_.end = utc_now();
     write_manifest(target_->path(), manifest_);
+    if (options_.finish && manifest_.state == "complete") set_run_state(target_->path(), "running");
     target_->finish();
     return result;
   }

@@ -1,20 +1,16 @@
-// Reads and writes the specification of a benchmark page.
+// Reads the specification of a benchmark page.
 #include "harness/scenario/benchmark_spec.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
 #include "core/error.hpp"
 #include "core/names.hpp"
-#include "harness/files/atomic_file.hpp"
 #include "harness/yaml/reader.hpp"
 
 namespace scanbench::harness {
 namespace {
-
-namespace fs = std::filesystem;
 
 std::vector<std::string> scenario_names(const std::vector<Scenario>& scenarios) {
   std::vector<std::string> names;
@@ -71,22 +67,6 @@ BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& 
     throw PlacedError(example->mark,
                       fmt::format("no scenario is called {}{}", spec.example, known_names(spec.example, names)));
   return spec;
-}
-
-std::string benchmark_json(const BenchmarkSpec& spec) {
-  const nlohmann::ordered_json json{{"about", spec.about}, {"baseline", spec.baseline}, {"example", spec.example}};
-  return json.dump(2) + "\n";
-}
-
-std::optional<BenchmarkSpec> load_benchmark(const fs::path& run) {
-  const fs::path path = run / "benchmark.json";
-  if (!fs::exists(path)) return std::nullopt;
-  try {
-    const auto json = nlohmann::json::parse(read_file(path));
-    return BenchmarkSpec{json.at("about"), json.at("baseline"), json.at("example")};
-  } catch (const nlohmann::json::exception& error) {
-    throw ConfigError(path.string() + ": " + error.what());
-  }
 }
 
 }  // namespace scanbench::harness

@@ -1,8 +1,6 @@
-// The specification of a benchmark page: a suite's key `benchmark`, and benchmark.json in its run folder.
+// The specification of a benchmark page: a suite's key `benchmark`.
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +19,5 @@ struct BenchmarkSpec {
 /// is the first scenario; `about` stays empty. Throws PlacedError for unknown names, and unless all scenarios are
 /// simulated, share the same pipelines, and have the metrics segments, efficiency (with matches: true) and timing.
 BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& scenarios);
-
-std::string benchmark_json(const BenchmarkSpec& spec);
-/// Reads benchmark.json of a run folder; nullopt if the run is no benchmark. Throws ConfigError if the file is damaged.
-std::optional<BenchmarkSpec> load_benchmark(const std::filesystem::path& run);
 
 }  // namespace scanbench::harness

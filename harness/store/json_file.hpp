@@ -7,8 +7,11 @@
 
 namespace scanbench::harness {
 
-/// The object that a file holds. Throws ConfigError, naming the file, if it is no regular file, larger than 256 MiB,
-/// no JSON, no object, or nested deeper than 32 levels.
+/// What a file holds. Throws ConfigError, naming the file, if it is no regular file, larger than 256 MiB, no JSON, or
+/// nested deeper than 32 levels.
+nlohmann::ordered_json load_json(const std::filesystem::path& file);
+
+/// The same; throws for all but an object.
 nlohmann::ordered_json load_json_object(const std::filesystem::path& file);
 
 [[noreturn]] void refuse_json(const std::filesystem::path& file, const nlohmann::ordered_json::exception& error);

@@ -13,7 +13,7 @@ namespace scanbench::harness {
 
 /// manifest.json, less what is the same for every run of this program (version, commit, compiler, libraries, CPU).
 struct Manifest {
-  std::string state;  ///< running, complete, interrupted
+  std::string state;  ///< running, complete, incomplete, interrupted
   std::string start;  ///< UTC, ISO 8601
   std::string end;    ///< empty while running
   std::vector<std::string> argv;
@@ -32,6 +32,9 @@ Manifest load_manifest(const std::filesystem::path& run);
 std::map<std::string, std::string> listed_hashes(const std::filesystem::path& run);
 /// Lists the files anew: after figures or reports were added to a run.
 void refresh_manifest(const std::filesystem::path& run);
+
+/// Changes the state and nothing else.
+void set_run_state(const std::filesystem::path& run, const std::string& state);
 
 /// "scanbench 0.1.0 (commit, compiler, build type)".
 std::string version_text();

@@ -11,12 +11,17 @@
 
 namespace scanbench::harness {
 
-/// Writes one scenario as two files, several as files in scenarios/ and effective/; `effective_yaml` gives the text of
-/// the latter. Throws ConfigError.
-void write_run_scenarios(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
-                         const std::function<std::string(const Scenario&)>& effective_yaml);
+using EffectiveText = std::function<std::string(const Scenario&, const StoredInputs&)>;
 
-/// The scenarios of a run folder, from effective.yaml or effective/*.yaml, in the order of its manifest.
+/// Writes one scenario as two files, several as files in scenarios/ and effective/; `effective_yaml` gives the text of
+/// the latter. What is needed of the scenario's own files is copied to inputs/<scenario>/, so that reports, scores and
+/// figures need nothing outside the run folder: published values, a set of lines, and the name and hash of a log.
+/// Throws ConfigError.
+void write_run_scenarios(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
+                         const EffectiveText& effective_yaml);
+
+/// The scenarios of a run folder, from effective.yaml or effective/*.yaml, in the order of its manifest. Reads nothing
+/// outside the folder.
 std::vector<Scenario> load_run_scenarios(const std::filesystem::path& run);
 
 }  // namespace scanbench::harness

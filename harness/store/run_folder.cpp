@@ -34,7 +34,7 @@ void refuse_linked_folders(const fs::path& run) {
     if (fs::is_symlink(path) && fs::is_directory(path))
       throw ConfigError(path.string() + " is a symbolic link; the folders of a run must be folders of its own");
   };
-  for (const char* name : {"cells", "effective", "figures", "published", "recordings", "scenarios"}) {
+  for (const char* name : {"cells", "effective", "figures", "inputs", "published", "recordings", "scenarios"}) {
     refuse_link(run / name);
     std::error_code absent;
     for (const auto& entry : fs::recursive_directory_iterator(run / name, absent)) refuse_link(entry.path());
@@ -56,13 +56,15 @@ bool is_run_file(const fs::path& relative) {
   const std::string ending = relative.extension().string();
   if (first == "figures") return ending == ".png" || ending == ".svg" || ending == ".pdf" || last == "index.json";
   if (first == "published") return parts.size() == 2 && one_of({"cells.csv", "orderings.csv", "agreement.csv"});
+  if (first == "inputs") return parts.size() == 3 && one_of({"published.csv", "lines.csv", "sources.json"});
   if (first == "scenarios" || first == "effective") return parts.size() == 2 && ending == ".yaml";
   if (first == "recordings")
     return parts.size() == 4 && one_of({"walls.csv", "frames.csv", "lines.csv", "rotations.npy", "scan.json",
                                         "ranges.npy", "true_ranges.npy", "wall_ids.npy"});
   if (first == "cells")
-    return parts.size() == 5 && one_of({"status.json", "lines.csv", "labels.npy", "map.csv", "poses.csv",
-                                        "merge_labels.csv", "trace.csv", "timing.csv", "metrics.csv", "matches.csv"});
+    return parts.size() == 5 &&
+           one_of({"status.json", "lines.csv", "labels.npy", "map.csv", "poses.csv", "merge_labels.csv", "trace.csv",
+                   "timing.csv", "metrics.csv", "matches.csv", "scans.csv"});
   return false;
 }
 
