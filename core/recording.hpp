@@ -1,4 +1,4 @@
-// What is saved and replayed: the observed scans and, if they are simulated, the truth.
+// A recording: the observed scans and, if they are simulated, the truth.
 #pragma once
 
 #include <optional>

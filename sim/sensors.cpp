@@ -50,7 +50,9 @@ struct SensorParams {
         field("sigma_relative", &P::sigma_relative, at_least(0), "",
               "standard deviation of the range, part proportional to it"),
         field("relative_from_m", &P::relative_from_m, at_least(0), "m",
-              "0: both parts in quadrature; else the constant part below this range, the proportional one from it on"),
+              "0 adds both parts in quadrature; else the constant part acts below this range, the proportional part "
+              "from it "
+              "on"),
         field("bearing_sigma_deg", &P::bearing_sigma_deg, between(0, 45), "deg",
               "standard deviation of a beam's true direction about its nominal one"),
         field("quantum_m", &P::quantum_m, at_least(0), "m", "rounding step of ranges; 0 disables rounding"),

@@ -1,4 +1,4 @@
-// Averages over conditions and seeds; ranks and tests.
+// Ranks the pipelines of a benchmark: averages over conditions and seeds, and tests the differences.
 #include "harness/analysis/benchmark.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::vector<std::string> pipeline_names(const Scenario& scenario) {
   return names;
 }
 
-/// Each value over the baseline's in the same scenario and seed.
+/// Divides each value by the baseline's in the same scenario and seed.
 CellValues ratios_to(const CellValues& values, const std::string& baseline) {
   CellValues ratios;
   for (const auto& [key, value] : values) {
@@ -107,7 +107,7 @@ const std::vector<BenchmarkColumn>& benchmark_columns() {
       {"merged", "merged [%]", 100, 2, false, lower_is_better,
        "share of the found lines that cover more than half of two true lines of different walls"},
       {"overlap", "overlap [%]", 100, 2, false, higher_is_better,
-       "extent that a true line and its match have in common over that of both together"},
+       "common extent of a true line and its match over the extent of both together"},
       {"sigma_offset", "σ offset [cm]", 100, 3, false, lower_is_better,
        "root mean square distance of the matches' midpoints from the true line"},
       {"sigma_angle", "σ angle [°]", 1, 3, false, lower_is_better,
@@ -116,7 +116,7 @@ const std::vector<BenchmarkColumn>& benchmark_columns() {
        "mean square error of the offset at the true line's midpoint over its Cramér–Rao bound; 1 is the best that the "
        "readings allow; lines with 20 returns or more",
        1.0},
-      {"efficiency_angle", "angle / bound", 1, 2, true, target, "the same of the angle", 1.0},
+      {"efficiency_angle", "angle / bound", 1, 2, true, target, "the same for the angle", 1.0},
       {"t_scan", "time [µs]", 1, 2, true, lower_is_better, "median CPU time per scan"},
       {"t_ratio", "time ratio", 1, 2, true, lower_is_better,
        "that time over the baseline's in the same condition and seed"}};

@@ -1,4 +1,4 @@
-// One page over all scenarios of a benchmark.
+// Writes the page of a benchmark over all of its scenarios.
 #include "harness/report/benchmark_report.hpp"
 
 #include <algorithm>
@@ -49,14 +49,14 @@ std::string run_text(const ReportInput& input, const BenchmarkSpec& spec) {
   const std::size_t seeds = seeds_of(input.rows).size();
   return fmt::format(
       "{} extractors on {} conditions: {} worlds, {} sensors, noise of {:.3g} cm. {} seeds make {} recordings with "
-      "{} scans and {} true lines in all; every extractor sees all of them, with the same noise.",
+      "{} scans and {} true lines in total; every extractor gets the same recordings.",
       scenarios.front().pipelines.size(), scenarios.size(), worlds.size(), sensors.size(),
       fmt::join(noise_levels(scenarios), ", "), seeds, scenarios.size() * seeds,
       observations(input.rows, spec.baseline, "t_scan"), observations(input.rows, spec.baseline, "recall"));
 }
 
 Table worlds_table(const ReportInput& input) {
-  Table table{"worlds", "Worlds", "", {"world", "what it is"}, {{"", "walls"}, {"", "scans a recording"}}, {}};
+  Table table{"worlds", "Worlds", "", {"world", "what it is"}, {{"", "walls"}, {"", "scans per recording"}}, {}};
   std::set<std::string> seen;
   for (const auto& scenario : input.scenarios) {
     const auto& world = simulated(scenario).world;
@@ -90,7 +90,7 @@ Table sensors_table(const ReportInput& input) {
   return table;
 }
 
-/// "threshold_m 0.04 / 0.12 / 0.2", one value a noise level if they differ; empty for the default everywhere.
+/// "threshold_m 0.04 / 0.12 / 0.2", one value per noise level if they differ; empty if all have the default.
 std::string param_text(const std::vector<Scenario>& scenarios, std::size_t pipeline, const ParamSpec& spec) {
   std::map<double, std::set<std::string>> by_noise;
   std::set<std::string> all;
@@ -122,8 +122,8 @@ Table extractors_table(const ReportInput& input, const std::vector<RankedPipelin
       if (auto text = param_text(scenarios, k, spec); !text.empty()) params.push_back(std::move(text));
     table.rows.push_back({{ranked.name, module.info.summary, fmt::format("{}", fmt::join(params, ", "))}, {}, false});
   }
-  table.caption =
-      fmt::format("Values with / belong to the noise levels {:.3g} cm.", fmt::join(noise_levels(scenarios), " / "));
+  table.caption = fmt::format("Values separated by / belong to the noise levels {:.3g} cm.",
+                              fmt::join(noise_levels(scenarios), " / "));
   return table;
 }
 
@@ -136,13 +136,13 @@ std::string significance_text(const std::vector<RankedPipeline>& ranking) {
     ++tests;
     if (ranking[i].next_p >= 0.05) ties.push_back(ranking[i].name + " and " + ranking[i + 1].name);
   }
-  if (tests == 0) return "One seed: no differences can be tested.";
+  if (tests == 0) return "There is one seed, so differences cannot be tested.";
   const std::string method = fmt::format(
       "Neighbours in the ranking were compared by paired t tests over the seeds, corrected for their number ({}) after "
       "Holm. ",
       tests);
   if (ties.empty()) return method + "All of them differ at the 5 % level.";
-  return method + fmt::format("All of them differ at the 5 % level but {}.", fmt::join(ties, "; "));
+  return method + fmt::format("All of them differ at the 5 % level, except {}.", fmt::join(ties, "; "));
 }
 
 std::vector<std::pair<std::string, std::string>> definitions(const BenchmarkSpec& spec) {
@@ -153,34 +153,30 @@ std::vector<std::pair<std::string, std::string>> definitions(const BenchmarkSpec
     all.emplace_back(column.metric == "t_ratio" ? "time / " + spec.baseline : column.head, text);
   }
   all.emplace_back("F1 − next", "mean difference of F1 to the next in rank, in points, with the p-value");
-  all.emplace_back("best in", "conditions in which its F1 is the highest; equals all count");
+  all.emplace_back("best in", "conditions in which its F1 is the highest; ties count for all");
   return all;
 }
 
 constexpr std::string_view kMatching =
     "A true line is a run of consecutive beams on one wall with at least 9 returns over 0.5 m. A found line matches it "
     "if "
-    "they differ by at most 10° and 15 cm and overlap by more than half of the shorter; pairs are taken one to one by "
-    "decreasing overlap. Found lines shorter than 0.5 m that match nothing are skipped. A value is averaged over "
-    "the "
-    "conditions, each counting the same, for every seed; shown are the mean over the seeds and, behind ±, half of its "
-    "95 % interval (the wider of Student's t and a bootstrap). What is undefined in a "
-    "cell is left out. * marks the best.";
+    "they differ by at most 10° and 15 cm and overlap by more than half of the shorter; pairs are one to one, by "
+    "decreasing overlap. Found lines shorter than 0.5 m that match nothing are skipped. For every seed a value is "
+    "averaged over the conditions with equal weight; the table shows the mean over the seeds and, after ±, half of its "
+    "95 % interval (the wider of Student's t and a bootstrap). Undefined values are left out. * marks the best.";
 
 const std::vector<std::string>& limits_of_the_page() {
   static const std::vector<std::string> kLimits{
-      "The seeds change the noise, not the worlds: intervals and tests say that a difference would come again on these "
-      "worlds, not that it would on others. \"Best in\" shows how far it depends on the condition.",
-      "Errors are those of the lines that an extractor found and that passed the gate of the matching. One that finds "
-      "only easy lines has smaller errors than one that finds all; and no error can be much larger than the gate.",
+      "The seeds change the noise, not the worlds: intervals and tests show that a difference would recur on these "
+      "worlds, not that it would on others. \"Best in\" shows how much it depends on the condition.",
+      "Errors are those of found lines that passed the gate of the matching. An extractor that finds only easy lines "
+      "has smaller errors than one that finds all, and no error can be much larger than the gate.",
       "The bound is that of a line whose beams are known, from the returns between its first and last beam. A ratio "
-      "below 1 is possible where an extractor used beams of two runs of one wall for one line.",
-      "Noise is Gaussian, of one size at all ranges, and known to the extractors that take it as a parameter; there "
-      "are no mixed "
-      "pixels, no lost returns, no rounding and nothing that moves. Walls are straight.",
-      "Times are CPU times on a machine that may have been busy; the ratio to the baseline, taken in the same "
-      "condition "
-      "and seed, is the steadier number."};
+      "below 1 is possible if an extractor used beams of two runs of one wall for one line.",
+      "Noise is Gaussian, equal at all ranges, and known to the extractors that take it as a parameter; there are no "
+      "mixed pixels, lost returns, rounding or moving bodies. Walls are straight.",
+      "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition and "
+      "seed, varies less."};
   return kLimits;
 }
 

@@ -1,4 +1,4 @@
-// Values with their intervals, the best of each column marked.
+// Makes the ranking table of a benchmark: values with intervals, and the best of each column marked.
 #include "harness/report/ranking_table.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ std::string number(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "–";
 }
 
-/// Fewer decimals for larger values where a column spans decades.
+/// Larger values get fewer decimals if a column spans decades.
 TableCell interval_cell(const MeanInterval& interval, const BenchmarkColumn& column) {
   if (!std::isfinite(interval.mean)) return {"–"};
   const double mean = interval.mean * column.scale;
@@ -43,7 +43,8 @@ TableCell next_cell(const RankedPipeline& ranked) {
   return cell;
 }
 
-/// Errors and costs are compared among extractors that find about as much: one that finds little errs little.
+/// Errors and costs are compared among extractors that find about equally much, because one that finds little also has
+/// small errors.
 void mark_columns(Table& table, const std::vector<RankedPipeline>& ranking) {
   double best_f1 = kNaN;
   for (const auto& ranked : ranking) {
@@ -86,8 +87,8 @@ Table ranking_table(const std::vector<RankedPipeline>& ranking, const BenchmarkS
   }
   mark_columns(table, ranking);
   table.caption = fmt::format(
-      "* the best value; of errors, times and other costs among extractors within {} points of the best F1. An "
-      "extractor that misses cells has no mark.",
+      "* marks the best value; of errors, times and other costs among extractors within {} points of the best F1. An "
+      "extractor with missing cells has no mark.",
       100.0 * kF1Margin);
   return table;
 }

@@ -1,4 +1,4 @@
-// Hashes the canonical text of what a cell is made of: no field of a scenario has to be remembered here.
+// Hashes the effective scenario, so that every field of a scenario enters the address of its cells.
 #include "harness/run/cell_address.hpp"
 
 #include <variant>
@@ -9,7 +9,8 @@
 namespace scanbench::harness {
 namespace {
 
-/// Takes a file out of an input: its bytes enter the address, its path does not. Returns their hash; empty if none.
+/// Removes the path of a file from an input and returns the hash of the file (empty if none). The file's bytes enter
+/// the address, not its path.
 std::string take_file(SimulatedInput& input) {
   input.caster = sim::CasterKind::exact;  // both casters give the same bytes
   return {};                              // the world itself is part of the text
@@ -44,7 +45,7 @@ std::string input_address(const Scenario& scenario) {
 std::string cell_address(const std::string& input, const std::vector<ModuleChoice>& metrics,
                          const PipelineSpec& pipeline, std::uint64_t seed, const TraceChoice& trace) {
   Scenario part;
-  part.input = LinesInput{};  // none: it has an address of its own
+  part.input = LinesInput{};  // no input here: it has its own address
   part.pipelines.push_back({.name = "", .slots = pipeline.slots, .published = ""});
   part.metrics = metrics;
   return Sha256()

@@ -1,16 +1,20 @@
-// Reads the specification of a benchmark page.
+// Reads and writes the specification of a benchmark page.
 #include "harness/scenario/benchmark_spec.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
 #include "core/error.hpp"
 #include "core/names.hpp"
+#include "harness/files/atomic_file.hpp"
 #include "harness/yaml/reader.hpp"
 
 namespace scanbench::harness {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::vector<std::string> scenario_names(const std::vector<Scenario>& scenarios) {
   std::vector<std::string> names;
@@ -67,6 +71,11 @@ BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& 
     throw PlacedError(example->mark,
                       fmt::format("no scenario is called {}{}", spec.example, known_names(spec.example, names)));
   return spec;
+}
+
+std::string benchmark_json(const BenchmarkSpec& spec) {
+  const nlohmann::ordered_json json{{"about", spec.about}, {"baseline", spec.baseline}, {"example", spec.example}};
+  return json.dump(2) + "\n";
 }
 
 }  // namespace scanbench::harness

@@ -1,6 +1,8 @@
-// The specification of a benchmark page: a suite's key `benchmark`.
+// The specification of a benchmark page: a suite's key `benchmark`, and benchmark.json in its run folder.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,5 +21,8 @@ struct BenchmarkSpec {
 /// is the first scenario; `about` stays empty. Throws PlacedError for unknown names, and unless all scenarios are
 /// simulated, share the same pipelines, and have the metrics segments, efficiency (with matches: true) and timing.
 BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& scenarios);
+
+std::string benchmark_json(const BenchmarkSpec& spec);
+/// Reads benchmark.json of a run folder; nullopt if the run is no benchmark. Throws ConfigError if the file is damaged.
 
 }  // namespace scanbench::harness

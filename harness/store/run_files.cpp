@@ -1,25 +1,31 @@
-// scenario.yaml and effective.yaml of a run, or a folder of each, and copies of the files that they name.
+// manifest.json, scenario.yaml, effective.yaml (or a folder of each), benchmark.json of a run, and copies of its input.
 #include "harness/store/run_files.hpp"
 
 #include <variant>
 
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/store/json_file.hpp"
-#include "harness/store/manifest.hpp"
+#include "harness/store/run_file.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::ordered_json;
+const RunFile kScenarioFile("scenario.yaml");
+const RunFile kEffectiveFile("effective.yaml");
+const RunFile kScenarioFiles[] = {RunFile("scenarios/*.yaml"), RunFile("effective/*.yaml")};
+const RunFile kBenchmarkFile("benchmark.json");
 
-constexpr const char* kPublished = "published.csv";
-constexpr const char* kLines = "lines.csv";
-constexpr const char* kSources = "sources.json";
+const RunFile kPublishedCopy("inputs/*/published.csv");
+const RunFile kLinesCopy("inputs/*/lines.csv");
+const RunFile kSourcesFile("inputs/*/sources.json");
+
+using Json = nlohmann::ordered_json;
 
 fs::path inputs_path(const fs::path& run, const std::string& scenario) {
   return run / "inputs" / scenario;
@@ -45,24 +51,24 @@ StoredInputs store_inputs(const fs::path& run, const Scenario& scenario, const s
   Json sources = Json::object();
   if (!scenario.published_file.empty()) {
     sources["published"] =
-        copy_input(scenario.published_file, folder / kPublished, scenario.published_file.filename().string());
-    stored.published = prefix + kPublished;
+        copy_input(scenario.published_file, folder / kPublishedCopy, scenario.published_file.filename().string());
+    stored.published = prefix + kPublishedCopy.name();
   }
   if (const auto* lines = std::get_if<LinesInput>(&scenario.input); lines != nullptr && !lines->file.empty()) {
-    sources["lines"] = copy_input(lines->file, folder / kLines, lines->file_name);
-    stored.lines = prefix + kLines;
+    sources["lines"] = copy_input(lines->file, folder / kLinesCopy, lines->file_name);
+    stored.lines = prefix + kLinesCopy.name();
   }
   if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
     sources["log"] = source_json(recorded->log, sha256_of_file(recorded->log));
   if (sources.empty()) return stored;
   make_folders(folder);
-  write_file_atomically(folder / kSources, sources.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(folder / kSourcesFile, sources.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   return stored;
 }
 
-/// What sources.json knows of files that are elsewhere.
+/// Adds what sources.json says of files that are elsewhere.
 void add_sources(const fs::path& run, Scenario& scenario) {
-  const fs::path file = inputs_path(run, scenario.name) / kSources;
+  const fs::path file = inputs_path(run, scenario.name) / kSourcesFile;
   if (!fs::exists(file)) return;
   with_json_of(file, [&](const Json& sources) {
     if (auto* lines = std::get_if<LinesInput>(&scenario.input); lines != nullptr && sources.contains("lines"))
@@ -72,37 +78,69 @@ void add_sources(const fs::path& run, Scenario& scenario) {
   });
 }
 
-}  // namespace
-
-void write_run_scenarios(const fs::path& run, const std::vector<Scenario>& scenarios,
-                         const EffectiveText& effective_yaml) {
-  if (scenarios.size() == 1) {
-    const Scenario& scenario = scenarios.front();
+void write_scenarios(const fs::path& run, const RunStart& start) {
+  if (start.scenarios.size() == 1) {
+    const Scenario& scenario = start.scenarios.front();
     const StoredInputs stored = store_inputs(run, scenario, "");
-    write_file_atomically(run / "scenario.yaml", scenario.text);
-    write_file_atomically(run / "effective.yaml", effective_yaml(scenario, stored));
+    write_file_atomically(run / kScenarioFile, scenario.text);
+    write_file_atomically(run / kEffectiveFile, start.effective_yaml(scenario, stored));
     return;
   }
   make_folders(run / "scenarios");
   make_folders(run / "effective");
-  for (const auto& scenario : scenarios) {
+  for (const auto& scenario : start.scenarios) {
     const StoredInputs stored = store_inputs(run, scenario, "../");
     write_file_atomically(run / "scenarios" / (scenario.name + ".yaml"), scenario.text);
-    write_file_atomically(run / "effective" / (scenario.name + ".yaml"), effective_yaml(scenario, stored));
+    write_file_atomically(run / "effective" / (scenario.name + ".yaml"), start.effective_yaml(scenario, stored));
   }
+}
+
+}  // namespace
+
+Manifest start_run(const RunTarget& target, const RunStart& start) {
+  const fs::path& run = target.path();
+  make_folders(run);
+  Manifest manifest{"running", utc_now(), "", start.argv, {}, start.cells};
+  for (const auto& scenario : start.scenarios) manifest.scenarios.push_back(scenario.name);
+  write_manifest(run, manifest);  // with it the folder is ours
+  if (start.benchmark)
+    write_file_atomically(run / kBenchmarkFile, benchmark_json(*start.benchmark));
+  else
+    remove_file(run / kBenchmarkFile);
+  write_scenarios(run, start);
+  return manifest;
+}
+
+void end_run(RunTarget& target, Manifest& manifest, const std::string& state, bool reports_follow) {
+  manifest.state = state;
+  manifest.end = utc_now();
+  write_manifest(target.path(), manifest);
+  if (reports_follow) set_run_state(target.path(), "running");
+  target.finish();
 }
 
 std::vector<Scenario> load_run_scenarios(const fs::path& run) {
   const Manifest manifest = load_manifest(run);
   std::vector<Scenario> scenarios;
   for (const auto& name : manifest.scenarios) {
-    const fs::path alone = run / "effective.yaml";
+    const fs::path alone = run / kEffectiveFile;
     const bool many = manifest.scenarios.size() > 1 || !fs::exists(alone);
     scenarios.push_back(load_recorded_scenario(many ? run / "effective" / (name + ".yaml") : alone));
     scenarios.back().name = name;
     add_sources(run, scenarios.back());
   }
   return scenarios;
+}
+
+std::optional<BenchmarkSpec> load_benchmark(const fs::path& run) {
+  const fs::path path = run / kBenchmarkFile;
+  if (!fs::exists(path)) return std::nullopt;
+  const auto json = load_json_object(path);
+  try {
+    return BenchmarkSpec{json.at("about"), json.at("baseline"), json.at("example")};
+  } catch (const nlohmann::json::exception& error) {
+    refuse_json(path, error);
+  }
 }
 
 }  // namespace scanbench::harness

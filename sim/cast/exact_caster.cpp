@@ -23,7 +23,7 @@ namespace scanbench::sim {
 namespace {
 
 constexpr double kTieM = 1e-9;
-// Up to here sweeping every wall is faster than finding those that matter (docs/performance.md).
+// Up to this number, sweeping every wall is faster than a search for the relevant ones (docs/performance.md).
 constexpr int kSweepAllWalls = 64;
 // Fewer beams than this go through the tree one by one.
 constexpr int kFewBeams = 4;

@@ -1,3 +1,4 @@
+// JSON files of a run that are refused.
 #include "harness/store/json_file.hpp"
 
 #include <gmock/gmock.h>
@@ -6,10 +7,10 @@
 #include <sys/stat.h>
 
 #include "core/error.hpp"
-#include "harness/store/benchmark_file.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
+#include "harness/store/run_files.hpp"
 #include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {
