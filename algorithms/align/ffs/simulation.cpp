@@ -6,7 +6,7 @@
 
 #include "algorithms/align/ffs/meeting.hpp"
 #include "algorithms/align/ffs/rigid_step.hpp"
-#include "core/number_text.hpp"
+#include "algorithms/align/parts/outcome.hpp"
 #include "core/trace/force_field_trace.hpp"
 
 namespace scanbench::align::ffs {
@@ -147,7 +147,7 @@ Alignment simulate(std::span<const Observation> scans, std::span<const Pose2> in
   }
   if (!converged) {
     result.status = Status::max_iterations;
-    add_sentence("points still moved by " + number_text(simulation.largest_move()) + " m in iteration " +
+    add_sentence("points still moved by " + movement_text(simulation.largest_move()) + " m in iteration " +
                      std::to_string(simulation.iterations()),
                  result.message);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/align/parts/outcome.hpp"
 #include "core/rng.hpp"
 #include "core/trace/force_field_trace.hpp"
 #include "tests/support/aligning.hpp"
@@ -196,6 +197,13 @@ TEST(VirtualScans, WithoutStrengthAreFfsBitForBit) {
   EXPECT_EQ(none.message, plain.message);
   EXPECT_EQ(none.world_from_sensor, plain.world_from_sensor);
   EXPECT_NE(align("virtual_scans", scans, initial).world_from_sensor, plain.world_from_sensor);
+}
+
+TEST(Movement, InAMessageHasOneSignificantDigit) {
+  EXPECT_EQ(align::movement_text(0.00069277), "0.0007");
+  EXPECT_EQ(align::movement_text(0.96), "1");
+  EXPECT_EQ(align::movement_text(34.7), "30");
+  EXPECT_EQ(align::movement_text(0.0), "0");
 }
 
 TEST(Ffs, ScheduleRefusesWhatDoesNotCool) {

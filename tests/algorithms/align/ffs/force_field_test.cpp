@@ -204,7 +204,7 @@ TEST(RigidStep, OfFaintSpringsIsNoLongerThanThatOfTheLeastOnesAllowed) {
 }
 
 TEST(ForceField, StiffnessOnALineIsThatOfAPointBetweenThePointsOfOne) {
-  const Field field{0.3, 4.0, 0.05};
+  const align::ffs::Field field{0.3, 4.0, 0.05};
   const double spacing = 0.07;
   FieldPoints points;
   for (int k = -100; k < 100; ++k) points.add({spacing * (k + 0.5), 0}, {1, 0}, 1.0, 0);
