@@ -2,6 +2,8 @@
 #include "algorithms/align/parts/outcome.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -32,8 +34,12 @@ double gate_for(const OdometryError& error, std::span<const double> levers_m) {
 std::string movement_text(double value) {
   if (!(value > 0) || !std::isfinite(value)) return number_text(value);
   const double digit = std::pow(10.0, std::floor(std::log10(value)));
-  return number_text(digit < 1.0 ? std::round(value / digit) / std::round(1.0 / digit)
-                                 : std::round(value / digit) * digit);
+  const double rounded = digit < 1.0 ? std::round(value / digit) / std::round(1.0 / digit)  // 7 / 10000 is 0.0007
+                                     : std::round(value / digit) * digit;
+  std::array<char, 700> buffer{};  // of a double in fixed notation
+  const auto [end, error] =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), rounded, std::chars_format::fixed);
+  return {buffer.data(), end};
 }
 
 Alignment judged(const Outcome& outcome, std::span<const Pose2> initial, std::span<const Pose2> poses) {
