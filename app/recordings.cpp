@@ -52,14 +52,18 @@ int simulate(const Options& options, const std::vector<std::string>& argv) {
   Progress progress(progress_style(options.quiet));
   harness::RunTarget target(out, false);
   std::vector<std::string> printed;
+  std::size_t total = 0;
+  for (const auto& scenario : scenarios) total += scenario.seeds.size();
   try {
     harness::Manifest manifest =
         harness::start_run(target, {scenarios, {}, argv, std::nullopt, harness::effective_yaml});
     for (const auto& scenario : scenarios)
       for (const auto seed : scenario.seeds) {
         const std::string what = fmt::format("recording {}/{}", scenario.name, seed);
-        const Recording recording =
-            harness::make_recording(scenario, seed, options.jobs, [&](double share) { progress.update(share, what); });
+        const auto report = [&](double share) {
+          progress.update((static_cast<double>(printed.size()) + share) / static_cast<double>(total), what);
+        };
+        const Recording recording = harness::make_recording(scenario, seed, options.jobs, report);
         const std::string hash =
             harness::save_recording(harness::recording_path(target.path(), scenario.name, seed), recording);
         printed.push_back(fmt::format("{}  {} scans x {} beams  {}", what, recording.observed.frames.size(),

@@ -1,4 +1,4 @@
-// Motion between poses, and checks that the path is clear.
+// Interpolates the motion between poses, and checks that the path is clear.
 #include "sim/trajectory.hpp"
 
 #include <algorithm>

@@ -91,7 +91,11 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenar
   for (std::size_t i = 0; i < scenario.figures.size(); ++i) {
     const auto& choice = scenario.figures[i];
     if (progress) progress(static_cast<double>(i) / static_cast<double>(scenario.figures.size()), choice.module);
-    for (const auto& drawn : Registry<render::Figure>::make(choice.module, choice.params)->draw(input)) {
+    const auto figure = Registry<render::Figure>::make(choice.module, choice.params);
+    const auto scenes = figure->draw(input);
+    if (scenes.empty())
+      files.push_back({scenario.name, "", choice.module + " is not drawn: " + figure->why_nothing(input)});
+    for (const auto& drawn : scenes) {
       const std::string name = scenario.name + "_" + drawn.name;
       write_figure(run, name, drawn.scene, pdf);
       files.push_back({scenario.name, name, drawn.caption});

@@ -71,7 +71,9 @@ std::string report_markdown(const ReportInput& input) {
     for (const auto& table : scenario_tables(scenario, input.rows, input.cells, TableDetail::departures))
       out += "\n" + to_markdown(table);
     for (const auto& figure : figures_of(input, scenario.name))
-      out += fmt::format("\n![{0}](figures/{1}.svg)\n\n{0}\n", markdown_escaped(figure.caption), figure.name);
+      out += figure.name.empty()
+                 ? "\n" + markdown_escaped(figure.caption) + "\n"
+                 : fmt::format("\n![{0}](figures/{1}.svg)\n\n{0}\n", markdown_escaped(figure.caption), figure.name);
   }
   return out + markdown_facts(input.facts);
 }

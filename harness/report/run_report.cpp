@@ -1,6 +1,8 @@
 // Collects the contents of reports, and writes figures and reports.
 #include "harness/report/run_report.hpp"
 
+#include <algorithm>
+#include <array>
 #include <system_error>
 #include <variant>
 
@@ -57,12 +59,14 @@ std::string source_of(const fs::path& run, const Scenario& scenario, const Recor
   const auto json = nlohmann::json::parse(read_file(file), nullptr, false);
   if (json.is_discarded() || !json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
   try {
-    const auto step = recorded.params.find("step_deg");
-    const bool given = step != recorded.params.end() && to_text(step->second) != "0";
+    const bool given = std::ranges::any_of(std::array{"step_deg", "span_deg"}, [&](const char* key) {
+      const auto param = recorded.params.find(key);
+      return param != recorded.params.end() && to_text(param->second) != "0";
+    });
     return text + fmt::format("; {} beams from {:.6g} deg in steps of {:.6g} deg, {}", json.at("beams").get<int>(),
                               degrees(json.at("angle_min_rad").get<double>()),
                               degrees(json.at("angle_step_rad").get<double>()),
-                              given ? "from first_angle_deg and step_deg"
+                              given ? "from first_angle_deg and step_deg or span_deg"
                                     : "from the log or the rule of its format for this number of beams");
   } catch (const nlohmann::json::exception& error) {
     throw ConfigError(file.string() + ": " + error.what());
