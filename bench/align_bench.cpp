@@ -1,7 +1,8 @@
 // Force field simulation: one iteration's forces against the plain double loop and against a nanoflann k-d tree cut at
 // the same four standard deviations, and whole alignments of 60 scans of some 200 resampled points, 100 iterations.
 //
-// The map: 60 scans of an arena of 12 m x 8.4 m with panels, from random places, each pose wrong by some centimetres.
+// The maps: 60 scans of an arena of 12 m x 8.4 m with panels, from random places, each pose wrong by some centimetres;
+// and 400 scans of 361 points of an office floor of 60 m x 36 m, for one iteration alone.
 #include <benchmark/benchmark.h>
 
 #include <sys/resource.h>
@@ -78,6 +79,47 @@ FieldPoints field_points() {
   return points;
 }
 
+/// Rooms of 6 m x 6 m with doors of 1 m in all inner walls.
+std::vector<Segment> office() {
+  constexpr double kSide = 6.0, kDoor = 1.0;
+  constexpr int kColumns = 10, kRows = 6;
+  std::vector<Segment> walls = testing::box(0, 0, kColumns * kSide, kRows * kSide);
+  const auto wall_with_door = [&](const Vec2& from, const Vec2& along) {
+    walls.push_back({from, from + 0.5 * (kSide - kDoor) * along});
+    walls.push_back({from + 0.5 * (kSide + kDoor) * along, from + kSide * along});
+  };
+  for (int column = 0; column < kColumns; ++column)
+    for (int row = 0; row < kRows; ++row) {
+      const Vec2 corner(column * kSide, row * kSide);
+      if (column > 0) wall_with_door(corner, {0, 1});
+      if (row > 0) wall_with_door(corner, {1, 0});
+    }
+  return walls;
+}
+
+/// The readings themselves, with the directions of their walls: 400 scans of 361 points.
+const FieldPoints& office_points() {
+  static const FieldPoints made = [] {
+    FieldPoints points;
+    const std::vector<Segment> walls = office();
+    CounterRng rng(11, RngStream::pose);
+    for (int k = 0; k < 400; ++k) {
+      const Pose2 truth(0.5 + 59 * rng.uniform(), 0.5 + 35 * rng.uniform(), kTwoPi * rng.uniform());
+      const Pose2 given = truth * Pose2(0.05 * rng.normal(), 0.05 * rng.normal(), 0.01 * rng.normal());
+      const auto scan = testing::cast(testing::fan_sensor(361, kTwoPi), walls, truth);
+      const auto view = scan.view();
+      for (int i = 0; i < view.beams(); ++i) {
+        const int wall = scan.ids[static_cast<std::size_t>(i)];
+        if (wall < 0) continue;
+        const Vec2 along = truth.inverse().rotate(walls[static_cast<std::size_t>(wall)].direction());
+        points.add(given * view.point(i), given.rotate(along), 1.0, k);
+      }
+    }
+    return points;
+  }();
+  return made;
+}
+
 double sigma_of(const benchmark::State& state) {
   return static_cast<double>(state.range(0)) / 1000.0;
 }
@@ -86,6 +128,16 @@ void report_memory(benchmark::State& state) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// Relative root mean square error of forces against the plain double loop.
+double relative_error(const std::vector<PointForce>& forces, const std::vector<Vec2>& exact) {
+  double error = 0.0, size = 0.0;
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    error += (forces[k].force - exact[k]).squaredNorm();
+    size += exact[k].squaredNorm();
+  }
+  return std::sqrt(error / size);
 }
 
 void ours(benchmark::State& state) {
@@ -97,14 +149,38 @@ void ours(benchmark::State& state) {
     benchmark::DoNotOptimize(forces.data());
   }
   const std::vector<Vec2> exact = testing::plain_forces(points, field.sigma, field.soft());
-  double error = 0.0, size = 0.0;
-  for (std::size_t k = 0; k < exact.size(); ++k) {
-    error += (forces[k].force - exact[k]).squaredNorm();
-    size += exact[k].squaredNorm();
-  }
-  state.counters["relative_rms_error"] = std::sqrt(error / size);
+  state.counters["relative_rms_error"] = relative_error(forces, exact);
   state.counters["points"] = static_cast<double>(points.size());
   report_memory(state);
+}
+
+void ours_400_scans(benchmark::State& state) {
+  const FieldPoints& points = office_points();
+  const Field field{sigma_of(state), 4.0};
+  std::vector<PointForce> forces;
+  for (auto _ : state) {
+    point_forces(points, field, forces);
+    benchmark::DoNotOptimize(forces.data());
+  }
+  state.counters["points"] = static_cast<double>(points.size());
+  report_memory(state);
+}
+
+/// Brute force for every 200th of the points: all of them would take minutes. It says how wrong the forces are.
+void plain_400_scans_sampled(benchmark::State& state) {
+  constexpr std::size_t kStride = 200;
+  const FieldPoints& points = office_points();
+  const Field field{sigma_of(state), 4.0};
+  std::vector<PointForce> forces, sampled;
+  point_forces(points, field, forces);
+  for (std::size_t k = 0; k < forces.size(); k += kStride) sampled.push_back(forces[k]);
+  std::vector<Vec2> exact;
+  for (auto _ : state) {
+    exact.clear();
+    for (std::size_t k = 0; k < points.size(); k += kStride)
+      exact.push_back(testing::plain_force_on(k, points, field.sigma, field.soft()));
+  }
+  state.counters["relative_rms_error"] = relative_error(sampled, exact);
 }
 
 void plain_double_loop(benchmark::State& state) {
@@ -152,6 +228,15 @@ void nanoflann_cut_4(benchmark::State& state) {
   }
 }
 
+void nanoflann_400_scans(benchmark::State& state) {
+  const FieldPoints& points = office_points();
+  std::vector<Vec2> forces;
+  for (auto _ : state) {
+    tree_forces(points, sigma_of(state), forces);
+    benchmark::DoNotOptimize(forces.data());
+  }
+}
+
 /// What the k-d tree would take for the forces of the same schedule: the scans stay where they are.
 void nanoflann_schedule(benchmark::State& state) {
   const FieldPoints points = field_points();
@@ -175,6 +260,9 @@ void whole(benchmark::State& state, const char* module) {
 
 BENCHMARK(ours)->Arg(300)->Arg(50)->Unit(benchmark::kMillisecond);
 BENCHMARK(nanoflann_cut_4)->Arg(300)->Arg(50)->Unit(benchmark::kMillisecond);
+BENCHMARK(ours_400_scans)->Arg(300)->Unit(benchmark::kMillisecond);
+BENCHMARK(nanoflann_400_scans)->Arg(300)->Unit(benchmark::kMillisecond);
+BENCHMARK(plain_400_scans_sampled)->Arg(300)->Iterations(1)->Unit(benchmark::kMillisecond);
 BENCHMARK(plain_double_loop)->Arg(300)->Iterations(1)->Unit(benchmark::kMillisecond);
 BENCHMARK(nanoflann_schedule)->Iterations(1)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(whole, ffs, "ffs")->Unit(benchmark::kMillisecond);

@@ -25,8 +25,8 @@ struct MetricRow {
 };
 
 /// Which values of a metric are good. `target`: those near one value, MetricDescription::target, on either side.
-/// `neither`: no value is better than another one, because the metric describes the input, or because a method that
-/// finds less or does worse can have a lower or a higher value.
+/// `neither`: no value is better than another one, because the metric describes the input, or because both
+/// a low and a high value can come from a bad method.
 enum class Direction { lower_is_better, higher_is_better, target, neither };
 
 /// What a metric means, for tables, docs and `compare`.

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "algorithms/align/ffs/body.hpp"
+#include "algorithms/align/ffs/meeting.hpp"
 #include "algorithms/align/parts/cell_grid.hpp"
 #include "algorithms/align/parts/joint_equations.hpp"
 #include "algorithms/align/parts/outcome.hpp"
@@ -152,6 +153,16 @@ Round solve_round(const std::vector<Body>& bodies, const std::vector<double>& le
   return round;
 }
 
+/// True if a scan could move along what it meets. The equations do not show it: the distance of two points also holds
+/// along a wall, where the partners' places are those of the sampling.
+bool some_scan_slides(const std::vector<Body>& bodies, const std::vector<Pose2>& poses, double reach_m) {
+  const Cloud cloud = placed(bodies, poses);
+  align::ffs::FieldPoints points;
+  for (std::size_t k = 0; k < cloud.at.size(); ++k)
+    points.add(cloud.at[k], cloud.along[k], 1.0, static_cast<int>(cloud.scan[k]));
+  return !align::ffs::meeting_of(bodies, poses, points, {}, reach_m).sliding.empty();
+}
+
 Alignment SimultaneousIcp::align(std::span<const Observation> scans, std::span<const Pose2> initial,
                                  Trace& trace) const {
   Alignment result;
@@ -186,7 +197,8 @@ Alignment SimultaneousIcp::align(std::span<const Observation> scans, std::span<c
     trace.row(RoundRow{rounds, gates.at(rounds), last.pairs, std::sqrt(last.squares / std::max(last.pairs, 1)),
                        last.largest.shift_m, last.largest.turn_rad});
   }
-  return align::judged({last.groups, last.lowest_rank < 3, converged, rounds, last.largest}, initial, poses);
+  const bool slides = last.lowest_rank < 3 || some_scan_slides(bodies, poses, gates.narrow_m);
+  return align::judged({last.groups, slides, converged, rounds, last.largest}, initial, poses);
 }
 
 [[maybe_unused]] const bool registered = Registry<Aligner>::add<SimultaneousIcp>(

@@ -6,6 +6,7 @@
 #include "harness/analysis/agreement.hpp"
 #include "harness/report/agreement_tables.hpp"
 #include "harness/report/comparable_rows.hpp"
+#include "harness/report/paired_tables.hpp"
 #include "harness/report/paper_tables.hpp"
 #include "harness/store/summary.hpp"
 
@@ -32,6 +33,7 @@ std::vector<Table> scenario_tables(const Scenario& scenario, const std::vector<S
   append(agreement_tables(shown.name, columns));
   if (detail == TableDetail::departures) append(departure_tables(shown.name, columns));
   append(result_tables(shown, results, printed));
+  append(paired_tables(shown, results, cells));
   return tables;
 }
 

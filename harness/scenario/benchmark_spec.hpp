@@ -22,7 +22,7 @@ struct BenchmarkSpec {
 /// simulated, share the same pipelines, and have the metrics segments, efficiency (with matches: true) and timing.
 BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& scenarios);
 
+/// The text of benchmark.json.
 std::string benchmark_json(const BenchmarkSpec& spec);
-/// Reads benchmark.json of a run folder; nullopt if the run is no benchmark. Throws ConfigError if the file is damaged.
 
 }  // namespace scanbench::harness

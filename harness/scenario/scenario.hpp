@@ -33,9 +33,6 @@ struct PipelineSpec {
   std::string published;            ///< the method's name in Scenario::published_file; may be empty
 };
 
-/// True if the pipeline has a slot of this kind.
-bool has_slot(const PipelineSpec& pipeline, std::string_view kind);
-
 /// Input of a run with scans of a simulated world.
 struct SimulatedInput {
   std::string world_text;  ///< bytes of the world's file, unpacked; empty: the world is written into the scenario

@@ -10,6 +10,7 @@
 #include "harness/files/csv.hpp"
 #include "harness/files/npy.hpp"
 #include "harness/files/text_file.hpp"
+#include "harness/scenario/chain.hpp"
 #include "harness/store/json_file.hpp"
 
 namespace scanbench::harness {

@@ -20,9 +20,12 @@ class Alignment : public Figure {
  public:
   struct Params {
     std::string pipeline;
+    bool every_pipeline = false;
     static auto fields() {
       return std::tuple{field("pipeline", &Params::pipeline,
-                              "pipeline whose poses are shown; empty: the first one that changes the poses")};
+                              "pipeline whose poses are shown; empty: the first one that changes the poses"),
+                        field("every_pipeline", &Params::every_pipeline,
+                              "a panel for every pipeline that changes the poses, not for the first one alone")};
     }
   };
   explicit Alignment(const Params& params) : params_(params) {}
@@ -35,20 +38,23 @@ class Alignment : public Figure {
     for (const Frame& frame : frames) odometry.push_back(frame.odom_from_sensor);
 
     Scene scene;
-    const std::size_t most = input.recording.truth ? 3 : 2;
+    std::vector<const NamedResult*> aligned;
+    for (const NamedResult& r : input.results) {
+      if (!aligned.empty() && !params_.every_pipeline) break;
+      if (shows(params_.pipeline, r.pipeline) && r.result->world_from_sensor.size() == frames.size() &&
+          differ(r.result->world_from_sensor, odometry))
+        aligned.push_back(&r);
+    }
+    const std::size_t most = std::max<std::size_t>(aligned.size(), 1) + (input.recording.truth ? 2 : 1);
     add_panel(input, input.recording.truth ? "odometry" : "recorded poses", odometry, most, scene);
-    const auto has_poses = [&](const NamedResult& r) {
-      return shows(params_.pipeline, r.pipeline) && r.result->world_from_sensor.size() == frames.size() &&
-             differ(r.result->world_from_sensor, odometry);
-    };
-    if (const auto named = std::ranges::find_if(input.results, has_poses); named != input.results.end())
-      add_panel(input, "as aligned: " + named->pipeline, named->result->world_from_sensor, most, scene);
+    for (const NamedResult* r : aligned)
+      add_panel(input, "as aligned: " + r->pipeline, r->result->world_from_sensor, most, scene);
     if (input.recording.truth && input.recording.truth->world_from_sensor.size() == frames.size())
       add_panel(input, "true poses", input.recording.truth->world_from_sensor, most, scene);
 
     std::string sources;
     for (const Panel& panel : scene.panels) sources += (sources.empty() ? "" : "; ") + panel.title;
-    scene.columns = static_cast<int>(scene.panels.size());
+    scene.columns = static_cast<int>(std::min<std::size_t>(scene.panels.size(), 3));
     scene.width_in = scene.columns == 1 ? kSingleColumnIn : kDoubleColumnIn;
     scene.share_axes = scene.scale_bar = true;
     scene.title = fmt::format("{}: {} superimposed", input.title, counted(frames.size(), "scan"));

@@ -10,18 +10,24 @@
 
 namespace scanbench::testing {
 
+/// On point v.
+inline Vec2 plain_force_on(std::size_t v, const align::ffs::FieldPoints& points, double sigma, double soft = 0.0) {
+  Vec2 force = Vec2::Zero();
+  for (std::size_t u = 0; u < points.size(); ++u) {
+    const Vec2 to = points.at[u] - points.at[v];
+    const double d = to.norm();
+    if (points.body[u] == points.body[v] || d == 0) continue;
+    const double cosine = std::abs(points.direction[u].dot(points.direction[v]));
+    const double m = std::exp(-d * d / (2 * sigma * sigma)) / (sigma * std::sqrt(kTwoPi)) * points.weight[u] *
+                     points.weight[v] * cosine;
+    force += m * to / std::max(d, soft);
+  }
+  return force;
+}
+
 inline std::vector<Vec2> plain_forces(const align::ffs::FieldPoints& points, double sigma, double soft = 0.0) {
-  std::vector<Vec2> forces(points.size(), Vec2::Zero());
-  for (std::size_t v = 0; v < points.size(); ++v)
-    for (std::size_t u = 0; u < points.size(); ++u) {
-      const Vec2 to = points.at[u] - points.at[v];
-      const double d = to.norm();
-      if (points.body[u] == points.body[v] || d == 0) continue;
-      const double cosine = std::abs(points.direction[u].dot(points.direction[v]));
-      const double m = std::exp(-d * d / (2 * sigma * sigma)) / (sigma * std::sqrt(kTwoPi)) * points.weight[u] *
-                       points.weight[v] * cosine;
-      forces[v] += m * to / std::max(d, soft);
-    }
+  std::vector<Vec2> forces;
+  for (std::size_t v = 0; v < points.size(); ++v) forces.push_back(plain_force_on(v, points, sigma, soft));
   return forces;
 }
 

@@ -1,8 +1,8 @@
-// Forces sixteen pairs at a time over the runs of a cell grid; each pair is computed once and acts on both of its
+// Forces eight pairs at a time over the runs of a cell grid; each pair is computed once and acts on both of its
 // points.
 //
 // Only + - * and bit operations on single-precision lanes in a fixed order: the sums do not depend on how wide the
-// registers are that the compiler has for sixteen lanes. What is left out: the CPU's own estimates of reciprocal roots,
+// registers are that the compiler has for eight lanes. What is left out: the CPU's own estimates of reciprocal roots,
 // which differ between makers.
 #include "algorithms/align/ffs/force_field.hpp"
 
@@ -14,7 +14,7 @@
 
 #include "algorithms/align/parts/cell_grid.hpp"
 
-// Sixteen lanes in narrower registers change how vectors are passed between functions; all of these are inlined.
+// Eight lanes in narrower registers change how vectors are passed between functions; all of these are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace scanbench::align::ffs {
@@ -230,6 +230,13 @@ void point_forces(const FieldPoints& points, const Field& field, std::vector<Poi
   const double scale = peak(field.sigma);
   for (std::size_t k = 0; k < points.size(); ++k)
     forces[grid.order()[k]] = {scale * Vec2(lanes.fx[k], lanes.fy[k]), scale * static_cast<double>(lanes.stiffness[k])};
+}
+
+double stiffness_on_line(double spacing_m, const Field& field) {
+  double sum = 0.0;
+  for (double d = 0.5 * spacing_m; d <= field.reach(); d += spacing_m)
+    sum += 2.0 * std::exp(-0.5 * d * d / (field.sigma * field.sigma)) / std::max(d, field.soft());
+  return peak(field.sigma) * sum;
 }
 
 double potential(const FieldPoints& points, const Field& field) {

@@ -32,6 +32,13 @@ struct FieldPoints {
     weight.push_back(w);
     body.push_back(of_body);
   }
+  /// Keeps the first n <= size() points.
+  void truncate(std::size_t n) {
+    at.resize(n);
+    direction.resize(n);
+    weight.resize(n);
+    body.resize(n);
+  }
 };
 
 /// How far and how hard a point is drawn.
@@ -55,6 +62,9 @@ struct Field {
 /// single precision relative to the middle of the points: relative error some 1e-5, and 1e-7 of the map's extent in
 /// d. The same bytes on every x86-64, with wide registers or without.
 void point_forces(const FieldPoints& points, const Field& field, std::vector<PointForce>& forces);
+
+/// Stiffness of a point midway between points of weight 1 on a long line through it, `spacing_m` apart.
+double stiffness_on_line(double spacing_m, const Field& field);
 
 /// Potential of all pairs within the cut; 0 for no pairs, negative otherwise. Double precision, slower than the forces.
 double potential(const FieldPoints& points, const Field& field);

@@ -33,8 +33,8 @@ std::vector<Drive> drives_of(std::span<const Body> bodies, std::span<const Pose2
   return drives;
 }
 
-double largest_step(std::span<const Drive> drives) {
-  double stiffest = 0.0;
+double largest_step(std::span<const Drive> drives, double least_stiffness) {
+  double stiffest = least_stiffness;
   for (const Drive& drive : drives) stiffest = std::max(stiffest, drive.stiffness);
   return stiffest > 0 ? 1.0 / stiffest : 0.0;
 }

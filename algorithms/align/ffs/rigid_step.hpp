@@ -22,8 +22,9 @@ struct Drive {
 std::vector<Drive> drives_of(std::span<const Body> bodies, std::span<const Pose2> poses, const FieldPoints& points,
                              std::span<const PointForce> forces);
 
-/// The largest dt^2 / 2 with which no body passes the balance of its springs; 0 if nothing is driven.
-double largest_step(std::span<const Drive> drives);
+/// The largest dt^2 / 2 with which no body passes the balance of its springs. `least_stiffness` > 0 bounds it where all
+/// springs are faint: bodies that hardly hold each other are not thrown. 0 if nothing is driven and it is 0.
+double largest_step(std::span<const Drive> drives, double least_stiffness = 0.0);
 
 /// Moves every body at once, from rest: acceleration * dt^2 / 2 and a turn about its centre by angular * dt^2 / 2. No
 /// point moves by more than `limit`: beyond, all motions shrink together. Returns the largest displacement.

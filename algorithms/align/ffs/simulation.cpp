@@ -6,7 +6,7 @@
 
 #include "algorithms/align/ffs/meeting.hpp"
 #include "algorithms/align/ffs/rigid_step.hpp"
-#include "core/number_text.hpp"
+#include "algorithms/align/parts/outcome.hpp"
 #include "core/trace/force_field_trace.hpp"
 
 namespace scanbench::align::ffs {
@@ -57,7 +57,7 @@ class Simulation {
 
  private:
   void place() {
-    points_ = {};
+    points_.truncate(0);
     lines_.clear();
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       for (std::size_t k = 0; k < bodies_[b].points.size(); ++k)
@@ -72,17 +72,19 @@ class Simulation {
   /// One iteration; returns dt^2 / 2, which never grows.
   double iterate(int t, double step_before, Trace& trace) {
     const Field field{schedule_.sigma_at(t), schedule_.cut_sigmas, schedule_.soft_sigmas};
-    FieldPoints all = points_;
+    const std::size_t real = points_.size();
     for (std::size_t k = 0; k < virtual_scan_.points.size(); ++k)
-      all.add(virtual_scan_.points[k], virtual_scan_.directions[k], virtual_scan_.weights[k],
-              static_cast<int>(bodies_.size()));
-    point_forces(all, field, forces_);
-    const std::vector<Drive> drives = drives_of(bodies_, poses_, all, forces_);
-    double step = schedule_.step_at(t) * largest_step(drives);
+      points_.add(virtual_scan_.points[k], virtual_scan_.directions[k], virtual_scan_.weights[k],
+                  static_cast<int>(bodies_.size()));
+    point_forces(points_, field, forces_);
+    const double depth = trace.recording() ? potential(points_, field) : 0.0;
+    points_.truncate(real);
+    const std::vector<Drive> drives = drives_of(bodies_, poses_, points_, forces_);
+    double step = schedule_.step_at(t) * largest_step(drives, stiffness_on_line(schedule_.resample_m, field));
     if (step_before > 0 && step > step_before) step = step_before;
     largest_move_ = move(bodies_, drives, step, kLongestStep * field.sigma, poses_);
     if (trace.recording())
-      trace.row(force_field::IterationRow{t, field.sigma, step, potential(all, field), largest_move_,
+      trace.row(force_field::IterationRow{t, field.sigma, step, depth, largest_move_,
                                           static_cast<int>(virtual_scan_.points.size())});
     iterations_ = t + 1;
     return step;
@@ -145,7 +147,7 @@ Alignment simulate(std::span<const Observation> scans, std::span<const Pose2> in
   }
   if (!converged) {
     result.status = Status::max_iterations;
-    add_sentence("points still moved by " + number_text(simulation.largest_move()) + " m in iteration " +
+    add_sentence("points still moved by " + movement_text(simulation.largest_move()) + " m in iteration " +
                      std::to_string(simulation.iterations()),
                  result.message);
   }

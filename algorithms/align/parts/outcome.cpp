@@ -2,6 +2,8 @@
 #include "algorithms/align/parts/outcome.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -29,6 +31,17 @@ double gate_for(const OdometryError& error, std::span<const double> levers_m) {
   return kGateSigmas * std::numbers::sqrt2 * std::hypot(error.sigma_m, error.sigma_rad * lever);
 }
 
+std::string movement_text(double value) {
+  if (!(value > 0) || !std::isfinite(value)) return number_text(value);
+  const double digit = std::pow(10.0, std::floor(std::log10(value)));
+  const double rounded = digit < 1.0 ? std::round(value / digit) / std::round(1.0 / digit)  // 7 / 10000 is 0.0007
+                                     : std::round(value / digit) * digit;
+  std::array<char, 700> buffer{};  // of a double in fixed notation
+  const auto [end, error] =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), rounded, std::chars_format::fixed);
+  return {buffer.data(), end};
+}
+
 Alignment judged(const Outcome& outcome, std::span<const Pose2> initial, std::span<const Pose2> poses) {
   Alignment result;
   result.world_from_sensor.assign(initial.begin(), initial.end());
@@ -39,8 +52,8 @@ Alignment judged(const Outcome& outcome, std::span<const Pose2> initial, std::sp
   }
   if (!outcome.converged) {
     result.status = Status::max_iterations;
-    add_sentence("poses still moved by " + number_text(outcome.last.shift_m) + " m and " +
-                     number_text(degrees(outcome.last.turn_rad)) + " deg in round " + std::to_string(outcome.rounds),
+    add_sentence("poses still moved by " + movement_text(outcome.last.shift_m) + " m and " +
+                     movement_text(degrees(outcome.last.turn_rad)) + " deg in round " + std::to_string(outcome.rounds),
                  result.message);
   }
   if (outcome.slides || !outcome.groups.together()) result.status = Status::degenerate;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "algorithms/align/parts/pose_equations.hpp"
@@ -20,6 +21,9 @@ struct OdometryError {
 /// How far two scans may place one surface apart: 2.5 standard deviations of the difference of two poses, at the
 /// median of the levers (typical distances of the returns of a scan) [m]; without levers at none.
 double gate_for(const OdometryError& error, std::span<const double> levers_m);
+
+/// A movement for a message: one significant digit, so that messages of many runs can be counted together.
+std::string movement_text(double value);
 
 /// How the last round of a joint solution went.
 struct Outcome {

@@ -9,10 +9,10 @@
 
 namespace scanbench::extract {
 
-/// Sums over the outermost readings of an end: what is lost if they are not the line's.
+/// Sums over the outermost readings of one end of a line: their share of its normal equations.
 struct Tail {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  Vec2 gradient = Vec2::Zero();  ///< sum of g e / s^2 in the linear model
+  Vec2 gradient = Vec2::Zero();  ///< sum of g e / s^2: gradient g, residual e, standard deviation s
   double half_squares = 0.0;
 };
 

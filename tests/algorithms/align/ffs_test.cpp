@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/align/parts/outcome.hpp"
 #include "core/rng.hpp"
 #include "core/trace/force_field_trace.hpp"
 #include "tests/support/aligning.hpp"
@@ -151,6 +152,42 @@ TEST_P(AllToAll, SayWhenTheIterationsWereUsedUp) {
   EXPECT_NE(result.message.find("moved"), std::string::npos) << result.message;
 }
 
+TEST_P(AllToAll, LeaveNoScanAndOneScanWhereTheyAre) {
+  EXPECT_EQ(align(GetParam(), {}, {}).status, Status::converged);
+  const std::vector<Pose2> alone{{3, -4, 0.5}};
+  const Alignment one = align(GetParam(), scans_of(room(), {{0, 0, 0}}), alone);
+  EXPECT_EQ(one.status, Status::converged);
+  EXPECT_EQ(one.world_from_sensor, alone);
+}
+
+TEST_P(AllToAll, FindNothingInScansWithoutLines) {
+  ScanSeries scans;
+  for (const Pose2& p : path()) {
+    OwnedScan scan = cast(ring_sensor(360), room(), p);
+    const std::size_t beams = scan.ranges.size();
+    scans.add(std::move(scan), ScanLines{{}, std::vector<int>(beams, -1)});
+  }
+  const std::vector<Pose2> given = perturbed(path(), 4);
+  const Alignment result = align(GetParam(), scans, given);
+  EXPECT_EQ(result.status, Status::no_match);
+  EXPECT_EQ(result.world_from_sensor, given);
+  EXPECT_FALSE(result.message.empty());
+}
+
+TEST_P(AllToAll, NeverCallScansOfOneLongWallAligned) {
+  // Nothing says how far the scans are along the wall.
+  ScanSeries scans;
+  std::vector<Pose2> poses;
+  for (int k = 0; k < 4; ++k) {
+    const Pose2 at(0.5 * k, 0, 0);
+    scans.add_exact(cast(testing::fan_sensor(181, radians(90)), {{{50, 2}, {-50, 2}}}, Pose2(at.x(), 0, kPi / 2)));
+    poses.emplace_back(at.x() + 0.2 * (k % 2), 0.05 * (k % 3), kPi / 2);
+  }
+  const Alignment result = align(GetParam(), scans, poses);
+  EXPECT_EQ(result.status, Status::degenerate);
+  EXPECT_FALSE(result.message.empty());
+}
+
 TEST(VirtualScans, WithoutStrengthAreFfsBitForBit) {
   const ScanSeries scans = scans_of(room(), path());
   const std::vector<Pose2> initial = perturbed(path(), 7);
@@ -160,6 +197,13 @@ TEST(VirtualScans, WithoutStrengthAreFfsBitForBit) {
   EXPECT_EQ(none.message, plain.message);
   EXPECT_EQ(none.world_from_sensor, plain.world_from_sensor);
   EXPECT_NE(align("virtual_scans", scans, initial).world_from_sensor, plain.world_from_sensor);
+}
+
+TEST(Movement, InAMessageHasOneSignificantDigit) {
+  EXPECT_EQ(align::movement_text(0.00069277), "0.0007");
+  EXPECT_EQ(align::movement_text(0.96), "1");
+  EXPECT_EQ(align::movement_text(34.7), "30");
+  EXPECT_EQ(align::movement_text(0.0), "0");
 }
 
 TEST(Ffs, ScheduleRefusesWhatDoesNotCool) {

@@ -13,7 +13,7 @@
 #include "harness/report/ranking_table.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/scenario_file.hpp"
-#include "harness/store/run_files.hpp"
+#include "harness/store/run_scenarios.hpp"
 #include "harness/store/summary.hpp"
 #include "tests/support/inputs.hpp"
 

@@ -195,6 +195,25 @@ TEST(RigidStep, MovesNoPointFartherThanTheLimit) {
   for (const Vec2& p : bodies[0].points) EXPECT_LE((poses[0] * p - before[0] * p).norm(), 0.01);
 }
 
+TEST(RigidStep, OfFaintSpringsIsNoLongerThanThatOfTheLeastOnesAllowed) {
+  const std::vector<Drive> faint{{{1, 0}, 0.0, 1e-9}};
+  EXPECT_DOUBLE_EQ(largest_step(faint), 1e9);
+  EXPECT_DOUBLE_EQ(largest_step(faint, 4.0), 0.25);
+  EXPECT_DOUBLE_EQ(largest_step(std::vector<Drive>{{{1, 0}, 0.0, 8.0}}, 4.0), 0.125) << "strong springs decide";
+  EXPECT_EQ(largest_step({}), 0.0);
+}
+
+TEST(ForceField, StiffnessOnALineIsThatOfAPointBetweenThePointsOfOne) {
+  const align::ffs::Field field{0.3, 4.0, 0.05};
+  const double spacing = 0.07;
+  FieldPoints points;
+  for (int k = -100; k < 100; ++k) points.add({spacing * (k + 0.5), 0}, {1, 0}, 1.0, 0);
+  points.add({0, 0}, {1, 0}, 1.0, 1);
+  std::vector<PointForce> forces;
+  point_forces(points, field, forces);
+  EXPECT_NEAR(forces.back().stiffness, stiffness_on_line(spacing, field), 1e-4 * forces.back().stiffness);
+}
+
 TEST(Resampling, IsEquidistantAndKeepsBothEnds) {
   std::vector<Vec2> points;
   resample({{0, 0}, {1.03, 0}}, 0.1, points);

@@ -1,5 +1,5 @@
-// manifest.json, scenario.yaml, effective.yaml (or a folder of each), benchmark.json of a run, and copies of its input.
-#include "harness/store/run_files.hpp"
+// scenario.yaml and effective.yaml (or a folder of each), benchmark.json, and copies of the input of a run.
+#include "harness/store/run_scenarios.hpp"
 
 #include <variant>
 
@@ -78,45 +78,24 @@ void add_sources(const fs::path& run, Scenario& scenario) {
   });
 }
 
-void write_scenarios(const fs::path& run, const RunStart& start) {
-  if (start.scenarios.size() == 1) {
-    const Scenario& scenario = start.scenarios.front();
+}  // namespace
+
+void write_run_scenarios(const fs::path& run, const std::vector<Scenario>& scenarios,
+                         const EffectiveText& effective_yaml) {
+  if (scenarios.size() == 1) {
+    const Scenario& scenario = scenarios.front();
     const StoredInputs stored = store_inputs(run, scenario, "");
     write_file_atomically(run / kScenarioFile, scenario.text);
-    write_file_atomically(run / kEffectiveFile, start.effective_yaml(scenario, stored));
+    write_file_atomically(run / kEffectiveFile, effective_yaml(scenario, stored));
     return;
   }
   make_folders(run / "scenarios");
   make_folders(run / "effective");
-  for (const auto& scenario : start.scenarios) {
+  for (const auto& scenario : scenarios) {
     const StoredInputs stored = store_inputs(run, scenario, "../");
     write_file_atomically(run / "scenarios" / (scenario.name + ".yaml"), scenario.text);
-    write_file_atomically(run / "effective" / (scenario.name + ".yaml"), start.effective_yaml(scenario, stored));
+    write_file_atomically(run / "effective" / (scenario.name + ".yaml"), effective_yaml(scenario, stored));
   }
-}
-
-}  // namespace
-
-Manifest start_run(const RunTarget& target, const RunStart& start) {
-  const fs::path& run = target.path();
-  make_folders(run);
-  Manifest manifest{"running", utc_now(), "", start.argv, {}, start.cells};
-  for (const auto& scenario : start.scenarios) manifest.scenarios.push_back(scenario.name);
-  write_manifest(run, manifest);  // with it the folder is ours
-  if (start.benchmark)
-    write_file_atomically(run / kBenchmarkFile, benchmark_json(*start.benchmark));
-  else
-    remove_file(run / kBenchmarkFile);
-  write_scenarios(run, start);
-  return manifest;
-}
-
-void end_run(RunTarget& target, Manifest& manifest, const std::string& state, bool reports_follow) {
-  manifest.state = state;
-  manifest.end = utc_now();
-  write_manifest(target.path(), manifest);
-  if (reports_follow) set_run_state(target.path(), "running");
-  target.finish();
 }
 
 std::vector<Scenario> load_run_scenarios(const fs::path& run) {
@@ -130,6 +109,13 @@ std::vector<Scenario> load_run_scenarios(const fs::path& run) {
     add_sources(run, scenarios.back());
   }
   return scenarios;
+}
+
+void write_benchmark(const fs::path& run, const std::optional<BenchmarkSpec>& benchmark) {
+  if (benchmark)
+    write_file_atomically(run / kBenchmarkFile, benchmark_json(*benchmark));
+  else
+    remove_file(run / kBenchmarkFile);
 }
 
 std::optional<BenchmarkSpec> load_benchmark(const fs::path& run) {
