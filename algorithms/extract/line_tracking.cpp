@@ -92,7 +92,7 @@ class LineTracking final : public LineExtractor {
     for (const PointRun& whole : runs_between_gaps(points, {params_.max_gap_m, params_.max_missing_beams}))
       track(scan, points, whole, runs);
     const SupportRules rules{params_.min_points, params_.min_length_m};
-    // The time of the least-squares line counts for the grouping, of which it is a part (Siadat, end of section 3).
+    // The time of the least-squares line counts as grouping time, of which it is a part (Siadat, end of section 3).
     if (params_.fit == Fit::tls) {
       ScanLines lines = lines_of_runs(scan, points, runs, Fit::tls, rules);
       trace.stage(Stage::post);

@@ -21,7 +21,7 @@ struct Adjacent {
 
 struct UncertainLine {
   BeamLine line;                 ///< mean over all hypotheses; information: inverse of the total covariance
-  std::array<int, 2> foreign{};  ///< median number of readings at the first and last end that are not the line's
+  std::array<int, 2> foreign{};  ///< median number of readings at the first and last end that do not belong to the line
   std::array<double, 2> side{};  ///< probability that a side joins the line with the next one
 };
 

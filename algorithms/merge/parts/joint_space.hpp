@@ -25,9 +25,9 @@ struct JointSpace {
 
 /// Lines with a coordinate beyond this many metres are not used.
 inline constexpr double kFarthest = 1e9;
-/// At coordinates larger than this many standard deviations a double is too coarse for a mode.
+/// At coordinates above this number of standard deviations, a double is too coarse for a mode.
 inline constexpr double kMostSigmas = 1e8;
-/// More pieces than this are refused: all stages together would take about 4 GiB.
+/// More pieces are refused, because all stages together would take about 4 GiB.
 inline constexpr double kMostPieces = 1e7;
 
 /// Cuts every line into ceil(length / longest) equal pieces; one for longest = infinity. Throws ParamError for sigma_m,
