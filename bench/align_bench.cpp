@@ -1,7 +1,9 @@
-// Force field simulation: one iteration's forces against the plain double loop and against a nanoflann k-d tree cut at
-// the same four standard deviations, and whole alignments of 60 scans of some 200 resampled points, 100 iterations.
+// Time of force field simulation. The forces of one iteration are compared with the plain double loop and with a
+// nanoflann k-d tree, cut at the same four standard deviations. Whole alignments of 60 scans of about 200 resampled
+// points take 100 iterations.
 //
-// The map: 60 scans of an arena of 12 m x 8.4 m with panels, from random places, each pose wrong by some centimetres.
+// The map consists of 60 scans of an arena of 12 m x 8.4 m with panels, from random positions. The poses have errors of
+// some centimetres.
 #include <benchmark/benchmark.h>
 
 #include <sys/resource.h>
@@ -64,7 +66,7 @@ const Scans& scans() {
   return made;
 }
 
-constexpr double kResampleM = 0.04;  // some 200 points a scan
+constexpr double kResampleM = 0.04;  // about 200 points per scan
 
 FieldPoints field_points() {
   FieldPoints points;
@@ -122,7 +124,7 @@ struct Cloud {
   }
 };
 
-/// Forces through a k-d tree, built anew, cut at four standard deviations, in double precision.
+/// Forces from a new k-d tree, cut at four standard deviations, in double precision.
 void tree_forces(const FieldPoints& points, double sigma, std::vector<Vec2>& forces) {
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 2, std::size_t>;
   const Cloud cloud{points.at};
@@ -152,7 +154,7 @@ void nanoflann_cut_4(benchmark::State& state) {
   }
 }
 
-/// What the k-d tree would take for the forces of the same schedule: the scans stay where they are.
+/// The time that the k-d tree would take for the forces of the same schedule. The scans do not move here.
 void nanoflann_schedule(benchmark::State& state) {
   const FieldPoints points = field_points();
   std::vector<Vec2> forces;
