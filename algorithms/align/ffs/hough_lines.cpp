@@ -72,8 +72,8 @@ class Accumulator {
   }
   int half() const { return half_; }
 
-  /// The votes of a cell plus half of those of its neighbours in distance, so that a line near a border is not lost. An
-  /// angle beyond either end stands for the same line with the opposite normal.
+  /// The votes of a cell plus half of those of its neighbours in distance, so that a line near a border is not lost. A
+  /// cell at an angle outside the table is the cell of the same line with the opposite normal.
   float smoothed(int angle, int cell) const {
     if (angle < 0 || angle >= kAngles) {
       angle += angle < 0 ? kAngles : -kAngles;

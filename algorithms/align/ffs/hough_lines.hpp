@@ -1,5 +1,5 @@
-// Finds lines on which many points of the map lie: the Hough transform (Hough 1962; Duda & Hart 1972), with which
-// Lakaemper 2010, section 4.1, finds the lines of a virtual scan.
+// Finds lines with many points of the map by the Hough transform (Hough 1962; Duda & Hart 1972), with which Lakaemper
+// 2010, section 4.1, finds the lines of a virtual scan.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Parallel pairs, pairs of these pairs, and the ideal rectangle of each.
+// Detection of rectangles: parallel pairs of segments, pairs of these pairs, and the ideal rectangle of each.
 #include "algorithms/align/ffs/rectangles.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Lines into the cells within their reach.
+// Construction of the grid: enters each line in the cells within its reach.
 #include "algorithms/align/parts/line_grid.hpp"
 
 #include <algorithm>

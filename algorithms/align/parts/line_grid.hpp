@@ -39,7 +39,8 @@ struct PartnerRules {
   double min_aligned;  ///< smallest cosine of the angle between surface and line, if the surface is known
 };
 
-/// Is the reading within gate and extent, seen from the free side by a beam towards the line, and aligned with it?
+/// True if the reading is within gate and extent, seen from the free side by a beam towards the line, and aligned with
+/// it.
 inline bool may_belong(const Sighting& seen, const PlacedLine& line, const PartnerRules& rules) {
   const double distance = line.before(seen.point);
   if (!(std::abs(distance) <= rules.gate_m)) return false;

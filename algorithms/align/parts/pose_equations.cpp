@@ -1,4 +1,4 @@
-// Shapes of scans, the rank rule and the update of a pose.
+// Registered parts of a scan, the rank rule and the update of a pose.
 #include "algorithms/align/parts/pose_equations.hpp"
 
 #include <algorithm>

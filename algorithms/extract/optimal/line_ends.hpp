@@ -11,8 +11,8 @@
 
 namespace scanbench::extract {
 
-/// What follows one end of a line: the next line with its readings in scan order, which begin directly after the line's
-/// last one; or, without a next line, the range of the next reading.
+/// The neighbour of one end of a line: the next line with its readings in scan order, which begin directly after the
+/// last reading of the line; or, without a next line, the range of the next reading.
 struct Adjacent {
   std::optional<BeamLine> line;
   std::span<const BeamReading> readings;

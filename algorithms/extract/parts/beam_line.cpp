@@ -1,4 +1,4 @@
-// Gauss-Newton on 1/range = theta . direction. docs/algorithms/optimal.md, section 5.
+// Gauss-Newton fit of 1/range = theta . direction. docs/algorithms/optimal.md, section 5.
 #include "algorithms/extract/parts/beam_line.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Spurious returns, code lengths and weights. docs/algorithms/optimal.md, section 2.
+// Removal of spurious returns; code lengths and weights of the others. docs/algorithms/optimal.md, section 2.
 #include "algorithms/extract/parts/scan_model.hpp"
 
 #include <algorithm>

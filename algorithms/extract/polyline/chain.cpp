@@ -1,4 +1,4 @@
-// Levenberg-Marquardt on the vertices of a chain. docs/algorithms/polyline.md, section 3.
+// Levenberg-Marquardt fit of the vertices of a chain. docs/algorithms/polyline.md, section 3.
 #include "algorithms/extract/polyline/chain.hpp"
 
 #include <algorithm>

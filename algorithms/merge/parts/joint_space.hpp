@@ -20,7 +20,7 @@ struct Piece {
 /// called a, except among lines equal in every number.
 struct JointSpace {
   std::vector<Piece> pieces;
-  std::size_t unusable = 0;  ///< lines left out: not finite, without length, or beyond kFarthest
+  std::size_t unusable = 0;  ///< number of lines skipped: not finite, without length, or beyond kFarthest
 };
 
 /// Lines with a coordinate beyond this many metres are not used.
