@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct Context {
   Action& action;
   std::vector<std::string> argv;
   std::filesystem::path program;  ///< argv[0]
+  /// What a positional argument that is no file can be; for completion on the command line.
+  std::map<const CLI::Option*, std::function<std::vector<std::string>()>> words = {};
 };
 
 }  // namespace scanbench::app

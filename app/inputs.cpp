@@ -16,22 +16,38 @@ namespace scanbench::app {
 namespace fs = std::filesystem;
 namespace {
 
-/// Throws ConfigError, with the nearest name in the same folder, if there is no such file.
-void check_exists(const std::string& file) {
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(file, error))) return;
-  const fs::path path = file;
+std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
     names.push_back(entry->path().filename().string());
   std::ranges::sort(names);
-  const std::string near = nearest_name(path.filename().string(), names);
-  throw ConfigError(file + ": no such file" +
-                    (near.empty() ? "" : "; did you mean '" + (path.parent_path() / near).string() + "'?"));
+  return names;
+}
+
+/// Throws ConfigError, with the nearest file, if there is no such file.
+void check_exists(const std::string& file) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(file, error))) return;
+  const std::string near = nearest_file(file);
+  throw ConfigError(file + ": no such file" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
 }
 
 }  // namespace
+
+std::string nearest_file(const fs::path& path) {
+  const bool bare = !path.has_parent_path();
+  const std::string name = path.filename().string();
+  if (const std::string near = nearest_name(name, names_in(bare ? "." : path.parent_path())); !near.empty())
+    return (path.parent_path() / near).string();
+  if (!bare) return "";
+  for (const fs::path folder : {"scenarios", "scenarios/suites", "scenarios/logs", "out"}) {
+    const auto names = names_in(folder);
+    for (const std::string& candidate : {name, path.stem().string() + ".yaml"})
+      if (const std::string near = nearest_name(candidate, names); !near.empty()) return (folder / near).string();
+  }
+  return "";
+}
 
 std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
                                            std::string* name, std::optional<harness::BenchmarkSpec>* benchmark) {

@@ -1,6 +1,7 @@
 // The scenarios and seeds that the command line names.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,10 @@
 #include "harness/scenario/scenario.hpp"
 
 namespace scanbench::app {
+
+/// The path that a misspelt one probably means: the nearest name in the same folder; for a bare name like `abcdef`,
+/// also a file below scenarios/ or a folder of out/ of that name. Empty if nothing is near.
+std::string nearest_file(const std::filesystem::path& path);
 
 /// Scenarios of scenario and suite files, in order; `name` receives the first file's name without extension,
 /// `benchmark` the specification of a suite that is the only file.

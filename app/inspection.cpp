@@ -3,10 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "app/inputs.hpp"
 #include "harness/report/catalog.hpp"
 #include "harness/run/make_recording.hpp"
+#include "harness/run/run_plan.hpp"
 #include "harness/scenario/effective.hpp"
+#include "harness/scenario/suite.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -15,18 +21,35 @@ void print(const std::string& text) {
   fmt::print("{}", text);
 }
 
-int check(const std::vector<std::string>& files, const std::vector<std::string>& sets, bool effective) {
-  for (const auto& scenario : load_inputs(files, sets)) {
-    harness::check_scenario(scenario);
-    if (effective) {
-      print(harness::effective_yaml(scenario));
-      continue;
-    }
-    fmt::print("{}: good: {} pipeline{} on {} seed{}\n", scenario.path.string(), scenario.pipelines.size(),
-               scenario.pipelines.size() == 1 ? "" : "s", scenario.seeds.size(), scenario.seeds.size() == 1 ? "" : "s");
-    if (scenario.pipelines.empty()) fmt::print("  note: no pipelines: for `simulate` and for suites, not for `run`\n");
-    for (const auto& note : scenario.notes) fmt::print("  note: {}\n", note);
+std::string counted(std::size_t count, const std::string& thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+/// The scenarios of one file, which have been checked. Those of a suite are named: its conditions.
+void print_good(const std::string& file, const std::vector<harness::Scenario>& scenarios) {
+  std::size_t cells = 0;
+  for (const auto& scenario : scenarios) cells += scenario.pipelines.size() * scenario.seeds.size();
+  const bool suite = harness::is_suite(file);
+  if (suite) fmt::print("{}: good: {}, {}\n", file, counted(scenarios.size(), "scenario"), counted(cells, "cell"));
+  for (const auto& scenario : scenarios) {
+    fmt::print("{}: {}{} on {}\n", suite ? "  " + scenario.name : file,
+               suite ? "" : "good: ", counted(scenario.pipelines.size(), "pipeline"),
+               counted(scenario.seeds.size(), "seed"));
+    for (const auto& note : scenario.notes) fmt::print("{}  note: {}\n", suite ? "  " : "", note);
   }
+}
+
+int check(const std::vector<std::string>& files, const std::vector<std::string>& sets, bool effective,
+          bool for_simulate) {
+  const auto all = load_inputs(files, sets);
+  // What run refuses, check refuses too, in the same words.
+  if (!for_simulate && !effective) harness::plan_run(all, {.out = {}});
+  for (const auto& scenario : all) {
+    harness::check_scenario(scenario);
+    if (effective) print(harness::effective_yaml(scenario));
+  }
+  if (effective) return kGood;
+  for (const auto& file : files) print_good(file, files.size() == 1 ? all : load_inputs({file}, sets));
   return kGood;
 }
 
@@ -49,34 +72,53 @@ int describe(const std::string& name, bool all, bool markdown, bool json) {
   return kGood;
 }
 
+/// For completion on the command line.
+std::vector<std::string> kinds() {
+  std::vector<std::string> words{"modules"};
+  for (const auto& entry : harness::catalog())
+    if (words.back() != entry.kind) words.push_back(entry.kind);
+  return words;
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> words;
+  for (const auto& entry : harness::catalog()) words.push_back(entry.info.name);
+  return words;
+}
+
 }  // namespace
 
 void add_inspection(Context& context) {
   struct Options {
     std::vector<std::string> files, sets;
     std::string name;
-    bool effective = false, json = false, all = false, markdown = false;
+    bool effective = false, for_simulate = false, json = false, all = false, markdown = false;
   };
   auto options = std::make_shared<Options>();
 
-  auto* check_verb = context.app.add_subcommand("check", "Checks scenario or suite files without running them");
+  auto* check_verb =
+      context.app.add_subcommand("check", "Checks scenario or suite files as `run` would, without running them");
   check_verb->add_option("FILE", options->files, "scenario or suite files")->required();
   check_verb->add_option("--set", options->sets, "KEY=VALUE: replaces a value of the file (dotted keys)")->take_all();
   check_verb->add_flag("--effective", options->effective, "print the scenario with every default filled in");
+  check_verb->add_flag("--simulate", options->for_simulate, "check for `simulate`, which needs no pipelines");
   check_verb->callback([&context, options] {
-    context.action = [options] { return check(options->files, options->sets, options->effective); };
+    context.action = [options] {
+      return check(options->files, options->sets, options->effective, options->for_simulate);
+    };
   });
 
   auto* list_verb = context.app.add_subcommand("list", "Lists modules, metrics, figures, trajectories and sensors");
-  list_verb->add_option("KIND", options->name,
-                        "only this kind: modules, extract, merge, metrics, figures, trajectories, sensors, ...");
+  context.words[list_verb->add_option(
+      "KIND", options->name, "only this kind: modules, extract, merge, metrics, figures, trajectories, sensors, ...")] =
+      kinds;
   list_verb->add_flag("--json", options->json, "as JSON");
   list_verb->callback(
       [&context, options] { context.action = [options] { return list(options->name, options->json); }; });
 
   auto* describe_verb =
       context.app.add_subcommand("describe", "Shows what a module does, its parameters, defaults and bounds");
-  describe_verb->add_option("NAME", options->name, "a name from `list`, or a metric, like f1");
+  context.words[describe_verb->add_option("NAME", options->name, "a name from `list`, or a metric, like f1")] = names;
   describe_verb->add_flag("--all", options->all, "describe everything");
   describe_verb->add_flag("--markdown", options->markdown,
                           "as Markdown (docs/modules.md is made with --all --markdown)");

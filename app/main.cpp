@@ -10,10 +10,13 @@
 #include <vector>
 
 #include "app/inspection.hpp"
+#include "app/new_module.hpp"
 #include "app/progress.hpp"
 #include "app/recordings.hpp"
 #include "app/results.hpp"
 #include "app/run.hpp"
+#include "app/shell_help.hpp"
+#include "app/show.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "harness/report/plain_text.hpp"
@@ -66,8 +69,6 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", harness::version_text());
   app.require_subcommand(1);
   app.footer(
-      "The script ./scanbench in the folder of the sources has two more verbs: `./scanbench build` builds the program, "
-      "`./scanbench test` builds and runs its tests.\n\n"
       "Exit codes: 0 good, 1 a gate failed, 2 bad input, 3 some cells failed, 4 incomplete, 5 both 1 and 4, 70 a bug "
       "of the program, 130 "
       "interrupted.");
@@ -79,6 +80,9 @@ int run_program(int argc, char** argv) {
   app::add_inspection(context);
   app::add_recordings(context);
   app::add_results(context);
+  app::add_new_module(context);
+  app::add_shell_help(context);
+  app::add_show(context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

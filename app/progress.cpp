@@ -19,13 +19,15 @@ constexpr int kWidth = 30;
 
 volatile std::sig_atomic_t interrupted = 0;  // the only kind of variable that a signal handler may set
 
-std::string duration_text(double seconds) {
-  if (seconds < 60) return fmt::format("{:.0f} s", seconds);
-  const int minutes = static_cast<int>(seconds / 60);
-  return fmt::format("{} min {:02} s", minutes, static_cast<int>(seconds) % 60);
-}
-
 }  // namespace
+
+std::string duration_text(double seconds) {
+  if (seconds < 2) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 60) return fmt::format("{:.0f} s", seconds);
+  const auto minutes = static_cast<long long>(seconds / 60);
+  if (minutes >= 60) return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
+  return fmt::format("{} min {:02} s", minutes, static_cast<long long>(seconds) % 60);
+}
 
 void say(const std::string& text) noexcept {
   // A pipe without a reader raises SIGPIPE: it is blocked here, and removed if it was raised.

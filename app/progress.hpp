@@ -15,6 +15,9 @@ struct Interrupted {};
 /// nobody reads must not end a run.
 void say(const std::string& text) noexcept;
 
+/// "8 s", "3 min 05 s", "2 h 10 min"; "0.3 s" below two seconds.
+std::string duration_text(double seconds);
+
 /// Opens those of standard input, output and error that the caller has closed, so that no other file gets their
 /// descriptors.
 void open_standard_streams() noexcept;

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "app/drawing.hpp"
 #include "app/inputs.hpp"
 #include "app/progress.hpp"
+#include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "harness/analysis/compare.hpp"
 #include "harness/files/atomic_file.hpp"
@@ -24,8 +26,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Throws ConfigError, with the nearest name, for a folder that does not exist.
+void check_run_exists(const fs::path& run) {
+  if (fs::exists(run)) return;
+  const std::string near = nearest_file(run);
+  throw ConfigError(run.string() + ": no such folder" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
+}
+
 // Scenarios of the run, or of files that replace them (to score with other metrics, to draw other figures).
 std::vector<harness::Scenario> scenarios_for(const fs::path& run, const std::vector<std::string>& files) {
+  check_run_exists(run);
   return files.empty() ? harness::load_run_scenarios(run) : load_inputs(files, {});
 }
 
@@ -55,12 +65,20 @@ int figures(const fs::path& run, const std::vector<std::string>& files, bool pdf
   harness::refuse_linked_folders(run);
   const InterruptGuard guard;
   Progress progress(progress_style(quiet));
-  harness::draw_run_figures(run, scenarios, pdf,
-                            [&](double share, const std::string& what) { progress.update(share, "figure " + what); });
+  const std::string failure = draw_within_limits(run, scenarios, pdf, progress);
   progress.finish();
+  if (!failure.empty()) {
+    say("scanbench: " + failure + "\n");
+    return kCellsFailed;
+  }
   if (quiet) return kGood;
   const auto drawn = harness::load_figure_index(run);
-  for (const auto& figure : drawn) fmt::print("{}\n", (run / "figures" / (figure.name + ".svg")).string());
+  for (const auto& figure : drawn) {
+    if (figure.name.empty())
+      fmt::print("{}: {}\n", figure.scenario, figure.caption);
+    else
+      fmt::print("{}\n", (run / "figures" / (figure.name + ".svg")).string());
+  }
   if (drawn.empty())
     fmt::print("nothing to draw: {}\n",
                std::ranges::any_of(scenarios, [](const auto& s) { return !s.figures.empty(); })
@@ -70,7 +88,7 @@ int figures(const fs::path& run, const std::vector<std::string>& files, bool pdf
 }
 
 int report(const fs::path& run) {
-  const auto scenarios = harness::load_run_scenarios(run);
+  const auto scenarios = scenarios_for(run, {});
   const harness::RunLock lock(run);
   harness::refuse_linked_folders(run);
   harness::write_reports(run, harness::load_report_input(run, scenarios));
@@ -83,6 +101,8 @@ std::string shown(double value) {
 }
 
 int compare(const fs::path& a, const fs::path& b, const std::string& csv, bool all) {
+  check_run_exists(a);
+  check_run_exists(b);
   const harness::Comparison comparison = harness::compare_runs(a, b);
   harness::Table table{
       "compare",

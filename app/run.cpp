@@ -10,6 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/drawing.hpp"
+#include "app/fault_notes.hpp"
+#include "app/forecast.hpp"
 #include "app/inputs.hpp"
 #include "app/progress.hpp"
 #include "core/error.hpp"
@@ -32,7 +35,7 @@ struct Options {
   std::vector<std::string> files, sets, seeds, only;
   std::string out;
   int jobs = 1;
-  bool resume = false, quiet = false, json = false, journal = false, no_figures = false;
+  bool resume = false, quiet = false, json = false, journal = false, no_figures = false, dry_run = false;
 };
 
 std::size_t terminal_width() {
@@ -59,21 +62,22 @@ void print_json(const harness::RunResult& result) {
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-void note_cell(Progress& progress, const harness::CellResult& cell) {
-  const auto& outcome = cell.record.outcome;
-  if (outcome.status == harness::CellStatus::ok) return;
+void note_cell(Progress& progress, FaultNotes& faults, const harness::CellResult& cell) {
+  if (cell.record.outcome.status == harness::CellStatus::ok) return;
   progress.failure();
-  progress.note(fmt::format("{}: {}: {}", harness::to_string(cell.key),
-                            cell.done ? to_string(outcome.status) : "missing", harness::plain_line(outcome.message)));
+  if (const std::string note = faults.note(cell); !note.empty()) progress.note(note);
 }
 
-/// Draws the figures of a run, unless the user wants none, and writes its report.
-harness::ReportInput write_report(const harness::RunResult& result, const Options& options, Progress& progress) {
+void note_absent_figures(const harness::ReportInput& report) {
+  for (const auto& figure : report.figures)
+    if (figure.name.empty()) say(fmt::format("{}: note: {}\n", figure.scenario, figure.caption));
+}
+
+/// Draws the figures of a run, unless the user wants none, and writes its report. `failure`: why they were not drawn.
+harness::ReportInput write_report(const harness::RunResult& result, const Options& options, Progress& progress,
+                                  std::string& failure) {
   const auto scenarios = harness::load_run_scenarios(result.out);
-  if (!options.no_figures)
-    harness::draw_run_figures(result.out, scenarios, false, [&](double share, const std::string& what) {
-      progress.update(0.95 + 0.05 * share, "figure " + what);
-    });
+  if (!options.no_figures) failure = draw_within_limits(result.out, scenarios, false, progress);
   auto report = harness::load_report_input(result.out, scenarios);
   harness::write_reports(result.out, report);
   return report;
@@ -89,6 +93,18 @@ std::string missing_text(const harness::RunResult& result) {
                      result.old_run_kept ? "; the earlier run in " + result.out.string() + " is unchanged" : "");
 }
 
+/// How many cells did not end well, and why the first one did not; empty if all did.
+std::string failed_text(const harness::RunResult& result) {
+  const auto has_failed = [](const harness::CellResult& cell) {
+    return cell.done && cell.record.outcome.status != harness::CellStatus::ok;
+  };
+  const auto first = std::ranges::find_if(result.cells, has_failed);
+  if (first == result.cells.end()) return "";
+  return fmt::format("scanbench: {} of {} cells failed; {}: {}: {}\n", std::ranges::count_if(result.cells, has_failed),
+                     result.cells.size(), harness::to_string(first->key), to_string(first->record.outcome.status),
+                     harness::plain_line(first->record.outcome.message));
+}
+
 int run(const Options& options, const std::vector<std::string>& argv) {
   std::string name;
   std::optional<harness::BenchmarkSpec> benchmark;
@@ -98,7 +114,6 @@ int run(const Options& options, const std::vector<std::string>& argv) {
     for (const auto& note : scenario.notes)
       if (!options.quiet) say(fmt::format("{}: note: {}\n", scenario.name, note));
 
-  Progress progress(progress_style(options.quiet));
   harness::RunOptions run_options;
   run_options.out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
   run_options.jobs = options.jobs;
@@ -107,22 +122,27 @@ int run(const Options& options, const std::vector<std::string>& argv) {
   run_options.journal = options.journal;
   run_options.argv = argv;
   run_options.benchmark = benchmark;
+  if (options.dry_run) return print_forecast(scenarios, run_options, options.quiet);
+  Progress progress(progress_style(options.quiet));
+  FaultNotes faults;
   run_options.progress = [&](const harness::RunProgress& now) {
-    if (now.cell != nullptr) note_cell(progress, *now.cell);
+    if (now.cell != nullptr) note_cell(progress, faults, *now.cell);
     const double total = static_cast<double>(now.total);
     progress.update(total > 0 ? 0.95 * static_cast<double>(now.done) / total : 0.0, now.what);
   };
   std::optional<harness::ReportInput> report;
+  std::string figure_failure;
   run_options.finish = [&](const harness::RunResult& result) {
     const InterruptGuard guard;
     try {
-      report = write_report(result, options, progress);
+      report = write_report(result, options, progress, figure_failure);
     } catch (const ConfigError& error) {
       if (result.exit_code() != kIncomplete) throw;  // else the report fails for the same reason
       say(fmt::format("scanbench: {}\n", error.what()));
     }
   };
   const harness::RunResult result = harness::run(scenarios, run_options);
+  for (const auto& line : faults.repeated()) progress.note(line);
   progress.finish();
   if (result.interrupted) {
     say(fmt::format("scanbench: interrupted; the finished cells of a new run stay in {} (--resume continues)\n",
@@ -130,14 +150,17 @@ int run(const Options& options, const std::vector<std::string>& argv) {
     return kInterrupted;
   }
   if (result.exit_code() == kIncomplete) say(missing_text(result));
+  if (options.quiet) say(failed_text(result));
+  if (!figure_failure.empty()) say("scanbench: " + figure_failure + "\n");
 
+  if (!options.quiet && report) note_absent_figures(*report);
   if (options.json) {
     print_json(result);
   } else if (!options.quiet && report) {
     print_tables(*report);
     fmt::print("{}\n", (result.out / harness::kReportPage).string());
   }
-  return result.exit_code();
+  return result.exit_code() == kGood && !figure_failure.empty() ? kCellsFailed : result.exit_code();
 }
 
 }  // namespace
@@ -158,6 +181,9 @@ void add_run(Context& context) {
       ->delimiter(',');
   verb->add_flag("--resume", options->resume, "reuse the cells of an earlier run that have not changed");
   verb->add_flag("--trace", options->journal, "write the intermediate results of the algorithms (trace.csv)");
+  verb->add_flag("--dry-run", options->dry_run,
+                 "print how many cells, rays, bytes and seconds the run would take, from a trial of a few scans; write "
+                 "nothing");
   verb->add_flag("--no-figures", options->no_figures, "draw no figures");
   verb->add_flag("-q,--quiet", options->quiet, "print only errors");
   verb->add_flag("--json", options->json, "print the cells' outcomes as JSON");

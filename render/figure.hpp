@@ -75,6 +75,10 @@ class Figure {
   virtual std::vector<std::string> trace_rows(std::string_view /*pipeline*/) const { return {}; }
   /// No scenes if there is nothing to show (no truth, no map).
   virtual std::vector<NamedScene> draw(const FigureInput& input) const = 0;
+  /// Why draw() gives no scenes for this input, for people.
+  virtual std::string why_nothing(const FigureInput& /*input*/) const {
+    return "the recording and the results have nothing that it shows";
+  }
 };
 
 }  // namespace scanbench::render

@@ -28,25 +28,23 @@ struct Format {
   std::vector<std::string_view> notes;
 };
 
-void nothing_to_check(const LogOptions&) {}
-
 constexpr std::string_view kAngleRule =
-    "beam angles: first_angle_deg and step_deg if step_deg is given; else -90 deg + i * 180/n for n = 180 and 360 "
-    "beams, -90 deg + i * 180/(n-1) for 181 and 361; other numbers of beams need step_deg";
+    "beam angles: first_angle_deg and step_deg (or span_deg / n) if one of them is given; else -90 deg + i * 180/n for "
+    "n = 180 and 360 beams, -90 deg + i * 180/(n-1) for 181 and 361; other numbers of beams need step_deg or span_deg";
 constexpr std::string_view kNoReturn = "no_return_m must be given: the log does not state it";
 
 const std::array<Format, 3>& formats() {
   static const std::array<Format, 3> all = {
       Format{"carmen",
-             {"poses", "no_return_m", "range_min_m", "first_angle_deg", "step_deg", "every", "max_frames", "sensor_x_m",
-              "sensor_y_m", "sensor_yaw_deg"},
+             {"poses", "no_return_m", "range_min_m", "first_angle_deg", "step_deg", "span_deg", "angles", "every",
+              "max_frames", "sensor_x_m", "sensor_y_m", "sensor_yaw_deg"},
              parse_carmen,
-             nothing_to_check,
+             check_angle_options,
              "CARMEN log: FLASER or ROBOTLASER1 lines",
-             {kNoReturn, kAngleRule, "ROBOTLASER1 states its angles; step_deg, if given, replaces them"}},
+             {kNoReturn, kAngleRule, "ROBOTLASER1 states its angles; step_deg or span_deg, if given, replaces them"}},
       Format{"csv",
              {"columns", "skip_lines", "beams", "unit_m", "no_return_m", "range_min_m", "first_angle_deg", "step_deg",
-              "every", "max_frames", "sensor_x_m", "sensor_y_m", "sensor_yaw_deg"},
+              "span_deg", "angles", "every", "max_frames", "sensor_x_m", "sensor_y_m", "sensor_yaw_deg"},
              parse_csv_scans,
              check_csv_options,
              "one scan per row of numbers",
@@ -55,12 +53,13 @@ const std::array<Format, 3>& formats() {
               "x_m, x_cm, x_mm, y_m, y_cm, y_mm, yaw_rad, yaw_deg: pose; a missing coordinate is 0",
               "skip: one ignored field; skip:20: 20 ignored fields",
               "inf, -inf and nan are allowed among the ranges: nothing in range, too close, no reading",
-              "beam angles: first_angle_deg + i * step_deg; step_deg must be given unless beams is 1"}},
+              "beam angles: first_angle_deg + i * step_deg, or + i * span_deg / n; one of them must be given unless "
+              "beams is 1"}},
       Format{"dpslam",
-             {"no_return_m", "range_min_m", "first_angle_deg", "step_deg", "every", "max_frames", "sensor_x_m",
-              "sensor_y_m", "sensor_yaw_deg"},
+             {"no_return_m", "range_min_m", "first_angle_deg", "step_deg", "span_deg", "angles", "every", "max_frames",
+              "sensor_x_m", "sensor_y_m", "sensor_yaw_deg"},
              parse_dpslam,
-             nothing_to_check,
+             check_angle_options,
              "DP-SLAM log: Odometry and Laser lines alternate",
              {kNoReturn, kAngleRule}}};
   return all;
@@ -158,8 +157,7 @@ Recording parse_dpslam(std::string_view text, const LogOptions& options, const S
         lines.refuse(words[0],
                      "a Laser line without an Odometry line before it; allowed: Odometry and Laser lines alternate");
       lines.check_last_number(words);
-      builder.check_beams(lines, n);
-      builder.check_angles(lines, builder.angles_by_rule(lines, n));
+      builder.begin_scan(lines, n, builder.angles_by_rule(lines, n));
       if (builder.wants_scan()) {
         Frame frame;
         frame.ranges.reserve(n);

@@ -11,6 +11,10 @@
 //          t_s t_ms t_us  x_m x_cm x_mm  y_m y_cm y_mm  yaw_rad yaw_deg  skip skip:20  ranges
 //          "inf", "-inf" and "nan" are allowed among the ranges.
 //
+// Scanners whose number of beams changes from scan to scan: with span_deg the beams of each scan divide that angle.
+// Scans that differ from the first are refused (angles: same) or resampled to its beams (resampled): each of these gets
+// the reading of the nearest beam, at most half a step away, or NaN if there is none.
+//
 // Readings follow REP-117. 0, negative values and NaN mean no reading (NaN); values below range_min_m mean too close
 // (-inf); values of no_return_m or more (if that is > 0) mean nothing in range (+inf).
 #pragma once
@@ -42,9 +46,9 @@ LogFormatText log_format_text(std::string_view format);
 
 /// The scans of a log. `sensor` gives name, noise and timing; beam angles and range limits come from the log and its
 /// options. Stamps are the log's, or one scan period of the sensor apart if it has none. The recording has no truth.
-/// Throws ConfigError with file:line:col for a truncated line, fields that are no numbers, beam counts that change, and
-/// a log without scans. A log that needs more than max_bytes is refused before any of its text is kept. Throws as
-/// read_text_file() does.
+/// Throws ConfigError with file:line:col for a truncated line, fields that are no numbers, beams that change unless the
+/// options allow it, and a log without scans. A log that needs more than max_bytes is refused before any of its text is
+/// kept. Throws as read_text_file() does.
 Recording read_log(const std::filesystem::path& path, std::string_view format, const ParamSet& params,
                    const SensorModel& sensor, double max_bytes);
 

@@ -13,6 +13,12 @@ namespace scanbench::harness {
 
 enum class LogPoses { reference, odometry, vertex };
 
+/// What to do with scans of other beam angles, or another number of beams, than the first.
+enum class LogAngles {
+  same,      ///< refuse them
+  resampled  ///< each beam of the first scan's angles gets the reading of the nearest beam
+};
+
 /// Options of all formats; log_param_specs() names those of each.
 struct LogOptions {
   LogPoses poses = LogPoses::reference;
@@ -20,6 +26,8 @@ struct LogOptions {
   double range_min_m = 0.0;
   double first_angle_deg = -90.0;
   double step_deg = 0.0;
+  double span_deg = 0.0;
+  LogAngles angles = LogAngles::same;
   std::string columns = "ranges";
   int skip_lines = 0;
   int beams = 0;
@@ -40,13 +48,20 @@ struct LogOptions {
               "readings of this value or more mean nothing in range; 0 disables this"),
         field("range_min_m", &O::range_min_m, at_least(0), "m", "readings below this are too close"),
         field("first_angle_deg", &O::first_angle_deg, between(-360, 360), "deg",
-              "angle of beam 0, counter-clockwise from straight ahead; used only with step_deg"),
+              "angle of beam 0, counter-clockwise from straight ahead; used only with step_deg or span_deg"),
         field("step_deg", &O::step_deg, between(-360, 360), "deg",
               "angle from one beam to the next; 0 uses the angles of the format"),
+        field(
+            "span_deg", &O::span_deg, between(-360, 360), "deg",
+            "angle that a scan's beams divide equally, from beam 0 to one step beyond the last; in place of step_deg, "
+            "for scanners whose number of beams changes: 360 for a full turn; 0 disables it"),
+        choice("angles", &O::angles, {{LogAngles::same, "same"}, {LogAngles::resampled, "resampled"}},
+               "scans of other angles or another number of beams than the first: same refuses them, resampled gives "
+               "each beam of the first scan the reading of the nearest beam"),
         field("columns", &O::columns,
               "columns of a row: t_s t_ms t_us x_m x_cm x_mm y_m y_cm y_mm yaw_rad yaw_deg skip skip:20 ranges"),
         field("skip_lines", &O::skip_lines, between(0, 1e6), "", "lines to skip at the top"),
-        field("beams", &O::beams, between(0, 1e6), "", "number of ranges in a row; 0 takes it from the first row"),
+        field("beams", &O::beams, between(0, 1e6), "", "number of ranges in a row; 0 allows any number"),
         field("unit_m", &O::unit_m, above(0), "m", "metres per unit of the ranges"),
         field("every", &O::every, between(1, 1e6), "", "read every n-th scan"),
         field("max_frames", &O::max_frames, between(0, 1e9), "", "number of scans to read; 0: all"),
@@ -87,7 +102,11 @@ class LogLines {
 struct BeamAngles {
   double first_deg;
   double step_deg;
+  bool operator==(const BeamAngles&) const = default;
 };
+
+/// Throws ParamError for both step_deg and span_deg.
+void check_angle_options(const LogOptions& options);
 
 class LogBuilder {
  public:
@@ -98,12 +117,13 @@ class LogBuilder {
   /// True if the scans that `max_frames` allows are read.
   bool full() const;
 
-  /// Checks the count of ranges against the first scan's; throws PlacedError naming both lines.
-  void check_beams(const LogLines& lines, std::size_t beams);
+  /// Do the options state beam angles, in place of those of the format?
+  bool states_angles() const { return options_.step_deg != 0 || options_.span_deg != 0; }
   /// The angles that the options give, or else the rule for scanners of 180 degrees (log.hpp).
   BeamAngles angles_by_rule(const LogLines& lines, std::size_t beams) const;
-  /// Checks the angles against the first scan's.
-  void check_angles(const LogLines& lines, const BeamAngles& angles);
+  /// Takes note of the beams of the scan in this line, before add(). Throws PlacedError, naming both lines, if they
+  /// differ from the first scan's and the options do not allow that.
+  void begin_scan(const LogLines& lines, std::size_t beams, const BeamAngles& angles);
 
   /// The sensor's pose for a pose of the log (m, rad). Throws PlacedError for a heading above 1e5 rad.
   Pose2 pose(const LogLines& lines, double x_m, double y_m, double yaw_rad) const;
@@ -111,21 +131,34 @@ class LogBuilder {
   /// A range in metres, with the special values of REP-117 (log.hpp).
   double reading(double range_m) const;
 
-  void add(Frame frame) { frames_.push_back(std::move(frame)); }
+  /// Adds the scan that began last.
+  void add(Frame frame);
   std::size_t frames() const { return frames_.size(); }
 
   /// The recording. Without stamps in the log, frames are one scan period of the sensor apart.
   Recording finish(SensorModel sensor, bool has_stamps);
 
  private:
+  struct Beams {
+    BeamAngles angles{0.0, 0.0};
+    std::size_t count = 0;
+    bool operator==(const Beams&) const = default;
+  };
+
+  void check_same(const LogLines& lines) const;
+  void check_size(const LogLines& lines);
+  std::vector<double> resampled(const std::vector<double>& ranges) const;
+
   const LogOptions& options_;
   Pose2 robot_from_sensor_;
   std::vector<Frame> frames_;
   long long scans_ = 0;
-  std::size_t beams_ = 0;
-  int beams_line_ = 0;
-  bool has_angles_ = false;
-  BeamAngles angles_{0.0, 0.0};
+  Beams first_;    ///< of the scan in line first_line_
+  Beams current_;  ///< of the scan that began last
+  int first_line_ = 0;
+  double readings_ = 0.0;  ///< of all scans so far
+  std::size_t most_beams_ = 0;
+  long long begun_ = 0;
 };
 
 }  // namespace scanbench::harness

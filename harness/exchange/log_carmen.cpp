@@ -89,8 +89,7 @@ class CarmenReader {
                       "stamp, host, stamp), or {} and {} without the last words",
                       n, words_.size() - 1, n + 10, n + 8, n + 7));
     check_tail(tail);
-    builder_.check_beams(lines_, n);
-    builder_.check_angles(lines_, builder_.angles_by_rule(lines_, n));
+    builder_.begin_scan(lines_, n, builder_.angles_by_rule(lines_, n));
     scan(2, n, 2 + n, tail > 6 ? std::optional(2 + n + 6) : std::nullopt);
   }
 
@@ -107,15 +106,14 @@ class CarmenReader {
               "ROBOTLASER1 states {} ranges and {} remissions and has {} words after its name; allowed: {} or {}", n, m,
               words_.size() - 1, 21 + n + m, 23 + n + m));
     check_tail(tail);
-    builder_.check_beams(lines_, n);
     BeamAngles angles{degrees(number(2, "the start angle")), degrees(number(4, "the resolution"))};
-    if (options_.step_deg != 0) angles = {options_.first_angle_deg, options_.step_deg};
+    if (builder_.states_angles()) angles = builder_.angles_by_rule(lines_, n);
     if (angles.step_deg == 0 && n > 1)
-      lines_.refuse(words_[4], "the resolution is 0; allowed: an angle between beams, or step_deg given");
+      lines_.refuse(words_[4], "the resolution is 0; allowed: an angle between beams, or step_deg or span_deg given");
     if (std::max(std::abs(angles.first_deg), std::abs(angles.step_deg)) > 360)
       lines_.refuse(words_[2], fmt::format("beams from {} deg in steps of {} deg; allowed: up to 360", angles.first_deg,
                                            angles.step_deg));
-    builder_.check_angles(lines_, angles);
+    builder_.begin_scan(lines_, n, angles);
     scan(9, n, poses, poses + 11);
   }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "core/number_text.hpp"
 #include "harness/exchange/log_builder.hpp"
 #include "harness/files/placed_error.hpp"
@@ -74,7 +75,9 @@ void add_column(std::string_view word, Layout& layout) {
   std::vector<std::string> names;
   names.reserve(std::size(kColumnNames));
   for (const auto& known : kColumnNames) names.emplace_back(known.name);
-  throw ParamError("columns", fmt::format("columns has {}; allowed: {}", quoted_excerpt(word), fmt::join(names, ", ")));
+  const std::string near = nearest_name(name, names);
+  throw ParamError("columns", fmt::format("columns has {}; {}allowed: {}", quoted_excerpt(word),
+                                          near.empty() ? "" : "did you mean '" + near + "'? ", fmt::join(names, ", ")));
 }
 
 Layout parse_columns(const std::string& text) {
@@ -101,8 +104,10 @@ double range_of(const LogLines& lines, std::string_view word, double unit_m) {
 
 void check_csv_options(const LogOptions& options) {
   parse_columns(options.columns);
-  if (options.step_deg == 0 && options.beams != 1)
-    throw ParamError("step_deg", "step_deg is 0; allowed: the angle between two beams in deg, not 0 (or beams: 1)");
+  check_angle_options(options);
+  if (options.step_deg == 0 && options.span_deg == 0 && options.beams != 1)
+    throw ParamError("step_deg",
+                     "step_deg is 0; allowed: the angle between two beams in deg, not 0 (or span_deg, or beams: 1)");
 }
 
 Recording parse_csv_scans(std::string_view text, const LogOptions& options, const SensorModel& sensor) {
@@ -128,8 +133,9 @@ Recording parse_csv_scans(std::string_view text, const LogOptions& options, cons
           "a row of four numbers: a vector map (x1, y1, x2, y2)? allowed: world: {file: PATH} for a vector map, "
           "or beams: 4 for scans of four beams");
     lines.check_last_number(fields);
-    builder.check_beams(lines, n);
-    builder.check_angles(lines, {options.first_angle_deg, options.step_deg});
+    builder.begin_scan(lines, n,
+                       builder.states_angles() ? builder.angles_by_rule(lines, n)
+                                               : BeamAngles{options.first_angle_deg, 0.0});  // a single beam
     if (!builder.wants_scan()) continue;
     Frame frame;
     double x = 0.0;

@@ -14,6 +14,7 @@
 #include "harness/scenario/simulation_input.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
+#include "harness/store/json_file.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/traces.hpp"
@@ -85,13 +86,18 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenar
     for (const sim::MovingBody& body : simulated.world.moving) input.body_paths.push_back(body.path);
   }
   for (const auto& loaded : results)
-    input.results.push_back({loaded.pipeline, &loaded.result, &loaded.trace, line_verdicts(recording, loaded.result)});
+    input.results.push_back({loaded.pipeline, &loaded.result, &loaded.trace,
+                             line_verdicts(recording, loaded.result, segment_rules(scenario.metrics))});
 
   std::vector<FigureFile> files;
   for (std::size_t i = 0; i < scenario.figures.size(); ++i) {
     const auto& choice = scenario.figures[i];
     if (progress) progress(static_cast<double>(i) / static_cast<double>(scenario.figures.size()), choice.module);
-    for (const auto& drawn : Registry<render::Figure>::make(choice.module, choice.params)->draw(input)) {
+    const auto figure = Registry<render::Figure>::make(choice.module, choice.params);
+    const auto scenes = figure->draw(input);
+    if (scenes.empty())
+      files.push_back({scenario.name, "", choice.module + " is not drawn: " + figure->why_nothing(input)});
+    for (const auto& drawn : scenes) {
       const std::string name = scenario.name + "_" + drawn.name;
       write_figure(run, name, drawn.scene, pdf);
       files.push_back({scenario.name, name, drawn.caption});
@@ -120,11 +126,12 @@ std::vector<FigureFile> load_figure_index(const fs::path& run) {
   if (!fs::exists(path)) return {};
   std::vector<FigureFile> figures;
   try {
-    for (const auto& entry : nlohmann::json::parse(read_file(path)))
+    for (const auto& entry : load_json(path))
       figures.push_back({entry.at("scenario"), entry.at("name"), entry.at("caption")});
-  } catch (const nlohmann::json::exception& error) {
-    throw ConfigError(path.string() + ": " + error.what());
+  } catch (const nlohmann::ordered_json::exception& error) {
+    refuse_json(path, error);
   }
+  for (const auto& figure : figures) check_name("figure", figure.name);
   return figures;
 }
 

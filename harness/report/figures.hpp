@@ -14,8 +14,8 @@ namespace scanbench::harness {
 /// A figure in the run folder: figures/<name>.svg and .png.
 struct FigureFile {
   std::string scenario;
-  std::string name;
-  std::string caption;
+  std::string name;     ///< empty: the figure had nothing to draw, and there are no files
+  std::string caption;  ///< or why nothing was drawn
 };
 
 /// Draws the scenario's figures (of its first seed) from the run's recording and finished cells into run/figures, as

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -18,6 +20,10 @@
 
 namespace scanbench::harness {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestSvg = std::uintmax_t{8} << 20;  // a larger one is shown as PNG, which is smaller
 
 constexpr std::string_view kStyle = R"css(
 :root { --ink: #1b1f24; --faint: #667079; --rule: #d5dade; --paper: #fff; --tint: #f4f6f8; --accent: #0072b2; }
@@ -58,20 +64,36 @@ std::string outcome_text(const std::vector<CellLine>& cells) {
   return ok == all ? fmt::format("all {} cells ok", all) : fmt::format("{} of {} cells ok", ok, all);
 }
 
-/// Table of the selected cells that are not ok; nullopt if all are.
+/// Table of the selected cells that are not ok, with one row for all seeds of a pipeline that have the same message;
+/// nullopt if all are ok.
 std::optional<Table> failures(const std::vector<CellLine>& cells) {
-  Table table{"failures", "Cells that are not ok", "", {"scenario", "pipeline", "seed", "status", "message"}, {}, {}};
+  struct Fault {
+    std::vector<std::string> heads;  ///< scenario, pipeline, status, message
+    std::string seed;                ///< the first
+    std::size_t cells = 0;
+  };
+  std::vector<Fault> faults;
   std::size_t left_out = 0;
   for (const auto& cell : cells) {
     if (cell.status == "ok" || !cell.selected) continue;
-    if (table.rows.size() == kLargestList) {
+    const std::vector<std::string> heads{cell.scenario, cell.pipeline, cell.status, cell.message};
+    const auto same = std::ranges::find(faults, heads, &Fault::heads);
+    if (same != faults.end())
+      ++same->cells;
+    else if (faults.size() < kLargestList)
+      faults.push_back({heads, std::to_string(cell.seed), 1});
+    else
       ++left_out;
-      continue;
-    }
-    table.rows.push_back(
-        {{cell.scenario, cell.pipeline, std::to_string(cell.seed), cell.status, cell.message}, {}, false});
   }
-  if (table.rows.empty()) return std::nullopt;
+  if (faults.empty()) return std::nullopt;
+  Table table{"failures",
+              "Cells that are not ok",
+              "",
+              {"scenario", "pipeline", "first seed", "status", "message"},
+              {{"", "cells", false}},
+              {}};
+  for (const auto& [heads, seed, count] : faults)
+    table.rows.push_back({{heads[0], heads[1], seed, heads[2], heads[3]}, {{std::to_string(count)}}, false});
   if (left_out > 0)
     table.caption = fmt::format("And {} more; status.json of every cell has its status and message.", left_out);
   return table;
@@ -131,10 +153,13 @@ std::string markdown_status(const std::vector<CellLine>& cells) {
 }
 
 std::string html_figure(const std::filesystem::path& run, const FigureFile& figure, const std::string& caption) {
-  const std::string svg = read_file(run / "figures" / (figure.name + ".svg"));
+  if (figure.name.empty()) return "<p class=\"faint\">" + caption + "</p>\n";
+  const fs::path svg = run / "figures" / (figure.name + ".svg");
+  const bool is_svg = !fs::exists(svg) || fs::file_size(svg) <= kLargestSvg;
+  const std::string bytes = read_file(is_svg ? svg : run / "figures" / (figure.name + ".png"));
   return fmt::format(
-      "<figure><img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption>{2}</figcaption></figure>\n",
-      html_escaped(figure.caption), base64(svg), caption);
+      "<figure><img alt=\"{0}\" src=\"data:image/{1};base64,{2}\"><figcaption>{3}</figcaption></figure>\n",
+      html_escaped(figure.caption), is_svg ? "svg+xml" : "png", base64(bytes), caption);
 }
 
 std::string html_facts(const std::vector<std::pair<std::string, std::string>>& facts) {

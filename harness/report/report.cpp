@@ -20,7 +20,7 @@ std::string input_text(const ReportInput& input, const Scenario& scenario) {
   }
   if (const auto* lines = std::get_if<LinesInput>(&scenario.input)) {
     if (!lines->file.empty())
-      return fmt::format("Lines of {}{}.", lines->file.filename().string(),
+      return fmt::format("Lines of {}{}.", lines->file_name,
                          lines->world ? ", with world " + lines->world->name + " as the truth"
                                       : ". There is no truth: metrics that need it are absent");
     return fmt::format("{} copies of the {} walls of world {}, {} seed{}.", lines->copies.copies,
@@ -67,7 +67,9 @@ std::string report_markdown(const ReportInput& input) {
     for (const auto& table : scenario_tables(scenario, input.rows, input.cells, TableDetail::departures))
       out += "\n" + to_markdown(table);
     for (const auto& figure : figures_of(input, scenario.name))
-      out += fmt::format("\n![{0}](figures/{1}.svg)\n\n{0}\n", markdown_escaped(figure.caption), figure.name);
+      out += figure.name.empty()
+                 ? "\n" + markdown_escaped(figure.caption) + "\n"
+                 : fmt::format("\n![{0}](figures/{1}.svg)\n\n{0}\n", markdown_escaped(figure.caption), figure.name);
   }
   return out + markdown_facts(input.facts);
 }

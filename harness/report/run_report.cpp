@@ -1,6 +1,8 @@
 // Collects the contents of reports, and writes figures and reports.
 #include "harness/report/run_report.hpp"
 
+#include <algorithm>
+#include <array>
 #include <system_error>
 #include <variant>
 
@@ -14,7 +16,6 @@
 #include "harness/analysis/agreement_files.hpp"
 #include "harness/analysis/selection.hpp"
 #include "harness/files/atomic_file.hpp"
-#include "harness/files/hash.hpp"
 #include "harness/report/benchmark_figures.hpp"
 #include "harness/report/benchmark_report.hpp"
 #include "harness/report/plain_text.hpp"
@@ -23,6 +24,7 @@
 #include "harness/report/scenario_tables.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/store/cell_files.hpp"
+#include "harness/store/json_file.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_files.hpp"
@@ -47,25 +49,22 @@ void write_agreement(const fs::path& run, const ReportInput& input) {
 
 /// "SHA-256 ...; 180 beams from -90 deg in steps of 1 deg, from first_angle_deg and step_deg".
 std::string source_of(const fs::path& run, const Scenario& scenario, const RecordedInput& recorded) {
+  std::string text = recorded.log_sha256.empty() ? "hash not known" : "SHA-256 " + recorded.log_sha256;
   std::error_code absent;
-  const bool readable = fs::is_regular_file(recorded.log, absent);
-  std::string text = readable ? "SHA-256 " + sha256_of_file(recorded.log) : "the log no longer exists";
   if (scenario.seeds.empty()) return text;
   const fs::path file = recording_path(run, scenario.name, scenario.seeds.front()) / kScanFile;
   if (!fs::is_regular_file(file, absent)) return text;
-  const auto json = nlohmann::json::parse(read_file(file), nullptr, false);
-  if (json.is_discarded() || !json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
-  try {
-    const auto step = recorded.params.find("step_deg");
-    const bool given = step != recorded.params.end() && to_text(step->second) != "0";
+  return with_json_of(file, [&](const nlohmann::ordered_json& json) {
+    const bool given = std::ranges::any_of(std::array{"step_deg", "span_deg"}, [&](const char* key) {
+      const auto param = recorded.params.find(key);
+      return param != recorded.params.end() && to_text(param->second) != "0";
+    });
     return text + fmt::format("; {} beams from {:.6g} deg in steps of {:.6g} deg, {}", json.at("beams").get<int>(),
                               degrees(json.at("angle_min_rad").get<double>()),
                               degrees(json.at("angle_step_rad").get<double>()),
-                              given ? "from first_angle_deg and step_deg"
+                              given ? "from first_angle_deg and step_deg or span_deg"
                                     : "from the log or the rule of its format for this number of beams");
-  } catch (const nlohmann::json::exception& error) {
-    throw ConfigError(file.string() + ": " + error.what());
-  }
+  });
 }
 
 }  // namespace

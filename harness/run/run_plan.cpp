@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "harness/run/cell_address.hpp"
 #include "harness/scenario/figure_pipelines.hpp"
 
@@ -30,17 +31,19 @@ void check_scenarios(const std::vector<Scenario>& scenarios, const RunOptions& o
     }
   }
   for (const auto& only : options.only) {
-    std::string known;
-    bool found = false;
+    std::vector<std::string> known;
     for (const auto& scenario : scenarios) {
-      known += (known.empty() ? "" : ", ") + scenario.name;
-      found = found || only == scenario.name;
-      for (const auto& pipeline : scenario.pipelines) {
-        known += ", " + scenario.name + "/" + pipeline.name;
-        found = found || only == pipeline.name || only == scenario.name + "/" + pipeline.name;
-      }
+      known.push_back(scenario.name);
+      for (const auto& pipeline : scenario.pipelines)
+        if (std::ranges::count(known, pipeline.name) == 0) known.push_back(pipeline.name);
     }
-    if (!found) throw ConfigError("no scenario or pipeline is named '" + only + "'; known: " + known);
+    const auto is_cell = [&](const Scenario& scenario) {
+      return std::ranges::any_of(scenario.pipelines,
+                                 [&](const auto& pipeline) { return only == scenario.name + "/" + pipeline.name; });
+    };
+    if (std::ranges::count(known, only) == 0 && std::ranges::none_of(scenarios, is_cell))
+      throw ConfigError("no scenario or pipeline is named '" + only + "'" + known_names(only, known) +
+                        "; or scenario/pipeline");
   }
 }
 

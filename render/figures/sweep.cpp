@@ -84,6 +84,13 @@ class Sweep : public Figure {
 
   explicit Sweep(const Params& params) : params_(params) {}
 
+  std::string why_nothing(const FigureInput& input) const override {
+    const auto has_metric = [&](const MeasuredPipeline& measured) { return values_of(measured) != nullptr; };
+    if (std::ranges::none_of(input.measured, has_metric))
+      return fmt::format("no pipeline has a value of the metric {} for the subject all", params_.metric);
+    return fmt::format("no two pipelines differ in {} alone", fmt::join(words_of(params_.parameters), " or "));
+  }
+
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     Scene scene{.title = input.title + ": " + params_.metric};
     std::vector<std::string> names;  // of the curves in all panels

@@ -1,7 +1,9 @@
 // README's example of a scenario, run as it stands there. (Its example of a module is part of the conformance tests.)
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,6 +21,39 @@ std::string block(const std::string& language) {
   if (begin == std::string::npos) return "";
   const auto first = begin + fence.size();
   return text.substr(first, text.find("```", first) - first);
+}
+
+/// The commands of a block of lines "./scanbench ...  # what it does", without ./scanbench and what it does.
+std::vector<Args> commands(const std::string& text) {
+  std::vector<Args> all;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("./scanbench ")) continue;
+    std::istringstream words(line.substr(12, line.find(" #") - 12));
+    Args& args = all.emplace_back();
+    for (std::string word; words >> word;) args.push_back(word);
+  }
+  return all;
+}
+
+TEST(Readme, EveryCommandOfWhatElseItDoesRunsAsWritten) {
+  const std::string text = read(places::source_dir() / "README.md");
+  const auto section = text.find("## What else it does");
+  const auto first = text.find("```\n", section) + 4;
+  const Folder folder;
+  fs::create_directory_symlink(places::source_dir() / "scenarios", folder / "scenarios");
+  ASSERT_EQ(run({"run", "scenarios/abcdef.yaml", "-q"}, {}, folder.path()).code, 0);  // the first of "Two commands"
+  const auto all = commands(text.substr(first, text.find("```", first) - first));
+  EXPECT_GE(all.size(), 10U);
+  for (Args args : all) {
+    const bool suite =
+        std::ranges::any_of(args, [](const auto& arg) { return arg.find("suites/") != std::string::npos; });
+    if (suite) args = {"check", args[1]};  // a run takes minutes
+    const auto outcome = run(args, {}, folder.path());
+    const bool ended_well = outcome.code == 0 || (args[0] == "compare" && outcome.code == 1);
+    EXPECT_TRUE(ended_well) << args[0] << " " << args[1] << ": " << outcome.code << "\n" << outcome.err;
+    EXPECT_NE(outcome.out, "") << args[0];
+  }
 }
 
 TEST(Readme, ReplaysALogOfOnesOwn) {
@@ -41,6 +76,46 @@ TEST(Readme, ReplaysALogOfOnesOwn) {
   const std::string lines = read(folder / "out/mine/cells/mine/iepf/1/lines.csv");
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1 + 3 * 2) << lines;
   EXPECT_TRUE(fs::exists(folder / "out/mine/report.html"));
+}
+
+/// A cheap rotating scanner in a square room of 4 m: 355 to 364 readings a turn.
+std::string turning_scanner() {
+  std::string log;
+  for (int scan = 0; scan < 10; ++scan) {
+    const int n = 355 + scan;
+    for (int i = 0; i < n; ++i) {
+      const double a = (-180.0 + 360.0 * i / n) * 3.14159265358979 / 180.0;
+      log += (i == 0 ? "" : ",") + std::to_string(2.0 / std::max(std::abs(std::cos(a)), std::abs(std::sin(a))));
+    }
+    log += "\n";
+  }
+  return log;
+}
+
+TEST(Replay, ScansWhoseNumberOfBeamsChangesGiveTheWallsOfTheRoom) {
+  const Folder folder;
+  folder.write("turns.csv", turning_scanner());
+  for (const std::string angles : {"resampled"}) {
+    folder.write("mine.yaml",
+                 "schema: 1\nrecording: {log: turns.csv, format: csv, first_angle_deg: -180, span_deg: 360, "
+                 "angles: " +
+                     angles +
+                     "}\npipelines:\n  - {name: sm, extract: {module: split_and_merge}}\n"
+                     "metrics: [siadat1997, map_points]\nfigures: [scan_overlay, lines_world]\n");
+    const auto outcome = run({"run", "mine.yaml", "--out", angles}, {}, folder.path());
+    ASSERT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+    const std::string lines = read(folder / (angles + "/cells/mine/sm/1/lines.csv"));
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1 + 10 * 4) << lines;
+    // The whole chain again from the files.
+    EXPECT_EQ(run({"score", angles}, {}, folder.path()).code, 0);
+    EXPECT_EQ(run({"export", angles, "--format", "carmen"}, {}, folder.path()).code, 0);
+  }
+  folder.write("same.yaml",
+               "schema: 1\nrecording: {log: turns.csv, format: csv, first_angle_deg: -180, span_deg: 360}\n"
+               "pipelines:\n  - {name: sm, extract: {module: split_and_merge}}\n");
+  const auto refused = run({"check", "same.yaml"}, {}, folder.path());
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, testing::HasSubstr("turns.csv:2:1: 356 ranges"));
 }
 
 }  // namespace

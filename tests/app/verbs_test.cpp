@@ -146,6 +146,23 @@ TEST_F(Verbs, AnExportedLogReadsBackToTheSameRangesAndLines) {
   EXPECT_EQ(rows, 5);
 }
 
+TEST_F(Verbs, ExportListsSeedsInTheirOrder) {
+  ASSERT_EQ(here({"simulate", "room.yaml", "--out", "many", "-q", "--seed", "10,9,1,2"}).code, 0);
+  const auto outcome = here({"export", "many", "--format", "tum"});
+  ASSERT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out,
+            "many/export/room_1.txt\nmany/export/room_2.txt\nmany/export/room_9.txt\nmany/export/room_10.txt\n");
+}
+
+TEST_F(Verbs, QuietRunsStillSayThatCellsFailed) {
+  folder_.write("slow.yaml", room() + "limits: {seconds: 0.001}\n");
+  const auto outcome = here({"run", "slow.yaml", "--out", "slow", "-q", "--no-figures"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("1 of 1 cells failed"), HasSubstr("room/iepf/1")));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
 TEST_F(Verbs, FiguresSaysWhenThereIsNothingToDraw) {
   folder_.write("plain.yaml", room_with("figures: [environment]\n", ""));
   ASSERT_EQ(here({"run", "plain.yaml", "--out", "plain", "-q"}).code, 0);
@@ -221,6 +238,95 @@ TEST_F(Verbs, NothingButATerminalGetsEscapeCodes) {
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("precision"), Not(HasSubstr("\x1b"))));
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("room/iepf/1"), Not(HasSubstr("\x1b")), Not(HasSubstr("\r"))));
   }
+}
+
+TEST_F(Verbs, SimulateMakesTheRecordingsOfASuite) {
+  folder_.write("other.yaml", room_with("0.10", "0.2"));
+  folder_.write("suite.yaml", "schema: 1\nscenarios: [room.yaml, other.yaml]\nseeds: [3, 4]\n");
+  const auto outcome = here({"simulate", "suite.yaml", "--out", "simulated"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const std::string scenario : {"room", "other"}) {
+    EXPECT_TRUE(fs::exists(folder_ / ("simulated/effective/" + scenario + ".yaml")));
+    for (const std::string seed : {"3", "4"})
+      EXPECT_TRUE(fs::exists(folder_ / ("simulated/recordings/" + scenario + "/" + seed + "/ranges.npy")));
+  }
+}
+
+TEST_F(Verbs, CheckRefusesWhatRunRefusesInTheSameWords) {
+  folder_.write("bare.yaml", room().substr(0, room().find("pipelines:")));
+  for (const std::string file : {"bare.yaml", "empty.yaml"}) {
+    if (file == "empty.yaml") folder_.write(file, read(folder_ / "bare.yaml") + "pipelines: []\n");
+    const auto checked = here({"check", file});
+    const auto ran = here({"run", file});
+    EXPECT_EQ(checked.code, 2) << file;
+    EXPECT_EQ(ran.code, 2) << file;
+    EXPECT_EQ(checked.err, ran.err);
+    EXPECT_THAT(checked.err, HasSubstr("pipelines"));
+  }
+  EXPECT_EQ(here({"check", "bare.yaml", "--simulate"}).code, 0);
+  EXPECT_EQ(here({"simulate", "bare.yaml"}).code, 0);
+}
+
+TEST_F(Verbs, CheckNamesTheConditionsOfASuite) {
+  folder_.write("suite.yaml",
+                "schema: 1\nscenarios: [room.yaml]\nseeds: [3, 4]\n"
+                "factors: {noise: {1cm: {sensor.sigma_m: 0.01}, 5cm: {sensor.sigma_m: 0.05}}}\n");
+  const auto outcome = here({"check", "suite.yaml"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("suite.yaml: good: 2 scenarios, 4 cells"), HasSubstr("room-1cm: 1 pipeline"),
+                                 HasSubstr("room-5cm: 1 pipeline on 2 seeds")));
+}
+
+TEST_F(Verbs, AFigureThatHasNothingToDrawSaysWhy) {
+  folder_.write("swept.yaml", room_with("[environment]", "[sweep]"));
+  const auto ran = here({"run", "swept.yaml", "--out", "swept"});
+  EXPECT_EQ(ran.code, 0);
+  const std::string why = "sweep is not drawn: no two pipelines differ in extract.threshold_m alone";
+  EXPECT_THAT(ran.err, HasSubstr(why));
+  EXPECT_THAT(here({"figures", "swept"}).out, HasSubstr(why));
+  EXPECT_THAT(read(folder_ / "swept/report.html"), HasSubstr(why));
+  folder_.write("swept.yaml", room_with("[environment]", "[{name: sweep, params: {metric: eta}}]"));
+  EXPECT_THAT(here({"run", "swept.yaml", "--out", "swept"}).err,
+              HasSubstr("no pipeline has a value of the metric eta"));
+  folder_.write("swept.yaml", room_with("metrics: [segments]\nfigures: [environment]",
+                                        "  - {name: wide, extract: {module: iepf, params: {threshold_m: 0.3}}}\n"
+                                        "metrics: [segments]\nfigures: [sweep]"));
+  EXPECT_THAT(here({"run", "swept.yaml", "--out", "swept"}).err, Not(HasSubstr("not drawn")));
+  EXPECT_TRUE(fs::exists(folder_ / "swept/figures/swept_sweep.svg"));
+}
+
+TEST_F(Verbs, OneFaultIsOneMessage) {
+  // No cell and no recording is made within a microsecond.
+  folder_.write("hasty.yaml", room() + "limits: {seconds: 0.000001}\n");
+  const auto outcome = here({"run", "hasty.yaml", "--out", "hasty", "--no-figures", "--seed", "1,2,3,4,5,6,7,8,9,10"});
+  EXPECT_EQ(outcome.code, 3);
+  std::size_t mentions = 0;
+  for (auto at = outcome.err.find("there is no recording"); at != std::string::npos;
+       at = outcome.err.find("there is no recording", at + 1))
+    ++mentions;
+  EXPECT_EQ(mentions, 2U) << outcome.err;  // the first cell, and how many more
+  EXPECT_THAT(outcome.err, HasSubstr("the same in 9 more cells: hasty: skipped"));
+  const std::string report = read(folder_ / "hasty/report.md");
+  EXPECT_EQ(report.find("there is no recording"), report.rfind("there is no recording"));
+}
+
+TEST_F(Verbs, ADryRunCountsAndWritesNothing) {
+  const auto before = files(folder_.path());
+  const auto outcome = here({"run", "room.yaml", "--out", "dry", "--dry-run", "--seed", "1,2,3"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("cells"), HasSubstr("rays"), HasSubstr(std::to_string(3 * 5 * 361)),
+                                 HasSubstr("nothing has been written")));
+  EXPECT_THAT(differences(before, files(folder_.path())), IsEmpty());
+}
+
+TEST_F(Verbs, AMisspeltFileOrFolderGetsASuggestion) {
+  EXPECT_THAT(here({"run", "rom.yaml"}).err, HasSubstr("did you mean 'room.yaml'?"));
+  EXPECT_THAT(here({"figures", "rnu"}).err, HasSubstr("rnu: no such folder; did you mean 'run'?"));
+  EXPECT_THAT(here({"compare", "run", "rum"}).err, HasSubstr("did you mean 'run'?"));
+  EXPECT_THAT(here({"run", "room.yaml", "--only", "ipef"}).err, HasSubstr("did you mean 'iepf'?"));
+  folder_.write("scenarios/hallway.yaml", room());
+  EXPECT_THAT(here({"run", "hallway"}).err, HasSubstr("did you mean 'scenarios/hallway.yaml'?"));
+  EXPECT_THAT(here({"run", "room.yaml", "--sed", "1"}).err, HasSubstr("did you mean '--seed'?"));
 }
 
 }  // namespace

@@ -66,6 +66,22 @@ TEST(Siadat1997, TimesAreMillisecondsPerScanOfTheThreeStages) {
   for (const auto& d : family("siadat1997")->describe()) EXPECT_EQ(d.timing, d.metric.starts_with("t_")) << d.metric;
 }
 
+TEST(Siadat1997, EveryStageOfAnExtractorIsInOnePartAndInTheTotal) {
+  MadeUpRun run = points_near_x1({{0, 0, 0, 0, 0, 0, 0}});
+  double total = 0.0;
+  for (std::size_t i = 0; i < stage_names().size(); ++i) {
+    const double ms = static_cast<double>(std::size_t{1} << i);  // every sum of different stages is another number
+    run.result.times.push_back({"extract", static_cast<Stage>(i), 0, 1e-3 * ms});
+    total += ms;
+  }
+  run.result.times.push_back({"extract", std::nullopt, 0, 1e-3 * 0.5});  // a module that names no stages
+  const auto rows = evaluate("siadat1997", run);
+  expect_value(rows, "t_total", "all", total + 0.5, 1);
+  expect_value(rows, "t_pre", "all", 1.0, 1);
+  expect_value(rows, "t_seg", "all", 2.0 + 4.0 + 0.5, 1);  // segment and search
+  EXPECT_NEAR(row(rows, "t_pre").value + row(rows, "t_seg").value + row(rows, "t_post").value, total + 0.5, 1e-9);
+}
+
 TEST(Siadat1997, APolygonTakes48BytesASegmentAgainst4ABeam) {
   MadeUpRun run = points_near_x1({{0, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0, 0}});
   add_line(run, 0, polar_line(1, 0), {0, 1, 2});

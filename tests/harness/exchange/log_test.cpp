@@ -1,6 +1,7 @@
 // Log readers: the meaning of lines, refusals, and well-known logs.
 #include "harness/exchange/log.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -331,6 +332,74 @@ TEST(GraphLog, CsailHasOneVertexPerScan) {
   const Recording r = read_log(log, "carmen", {{"poses", std::string("vertex")}, {"no_return_m", 81.8}}, sensor(), 1e9);
   EXPECT_EQ(r.observed.frames.size(), 1051U);
   EXPECT_EQ(r.observed.sensor.geometry.beams(), 361);
+}
+
+/// A turning scanner in the middle of a square room, 4 m wide: its ranges at n equal angles from -180 deg on.
+std::string turn(int n) {
+  std::string row;
+  for (int i = 0; i < n; ++i) {
+    const double a = radians(-180.0 + 360.0 * i / n);
+    row += (i == 0 ? "" : " ") + std::to_string(2.0 / std::max(std::abs(std::cos(a)), std::abs(std::sin(a))));
+  }
+  return row + "\n";
+}
+
+const ParamSet kTurning = {{"first_angle_deg", -180.0}, {"span_deg", 360.0}};
+
+ParamSet turning(const std::string& angles) {
+  ParamSet params = kTurning;
+  params["angles"] = angles;
+  return params;
+}
+
+Recording rows(const std::string& text, const ParamSet& params) {
+  return parse_log(text, "l.csv", "csv", params, sensor());
+}
+
+/// Every point of every scan is on the room's walls, if its angle is right.
+void expect_points_on_walls(const Recording& recording, double tolerance_m) {
+  for (std::size_t f = 0; f < recording.observed.frames.size(); ++f) {
+    const Scan scan = recording.observed.scan(f);
+    for (int i = 0; i < scan.beams(); ++i) {
+      if (!scan.valid(i)) continue;
+      EXPECT_NEAR(scan.point(i).cwiseAbs().maxCoeff(), 2.0, tolerance_m) << "scan " << f << " beam " << i;
+    }
+  }
+}
+
+TEST(ChangingBeams, AreRefusedUnlessTheOptionsAllowThem) {
+  EXPECT_THAT(
+      config_refusal([] { rows(turn(90) + turn(93), kTurning); }),
+      HasSubstr("l.csv:2:1: 93 ranges, but the scan in line 1 has 90; allowed: one number of ranges in a log, or "
+                "angles: resampled"));
+  ParamSet both = kTurning;
+  both["step_deg"] = 4.0;
+  EXPECT_THAT(config_refusal([&] { rows(turn(90), both); }), HasSubstr("both step_deg and span_deg"));
+}
+
+TEST(ChangingBeams, AreResampledToTheNearestReading) {
+  const Recording r = rows(turn(90) + turn(180) + turn(91), turning("resampled"));
+  for (const Frame& frame : r.observed.frames) ASSERT_EQ(frame.ranges.size(), 90U);
+  EXPECT_EQ(r.observed.frames[0].ranges, r.observed.frames[1].ranges);  // every second of twice as many is the same
+  // A reading comes from at most half a step of its own scan away: 2 deg, which is 10 cm at the 2.83 m of a corner.
+  expect_points_on_walls(r, 0.1);
+  for (const double range : r.observed.frames[2].ranges) EXPECT_TRUE(std::isfinite(range));  // the turn has no gap
+}
+
+TEST(ChangingBeams, ABeamWithoutAReadingNearByHasNone) {
+  // 0 .. 90 deg in steps of 10, then 0 .. 40 deg.
+  const std::string text = "1 2 3 4 5 6 7 8 9 10\n1 2 3 4 5\n";
+  const Recording r = rows(text, {{"first_angle_deg", 0.0}, {"step_deg", 10.0}, {"angles", std::string("resampled")}});
+  EXPECT_EQ(r.observed.frames[1].ranges[4], 5.0);
+  for (std::size_t i = 5; i < 10; ++i) EXPECT_TRUE(std::isnan(r.observed.frames[1].ranges[i])) << i;
+}
+
+TEST(ChangingBeams, AHugeFirstScanBeforeSmallOnesIsRefusedBeforeItFillsTheMemory) {
+  std::string text;
+  for (int i = 0; i < 300000; ++i) text += "1 ";
+  text += "\n";
+  for (int i = 0; i < 100; ++i) text += "1 2\n";
+  EXPECT_THAT(config_refusal([&] { rows(text, turning("resampled")); }), HasSubstr("times the mean"));
 }
 
 }  // namespace

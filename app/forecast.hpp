@@ -1,0 +1,14 @@
+// run --dry-run: what a run would do.
+#pragma once
+
+#include <vector>
+
+#include "harness/run/run_options.hpp"
+#include "harness/scenario/scenario.hpp"
+
+namespace scanbench::app {
+
+/// Prints cells, rays, bytes and seconds of every scenario and of all. Returns an exit code.
+int print_forecast(const std::vector<harness::Scenario>& scenarios, const harness::RunOptions& options, bool quiet);
+
+}  // namespace scanbench::app
