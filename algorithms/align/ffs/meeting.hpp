@@ -1,4 +1,4 @@
-// Which scans hold each other when a simulation ends, and which can slide.
+// Finds which scans hold each other at the end of a simulation, and which of them can slide.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace scanbench::align::ffs {
 
 struct Meeting {
   ScanGroups groups;
-  std::vector<std::size_t> sliding;  ///< scans that meet others and yet could move along or about them
+  std::vector<std::size_t> sliding;  ///< scans that meet others but could still move along or about them
 };
 
 /// A point of one scan is held by a point of the other that is within `reach` and has nearly the same direction (30

@@ -1,4 +1,4 @@
-// Runs between gaps and between adaptive breakpoints. Borges & Aldon 2004, section 3.1.
+// Division of a scan into runs at gaps and at adaptive breakpoints. Borges & Aldon 2004, section 3.1.
 #include "algorithms/extract/parts/breakpoints.hpp"
 
 #include <algorithm>

@@ -13,7 +13,7 @@
 
 namespace scanbench::extract {
 
-/// How a threshold depends on range, with which point spacing and range error grow (Siadat et al. 1997, section 5).
+/// Growth of a threshold with range: point spacing and range error grow with it too (Siadat et al. 1997, section 5).
 enum class Growth { constant, linear };
 
 /// T(r) = constant, or constant + slope * r.
@@ -23,7 +23,7 @@ struct RangeThreshold {
 
   RangeThreshold(double threshold_m, Growth growth, double threshold_per_m)
       : constant_m(threshold_m), per_m(growth == Growth::linear ? threshold_per_m : 0.0) {}
-  /// The threshold at the range of a beam, which a constant threshold does not read.
+  /// The threshold at the range of a beam. A constant threshold does not read the range.
   double at(const Scan& scan, int beam) const {
     return per_m > 0 ? constant_m + per_m * scan.ranges[as_index(beam)] : constant_m;
   }
