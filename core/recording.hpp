@@ -1,8 +1,10 @@
-// What is saved and replayed: the observed scans and, if they are simulated, the truth.
+// What is saved and replayed: the observed scans and, if they are simulated, the truth; recorded logs may have poses to
+// compare with.
 #pragma once
 
 #include <optional>
 
+#include "core/reference_poses.hpp"
 #include "core/scan.hpp"
 #include "core/truth.hpp"
 
@@ -11,6 +13,7 @@ namespace scanbench {
 struct Recording {
   ScanSet observed;
   std::optional<Truth> truth;
+  std::optional<ReferencePoses> reference = {};
 };
 
 }  // namespace scanbench

@@ -1,7 +1,9 @@
 // Hashes the canonical text of what a cell is made of: no field of a scenario has to be remembered here.
 #include "harness/run/cell_address.hpp"
 
+#include <filesystem>
 #include <variant>
+#include <vector>
 
 #include "harness/files/hash.hpp"
 #include "harness/scenario/effective.hpp"
@@ -9,24 +11,34 @@
 namespace scanbench::harness {
 namespace {
 
-/// Takes a file out of an input: its bytes enter the address, its path does not. Returns the path; empty if none.
-std::filesystem::path take_file(SimulatedInput& input) {
+using Paths = std::vector<std::filesystem::path>;
+
+/// Takes the files out of an input: their bytes enter the address, their paths do not. Returns the paths.
+Paths take_files(SimulatedInput& input) {
   input.caster = sim::CasterKind::exact;  // both casters give the same bytes
   return {};                              // the world itself is part of the text
 }
 
-std::filesystem::path take_file(RecordedInput& input) {
-  const std::filesystem::path log = input.log;
-  input.log = "/";
-  input.log_as_written.clear();
-  return log;
+/// Replaces the path of a file, if there is one, by the root.
+void take(std::filesystem::path& path, std::string& as_written, Paths& taken) {
+  if (!path.empty()) {
+    taken.push_back(path);
+    path = "/";
+  }
+  as_written.clear();
 }
 
-std::filesystem::path take_file(LinesInput& input) {
-  const std::filesystem::path file = input.file;
-  if (!file.empty()) input.file = "/";
-  input.file_as_written.clear();
-  return file;
+Paths take_files(RecordedInput& input) {
+  Paths taken;
+  take(input.log, input.log_as_written, taken);
+  take(input.relations, input.relations_as_written, taken);
+  return taken;
+}
+
+Paths take_files(LinesInput& input) {
+  Paths taken;
+  take(input.file, input.file_as_written, taken);
+  return taken;
 }
 
 }  // namespace
@@ -34,10 +46,10 @@ std::filesystem::path take_file(LinesInput& input) {
 std::string input_address(const Scenario& scenario) {
   Scenario part;
   part.input = scenario.input;
-  const std::filesystem::path file = std::visit([](auto& input) { return take_file(input); }, part.input);
+  const Paths files = std::visit([](auto& input) { return take_files(input); }, part.input);
   Sha256 hash;
   hash.part("input", effective_yaml(part));
-  if (!file.empty()) hash.part("file", sha256_of_file(file));
+  for (const auto& file : files) hash.part("file", sha256_of_file(file));
   return hash.hex();
 }
 

@@ -55,9 +55,11 @@ struct SimulatedInput {
 /// ... or from a recorded log.
 struct RecordedInput {
   std::filesystem::path log;
-  std::string log_as_written;  ///< in the scenario, with ${SCANBENCH_DATA}
-  std::string format;          ///< carmen, csv, dpslam
-  ParamSet params;             ///< of the reader: no-return value, first angle, pose triple, ...; effective
+  std::string log_as_written;       ///< in the scenario, with ${SCANBENCH_DATA}
+  std::string format;               ///< carmen, csv, dpslam
+  std::filesystem::path relations;  ///< relative poses to compare estimates with; empty: none
+  std::string relations_as_written;
+  ParamSet params;  ///< of the reader: no-return value, first angle, pose triple, ...; effective
   std::string sensor_preset;
   ParamSet sensor_params;  ///< effective; beam angles and range limits of it are not used: the log has its own
   SensorModel sensor;

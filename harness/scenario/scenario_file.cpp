@@ -166,12 +166,18 @@ class ScenarioReader {
     const auto specs = at_param(format_node, [&] { return log_param_specs(input.format); });
     if (input.format != "csv")
       map.require("no_return_m", "the least range in m that means that nothing was in range, or 0 if no reading does");
+    const YamlNode* relations = map.find("relations");
+    if (relations != nullptr) input.relations_as_written = map.text("relations", "a file's path");
     input.params = resolve(specs, map.params(specs));
     map.done();
     at_param(node, [&] { check_log_params(input.format, input.params); });
     input.log = resolve_path(log, input.log_as_written, scenario_.path);
     at_param(log,
              [&] { InputFile(input.log).require_at_most(static_cast<std::uint64_t>(scenario_.limits.memory_bytes)); });
+    if (relations != nullptr) {
+      input.relations = resolve_path(*relations, input.relations_as_written, scenario_.path);
+      at_param(*relations, [&] { InputFile(input.relations).require_at_most(kMaxWorldBytes); });
+    }
     if (const YamlNode* sensor = map_.find("sensor")) {
       read_sensor(*sensor, recorded_sensor_specs(), input.sensor_preset, input.sensor_params, input.sensor);
     } else {

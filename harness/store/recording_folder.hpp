@@ -11,7 +11,8 @@
 namespace scanbench::harness {
 
 /// The files of a recording: name and bytes, in the order in which they enter the content hash. Walls, true ranges and
-/// wall ids are absent without truth, lines.csv unless lines are given in place of scans. `rotations.npy` (frames x 4:
+/// wall ids are absent without truth, lines.csv unless lines are given in place of scans; reference_poses.csv and
+/// relations.csv unless a log has poses to compare with. `rotations.npy` (frames x 4:
 /// cos and sin of the true and of the odometry yaw; NaN without truth) holds the exact unit vectors that the yaw
 /// columns of frames.csv round. Throws ConfigError if frames have different numbers of beams.
 std::vector<std::pair<std::string, std::string>> recording_files(const Recording& recording);
