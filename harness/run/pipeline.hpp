@@ -17,7 +17,8 @@ struct PipelineRun {
 
 /// `extract` runs on every frame, unless the scan set holds lines in place of scans: the chain then begins after it.
 /// `align` gets all scans and their odometry; `match` chains consecutive scans, each
-/// guess being the odometry between them (which is kept where the matcher says no_match); `map` gets scan after scan
+/// guess being the odometry between them, or, if no scan has another odometry pose than the first, the step before it
+/// (at first: no motion); the guess is the step where the matcher says no_match; `map` gets scan after scan
 /// with its pose; `merge` gets the lines and the valid points placed in the world. Poses are those of `align` or
 /// `match`, else the odometry.
 ///

@@ -58,6 +58,7 @@ bool EarlierCells::files_are_whole(const CellKey& key, const PipelineSpec& pipel
   const bool places = std::ranges::any_of(pipeline.slots, [](const auto& slot) { return slot.kind != "extract"; });
   for (const auto& [file, written] :
        {std::pair("timing.csv", true), std::pair("trace.csv", !trace.nothing()), std::pair("merge_labels.csv", merge),
+        std::pair("pose_matches.csv", has_slot(pipeline, "match")),
         std::pair("map.csv", merge || has_slot(pipeline, "map")), std::pair("poses.csv", places && frames > 0)})
     if (written && !fs::exists(folder / file)) return false;
 

@@ -21,9 +21,10 @@ std::string status_json(const CellRecord& record);
 /// Throws ConfigError, naming the file.
 CellRecord load_status(const std::filesystem::path& cell);
 
-/// Writes lines.csv and labels.npy, poses.csv if there are poses, map.csv if the pipeline has a `map` or `merge` slot,
-/// merge_labels.csv with a `merge` slot, and timing.csv into an existing folder. Covariances follow the columns of the
-/// contract where an algorithm gives them (cov_offset_m2, cov_offset_angle, cov_angle_rad2).
+/// Writes lines.csv and labels.npy, poses.csv if there are poses, pose_matches.csv with a `match` slot, map.csv if the
+/// pipeline has a `map` or `merge` slot, merge_labels.csv with a `merge` slot, and timing.csv into an existing folder.
+/// Covariances follow the columns of the contract where an algorithm gives them (cov_offset_m2, cov_offset_angle,
+/// cov_angle_rad2).
 void write_result(const std::filesystem::path& cell, const PipelineSpec& pipeline, const PipelineResult& result);
 
 /// What write_result wrote; absent files are empty parts. Throws ConfigError, naming file

@@ -58,11 +58,13 @@ bool is_run_file(const fs::path& relative) {
   if (first == "published") return parts.size() == 2 && one_of({"cells.csv", "orderings.csv", "agreement.csv"});
   if (first == "scenarios" || first == "effective") return parts.size() == 2 && ending == ".yaml";
   if (first == "recordings")
-    return parts.size() == 4 && one_of({"walls.csv", "frames.csv", "lines.csv", "rotations.npy", "scan.json",
-                                        "ranges.npy", "true_ranges.npy", "wall_ids.npy"});
+    return parts.size() == 4 &&
+           one_of({"walls.csv", "frames.csv", "lines.csv", "rotations.npy", "scan.json", "ranges.npy",
+                   "true_ranges.npy", "wall_ids.npy", "reference_poses.csv", "relations.csv"});
   if (first == "cells")
-    return parts.size() == 5 && one_of({"status.json", "lines.csv", "labels.npy", "map.csv", "poses.csv",
-                                        "merge_labels.csv", "trace.csv", "timing.csv", "metrics.csv", "matches.csv"});
+    return parts.size() == 5 &&
+           one_of({"status.json", "lines.csv", "labels.npy", "map.csv", "poses.csv", "pose_matches.csv",
+                   "merge_labels.csv", "trace.csv", "timing.csv", "metrics.csv", "matches.csv", "pose_errors.csv"});
   return false;
 }
 

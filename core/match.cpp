@@ -1,5 +1,5 @@
 // The names of the outcomes in files.
-#include "core/modules.hpp"
+#include "core/match.hpp"
 
 namespace scanbench {
 
