@@ -1,4 +1,4 @@
-// What a verb of the program gets and gives: the command line, to which it adds its options, and an exit code.
+// The interface of the verbs: a verb adds its options to the command line and returns an exit code.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -52,7 +52,7 @@ std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files
     for (std::size_t j = 0; j < i; ++j)
       if (scenarios[i].name == scenarios[j].name)
         throw ConfigError("two scenarios are called '" + scenarios[i].name + "': " + scenarios[j].path.string() +
-                          " and " + scenarios[i].path.string() + "; their results would fall into one folder");
+                          " and " + scenarios[i].path.string() + "; their results would share a folder");
   return scenarios;
 }
 

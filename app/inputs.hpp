@@ -10,14 +10,14 @@
 
 namespace scanbench::app {
 
-/// Scenarios of scenario and suite files, in order; `name` receives the first file's name without ending, `benchmark`
-/// what a suite that stands alone ranks.
+/// Scenarios of scenario and suite files, in order; `name` receives the first file's name without extension,
+/// `benchmark` the specification of a suite that is the only file.
 std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
                                            std::string* name = nullptr,
                                            std::optional<harness::BenchmarkSpec>* benchmark = nullptr);
 
-/// Seeds of `--seed` in place of the scenarios' own, if there are any. Throws ConfigError for anything but whole
-/// numbers that a scenario file may have, and for one that is given twice.
+/// Replaces the scenarios' seeds by those of `--seed`, if there are any. Throws ConfigError for a seed that a scenario
+/// file could not have, and for one that is given twice.
 void give_seeds(std::vector<harness::Scenario>& scenarios, const std::vector<std::string>& texts);
 
 }  // namespace scanbench::app

@@ -1,4 +1,4 @@
-// check, list, describe: nothing runs, nothing is written.
+// The verbs check, list and describe, which run and write nothing.
 #include "app/inspection.hpp"
 
 #include <fmt/format.h>
@@ -59,10 +59,9 @@ void add_inspection(Context& context) {
   };
   auto options = std::make_shared<Options>();
 
-  auto* check_verb =
-      context.app.add_subcommand("check", "Reads scenario or suite files and says whether they are all right");
+  auto* check_verb = context.app.add_subcommand("check", "Checks scenario or suite files without running them");
   check_verb->add_option("FILE", options->files, "scenario or suite files")->required();
-  check_verb->add_option("--set", options->sets, "KEY=VALUE: a value in place of the file's (dotted keys)")->take_all();
+  check_verb->add_option("--set", options->sets, "KEY=VALUE: replaces a value of the file (dotted keys)")->take_all();
   check_verb->add_flag("--effective", options->effective, "print the scenario with every default filled in");
   check_verb->callback([&context, options] {
     context.action = [options] { return check(options->files, options->sets, options->effective); };
@@ -77,8 +76,8 @@ void add_inspection(Context& context) {
 
   auto* describe_verb =
       context.app.add_subcommand("describe", "Shows what a module does, its parameters, defaults and bounds");
-  describe_verb->add_option("NAME", options->name, "a name from `list`, or of a metric: f1");
-  describe_verb->add_flag("--all", options->all, "everything");
+  describe_verb->add_option("NAME", options->name, "a name from `list`, or a metric, like f1");
+  describe_verb->add_flag("--all", options->all, "describe everything");
   describe_verb->add_flag("--markdown", options->markdown,
                           "as Markdown (docs/modules.md is made with --all --markdown)");
   describe_verb->add_flag("--json", options->json, "as JSON");

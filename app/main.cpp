@@ -1,4 +1,4 @@
-// scanbench: the command line, and the one place where exceptions become exit codes.
+// The command line of scanbench, and the only place where exceptions become exit codes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 using namespace scanbench;
 
-// The first option of the command line that its verb does not have, with the nearest one that it has; empty if there is
+// The message about the first option that its verb does not have, with the nearest one that it has; empty if there is
 // none.
 std::string unknown_option(const CLI::App& app, int argc, char** argv) {
   const auto chosen = app.get_subcommands();
@@ -44,7 +44,7 @@ std::string unknown_option(const CLI::App& app, int argc, char** argv) {
   return "";
 }
 
-// CLI11 says of `scanbench rnu` only that a subcommand is required.
+// CLI11's message for `scanbench rnu` is only that a subcommand is required; this one names the verbs.
 std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
     if (const std::string option = unknown_option(app, argc, argv); !option.empty()) return option;
@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
   } catch (const app::Interrupted&) {
     app::say("\nscanbench: interrupted\n");
     return app::kInterrupted;
-  } catch (const std::system_error& error) {  // standard output or a folder that the system refuses us
+  } catch (const std::system_error& error) {  // standard output or a folder cannot be used
     app::say(fmt::format("scanbench: {}\n", harness::plain_text(error.what())));
     return app::kBadInput;
   } catch (const std::bad_alloc&) {

@@ -1,4 +1,4 @@
-// Progress on standard error, so that standard output stays a result that can be piped.
+// Shows progress on standard error, so that standard output has only results and can be piped.
 #include "app/progress.hpp"
 
 #include <fcntl.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kWidth = 30;
 
-volatile std::sig_atomic_t interrupted = 0;  // a handler reaches nothing else
+volatile std::sig_atomic_t interrupted = 0;  // the only kind of variable that a signal handler may set
 
 std::string duration_text(double seconds) {
   if (seconds < 60) return fmt::format("{:.0f} s", seconds);
@@ -28,7 +28,7 @@ std::string duration_text(double seconds) {
 }  // namespace
 
 void say(const std::string& text) noexcept {
-  // Without a reader a pipe raises SIGPIPE: held back here, and removed where it was raised.
+  // A pipe without a reader raises SIGPIPE: it is blocked here, and removed if it was raised.
   sigset_t pipe, before;
   sigemptyset(&pipe);
   sigaddset(&pipe, SIGPIPE);

@@ -1,4 +1,4 @@
-// Progress of long work: a bar on a terminal, a line every tenth of the work or minute elsewhere, none with --quiet.
+// Progress of long work: a bar on a terminal, else a line per tenth of the work or per minute, nothing with --quiet.
 #pragma once
 
 #include <signal.h>
@@ -8,18 +8,19 @@
 
 namespace scanbench::app {
 
-/// The user asked us to stop.
+/// Thrown when the user has interrupted the program.
 struct Interrupted {};
 
 /// Writes to standard error, like fmt::print(stderr, ...), but never fails: a log file on a full disk or a pipe that
 /// nobody reads must not end a run.
 void say(const std::string& text) noexcept;
 
-/// Opens what a caller has closed of standard input, output and error, so that no file of ours gets its number.
+/// Opens those of standard input, output and error that the caller has closed, so that no other file gets their
+/// descriptors.
 void open_standard_streams() noexcept;
 
 /// While one exists, SIGINT, SIGTERM and SIGHUP end the work at the next Progress::update(), which throws Interrupted,
-/// so that what is being written is finished or removed.
+/// so that unfinished files are completed or removed.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -42,13 +43,13 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   ~Progress() { finish(); }
 
-  /// A share in [0, 1] of everything, and what is being done now.
+  /// The completed share of the whole work, in [0, 1], and the name of the current step.
   void update(double share, const std::string& what);
   /// Counts a cell that failed; the bar and the lines show how many have.
   void failure() { ++failures_; }
   /// A line above the bar.
   void note(const std::string& line);
-  /// Leaves the terminal as it was.
+  /// Removes the bar.
   void finish();
 
  private:

@@ -1,4 +1,4 @@
-// simulate: recordings without pipelines. export: recordings as logs that other programs read, lines as polygons.
+// The verbs simulate, which makes recordings only, and export, which writes recordings as logs and lines as polygons.
 #include "app/recordings.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
+#include "harness/store/run_files.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_target.hpp"
 
@@ -30,14 +31,14 @@ struct Options {
   bool quiet = false;
 };
 
-/// A recording alone would replace the results of a run that share its default folder.
+/// Throws ConfigError for the folder of a run with cells: `run` and `simulate` share a default folder.
 void refuse_to_replace_cells(const fs::path& out) {
-  if (!fs::exists(out / "manifest.json")) return;
+  if (!fs::exists(out / harness::kManifestFile)) return;
   const std::size_t cells = harness::load_manifest(out).cells.size();
   if (cells > 0)
     throw ConfigError(
-        fmt::format("{} holds a run of {} cell{}, which simulate would remove; give another folder "
-                    "(--out), or remove that one",
+        fmt::format("{} contains a run of {} cell{}, which simulate would remove; choose another folder (--out), or "
+                    "remove that one",
                     out.string(), cells, cells == 1 ? "" : "s"));
 }
 
@@ -50,16 +51,11 @@ int simulate(const Options& options, const std::vector<std::string>& argv) {
   const InterruptGuard guard;
   Progress progress(progress_style(options.quiet));
   harness::RunTarget target(out, false);
-  harness::Manifest manifest{"running", harness::utc_now(), "", argv, {}, {}};
   std::vector<std::string> printed;
   try {
-    harness::make_folders(target.path());
-    harness::write_manifest(target.path(), manifest);
-    for (const auto& scenario : scenarios) {
-      manifest.scenarios.push_back(scenario.name);
-      harness::write_file_atomically(
-          target.path() / (scenarios.size() == 1 ? "effective.yaml" : "effective/" + scenario.name + ".yaml"),
-          harness::effective_yaml(scenario));
+    harness::Manifest manifest =
+        harness::start_run(target, {scenarios, {}, argv, std::nullopt, harness::effective_yaml});
+    for (const auto& scenario : scenarios)
       for (const auto seed : scenario.seeds) {
         const std::string what = fmt::format("recording {}/{}", scenario.name, seed);
         const Recording recording =
@@ -69,15 +65,11 @@ int simulate(const Options& options, const std::vector<std::string>& argv) {
         printed.push_back(fmt::format("{}  {} scans x {} beams  {}", what, recording.observed.frames.size(),
                                       recording.observed.sensor.geometry.beams(), hash));
       }
-    }
-    manifest.state = "complete";
-    manifest.end = harness::utc_now();
-    harness::write_manifest(target.path(), manifest);
+    harness::end_run(target, manifest, "complete");
   } catch (...) {
     target.abandon();
     throw;
   }
-  target.finish();
   progress.finish();
   if (!options.quiet)
     for (const auto& line : printed) fmt::print("{}\n", line);
@@ -122,7 +114,7 @@ int export_recordings(const Options& options) {
       ++written;
     }
   }
-  if (written == 0) throw ConfigError(folder.string() + ": holds no recording");
+  if (written == 0) throw ConfigError(folder.string() + ": contains no recording");
   return kGood;
 }
 
@@ -130,15 +122,15 @@ int export_recordings(const Options& options) {
 
 void add_recordings(Context& context) {
   auto options = std::make_shared<Options>();
-  auto* simulate_verb = context.app.add_subcommand("simulate", "Makes the recordings of a scenario and nothing else");
+  auto* simulate_verb = context.app.add_subcommand("simulate", "Makes only the recordings of a scenario");
   simulate_verb->add_option("FILE", options->file, "a scenario or suite file")->required();
   simulate_verb->add_option("-o,--out", options->out, "the run folder (default: out/<name of the file>)");
-  simulate_verb->add_option("--seed", options->seeds, "seeds in place of the file's, separated by commas")
+  simulate_verb->add_option("--seed", options->seeds, "seeds, separated by commas, that replace the file's")
       ->delimiter(',');
   simulate_verb->add_option("-j,--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024))->capture_default_str();
-  simulate_verb->add_option("--set", options->sets, "KEY=VALUE: a value in place of the file's (dotted keys)")
+  simulate_verb->add_option("--set", options->sets, "KEY=VALUE: replaces a value of the file (dotted keys)")
       ->take_all();
-  simulate_verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
+  simulate_verb->add_flag("-q,--quiet", options->quiet, "print only errors");
   simulate_verb->callback(
       [&context, options] { context.action = [options, argv = context.argv] { return simulate(*options, argv); }; });
 

@@ -1,4 +1,4 @@
-// score, figures, report, compare: the verbs that work on existing run folders.
+// The verbs score, figures, report and compare, which work on existing run folders.
 #include "app/results.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Scenarios of the run, or of files given in their place (to score with other metrics, to draw other figures).
+// Scenarios of the run, or of files that replace them (to score with other metrics, to draw other figures).
 std::vector<harness::Scenario> scenarios_for(const fs::path& run, const std::vector<std::string>& files) {
   return files.empty() ? harness::load_run_scenarios(run) : load_inputs(files, {});
 }
@@ -39,7 +39,8 @@ int score(const fs::path& run, const std::vector<std::string>& files, bool quiet
       run, scenarios, [&](double share, const std::string& what) { progress.update(share, "score " + what); });
   progress.finish();
   harness::write_reports(run, harness::load_report_input(run, scenarios));
-  if (!quiet) fmt::print("{} cell{} scored: {}\n", cells, cells == 1 ? "" : "s", (run / "summary.csv").string());
+  if (!quiet)
+    fmt::print("{} cell{} scored: {}\n", cells, cells == 1 ? "" : "s", (run / harness::kSummaryFile).string());
   const auto planned = harness::load_manifest(run).cells;
   const auto missing = std::ranges::count_if(
       planned, [&](const auto& key) { return !fs::exists(harness::cell_path(run, key) / "status.json"); });
@@ -73,7 +74,7 @@ int report(const fs::path& run) {
   const harness::RunLock lock(run);
   harness::refuse_linked_folders(run);
   harness::write_reports(run, harness::load_report_input(run, scenarios));
-  fmt::print("{}\n{}\n", (run / "report.html").string(), (run / "report.md").string());
+  fmt::print("{}\n{}\n", (run / harness::kReportPage).string(), (run / harness::kReportMarkdown).string());
   return kGood;
 }
 
@@ -124,7 +125,7 @@ void add_results(Context& context) {
   auto* score_verb = context.app.add_subcommand("score", "Computes the metrics of a run again, from its files");
   score_verb->add_option("RUN", options->run, "a run folder")->required();
   score_verb->add_option("--with", options->files, "scenario files whose metrics replace the run's own");
-  score_verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors and what is missing");
+  score_verb->add_flag("-q,--quiet", options->quiet, "print only errors and missing cells");
   score_verb->callback([&context, options] {
     context.action = [options] { return score(options->run, options->files, options->quiet); };
   });
@@ -133,7 +134,7 @@ void add_results(Context& context) {
   figures_verb->add_option("RUN", options->run, "a run folder")->required();
   figures_verb->add_option("--with", options->files, "scenario files whose figures replace the run's own");
   figures_verb->add_flag("--pdf", options->pdf, "also as PDF");
-  figures_verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
+  figures_verb->add_flag("-q,--quiet", options->quiet, "print only errors");
   figures_verb->callback([&context, options] {
     context.action = [options] { return figures(options->run, options->files, options->pdf, options->quiet); };
   });
@@ -147,7 +148,7 @@ void add_results(Context& context) {
   compare_verb->add_option("A", options->run, "the run folder to compare with")->required();
   compare_verb->add_option("B", options->other, "the run folder that is judged")->required();
   compare_verb->add_option("--csv", options->csv, "write all rows to this file");
-  compare_verb->add_flag("--all", options->all, "also show what has not changed");
+  compare_verb->add_flag("--all", options->all, "also show unchanged values");
   compare_verb->callback([&context, options] {
     context.action = [options] { return compare(options->run, options->other, options->csv, options->all); };
   });

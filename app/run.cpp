@@ -1,4 +1,4 @@
-// run: scenarios and suites to a run folder with tables, figures and a report.
+// The verb run, which runs scenarios and suites into a run folder with tables, figures and a report.
 #include "app/run.hpp"
 
 #include <fmt/format.h>
@@ -79,14 +79,14 @@ harness::ReportInput write_report(const harness::RunResult& result, const Option
   return report;
 }
 
-/// How many cells are missing, why the first one is, and what that means for an earlier run.
+/// The message about missing cells: their number, the reason of the first, and whether an earlier run remains.
 std::string missing_text(const harness::RunResult& result) {
   const auto is_missing = [](const harness::CellResult& cell) { return !cell.done; };
   const auto first = std::ranges::find_if(result.cells, is_missing);
   return fmt::format("scanbench: {} of {} cells are missing; {}: {}{}\n",
                      std::ranges::count_if(result.cells, is_missing), result.cells.size(),
                      harness::to_string(first->key), harness::plain_line(first->record.outcome.message),
-                     result.old_run_kept ? "; the earlier run in " + result.out.string() + " stays as it was" : "");
+                     result.old_run_kept ? "; the earlier run in " + result.out.string() + " is unchanged" : "");
 }
 
 int run(const Options& options, const std::vector<std::string>& argv) {
@@ -118,14 +118,14 @@ int run(const Options& options, const std::vector<std::string>& argv) {
     try {
       report = write_report(result, options, progress);
     } catch (const ConfigError& error) {
-      if (result.exit_code() != kIncomplete) throw;  // else the disk is full for the report too
+      if (result.exit_code() != kIncomplete) throw;  // else the report fails for the same reason
       say(fmt::format("scanbench: {}\n", error.what()));
     }
   };
   const harness::RunResult result = harness::run(scenarios, run_options);
   progress.finish();
   if (result.interrupted) {
-    say(fmt::format("scanbench: interrupted; what is finished stays in {} if the run was new (--resume goes on)\n",
+    say(fmt::format("scanbench: interrupted; the finished cells of a new run stay in {} (--resume continues)\n",
                     result.out.string()));
     return kInterrupted;
   }
@@ -135,7 +135,7 @@ int run(const Options& options, const std::vector<std::string>& argv) {
     print_json(result);
   } else if (!options.quiet && report) {
     print_tables(*report);
-    fmt::print("{}\n", (result.out / "report.html").string());
+    fmt::print("{}\n", (result.out / harness::kReportPage).string());
   }
   return result.exit_code();
 }
@@ -148,16 +148,18 @@ void add_run(Context& context) {
       context.app.add_subcommand("run", "Runs scenario or suite files: scans, algorithms, metrics, figures, report");
   verb->add_option("FILE", options->files, "scenario or suite files")->required();
   verb->add_option("-o,--out", options->out, "the run folder (default: out/<name of the first file>)");
-  verb->add_option("--seed", options->seeds, "seeds in place of the file's, separated by commas")->delimiter(',');
-  verb->add_option("-j,--jobs", options->jobs, "cells at a time")->check(CLI::Range(1, 1024))->capture_default_str();
-  verb->add_option("--set", options->sets, "KEY=VALUE: a value in place of the file's (dotted keys)")->take_all();
+  verb->add_option("--seed", options->seeds, "seeds, separated by commas, that replace the file's")->delimiter(',');
+  verb->add_option("-j,--jobs", options->jobs, "number of cells that run at the same time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  verb->add_option("--set", options->sets, "KEY=VALUE: replaces a value of the file (dotted keys)")->take_all();
   verb->add_option("--only", options->only,
                    "only these scenarios, pipelines or scenario/pipeline; the other cells of an earlier run stay")
       ->delimiter(',');
-  verb->add_flag("--resume", options->resume, "keep the cells that have not changed");
+  verb->add_flag("--resume", options->resume, "reuse the cells of an earlier run that have not changed");
   verb->add_flag("--trace", options->journal, "write the intermediate results of the algorithms (trace.csv)");
-  verb->add_flag("--no-figures", options->no_figures, "draw nothing");
-  verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
+  verb->add_flag("--no-figures", options->no_figures, "draw no figures");
+  verb->add_flag("-q,--quiet", options->quiet, "print only errors");
   verb->add_flag("--json", options->json, "print the cells' outcomes as JSON");
   verb->callback(
       [&context, options] { context.action = [options, argv = context.argv] { return run(*options, argv); }; });

@@ -1,3 +1,4 @@
+// Union-find with path halving.
 #include "core/disjoint_sets.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Exceptions: ConfigError for what a user can correct, InternalError for a bug of this program.
+// Exceptions: ConfigError for errors that a user can correct, InternalError for a bug of this program.
 #pragma once
 
 #include <stdexcept>
@@ -6,7 +6,7 @@
 
 namespace scanbench {
 
-/// A wrong file, value or argument. The message names the place (file:line:col where there is one), what was found and
+/// A wrong file, value or argument. The message names the place (file:line:col if there is one), what was found and
 /// what is allowed. Caught once, in app/, which exits with 2.
 class ConfigError : public std::runtime_error {
  public:

@@ -1,4 +1,4 @@
-// The names of the outcomes in files.
+// Names of statuses in files.
 #include "core/match.hpp"
 
 namespace scanbench {

@@ -1,3 +1,4 @@
+// Computes medians by sorting or partial sorting.
 #include "core/median.hpp"
 
 #include <algorithm>

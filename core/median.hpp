@@ -1,4 +1,4 @@
-// Medians.
+// The median of values, and the upper one of an even number.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// std::to_chars and std::from_chars, with stricter rules for reading.
+// Converts numbers with std::to_chars and std::from_chars, with stricter rules for reading.
 #include "core/number_text.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-// Checks of given values against declared parameters, and both as text for messages.
+// Checks values against declared parameters, and writes both as text for messages.
 #include "core/params.hpp"
 
 #include <algorithm>

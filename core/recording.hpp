@@ -1,5 +1,4 @@
-// What is saved and replayed: the observed scans and, if they are simulated, the truth; recorded logs may have poses to
-// compare with.
+// A recording: the observed scans and, if they are simulated, the truth; a recorded log may have poses to compare with.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Philox blocks, uniforms and normals.
+// Draws Philox blocks, uniform numbers and normal numbers.
 #include "core/rng.hpp"
 
 #include <cmath>

@@ -1,6 +1,5 @@
-// alignment: errors of the poses that a pipeline used, after the motion that is common to all of them is removed,
-// beside those of the poses it was given. Only relative poses are observable: a map that is right but turned has no
-// error.
+// alignment: errors of the poses that a pipeline used, and of those that it was given, after the motion that is common
+// to all of them is removed. Only relative poses are observable: a map that is right but rotated has no error.
 //
 // The common motion G minimises the sum over scans of |G p - q|^2 + lever^2 |G h - g|^2, p and q being the estimated
 // and the true position, h and g the unit headings: the squared distance of the pose and of a point `lever` ahead of
@@ -70,7 +69,7 @@ class AlignmentErrors : public MetricFamily {
           field("within_m", &Params::within_m, above(0), "m", "largest position error of a scan that counts as placed"),
           field("within_deg", &Params::within_deg, above(0), "deg", "largest heading error of such a scan"),
           field("lever_m", &Params::lever_m, above(0), "m",
-                "metres that a radian of heading counts for in the common motion")};
+                "weight of headings in the common motion: metres per radian")};
     }
   };
 
@@ -87,7 +86,7 @@ class AlignmentErrors : public MetricFamily {
             {"start_position_error", "m", neither, 0.0, "position_error of the recorded poses, before any alignment"},
             {"start_heading_error", "deg", neither, 0.0, "heading_error of the recorded poses"},
             {"error_ratio", "", lower_is_better, 0.02,
-             "position_error per start_position_error: above 1 the alignment made it worse"}};
+             "position_error / start_position_error; above 1 the alignment made the poses worse"}};
   }
 
   bool applies(const MetricInput& input) const override {

@@ -1,4 +1,4 @@
-// Boost.Math's chi-square distribution behind one function, so that one file pays for its headers.
+// Computes quantiles with Boost.Math, in one file because its headers are slow to compile.
 #include "metrics/chi_square.hpp"
 
 #include <boost/math/distributions/chi_squared.hpp>

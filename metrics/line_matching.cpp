@@ -1,4 +1,4 @@
-// Greedy matching by overlap.
+// Matches found lines with true lines greedily by overlap.
 #include "metrics/line_matching.hpp"
 
 #include <algorithm>

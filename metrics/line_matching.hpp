@@ -1,4 +1,4 @@
-// One-to-one matching of the lines found in a scan with its true lines: what `segments` and `efficiency` count.
+// One-to-one matching of the lines found in a scan with its true lines, for `segments` and `efficiency`.
 #pragma once
 
 #include <span>

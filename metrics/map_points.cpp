@@ -36,7 +36,7 @@ class MapPoints : public MetricFamily {
     return {{"D_S", "m", neither, 0.0005, "mean distance of inlying scan points to the nearest line of any scan"},
             {"D_M", "m", lower_is_better, 0.0005, "mean distance of the same points to the nearest line of the map"},
             {"inliers", "", neither, 0.005, "share of the scan points in the means D_S and D_M"},
-            {"compression", "", neither, 0.5, "numbers in the scan points (2 each) per number in the map (4 a line)"},
+            {"compression", "", neither, 0.5, "numbers in the scan points (2 each) per number in the map (4 per line)"},
             {"compression_bytes", "", neither, 0.5,
              "bytes of the ranges and poses as recorded per byte of the map's end points"},
             {"scan_points", "", neither, 0.0, "valid scan points"},

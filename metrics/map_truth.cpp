@@ -26,7 +26,7 @@ namespace {
 constexpr double kNear = 0.05;
 constexpr double kFar = 0.10;
 constexpr double kVisibilityBin = 0.10;
-constexpr int kOneIn = 5;          // one in so many members must come from each of two walls that a line fuses
+constexpr int kOneIn = 5;          // a line fuses two walls if one in this many members comes from each
 constexpr double kOneView = 0.30;  // visible parts with a smaller gap between them need one line, not two
 
 /// Visible parts of every surface, in metres from its first end.
@@ -74,7 +74,7 @@ double line_distance(const Vec2& p, const Segment& s) {
   return std::fabs(cross(s.direction(), p - s.a));
 }
 
-/// How far apart the lines of two nearly parallel segments are.
+/// The distance between the lines of two nearly parallel segments.
 double offset_between(const Segment& a, const Segment& b) {
   return std::max(line_distance(a.midpoint(), b), line_distance(b.midpoint(), a));
 }

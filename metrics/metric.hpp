@@ -41,7 +41,7 @@ struct MetricDescription {
   double target = 0.0;  ///< the best value, in the metric's unit, if direction is `target`
 };
 
-/// The value as a cost, of which less is better: the value, its negative or its distance from the target. NaN for an
+/// The value as a cost, for which lower is better: the value, its negative or its distance from the target. NaN for an
 /// undefined value and for a metric of which no value is better.
 double cost(const MetricDescription& metric, double value);
 

@@ -4,7 +4,7 @@
 // The paper's "geometric average" and "average of the maximal error of every single scan" do not define the averaging.
 // d_mean and d_max average over the segments of a scan and then over the scans: no other order fits the ratios of the
 // printed tables. d_mean_pts and d_max_scan follow the words literally. polygon_bytes and compression are about the
-// size of the representation of section 6 (core/geometry/polygon.hpp), 48 bytes a segment in the paper.
+// size of the representation of section 6 (core/geometry/polygon.hpp), 48 bytes per segment in the paper.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -88,8 +88,8 @@ class Siadat1997 : public MetricFamily {
         {"t_seg", "ms", lower_is_better, 0.0, "CPU time per scan of segmentation", true},
         {"t_post", "ms", lower_is_better, 0.0, "CPU time per scan of fitting after segmentation", true},
         {"t_total", "ms", lower_is_better, 0.0, "CPU time per scan of all three", true},
-        {"polygon_bytes", "B", neither, 0.0, "size of a scan's polygon, 48 bytes a segment (section 6)"},
-        {"compression", "", neither, 0.0, "size of the scans' ranges, 32 bits a beam, over that of their polygons"}};
+        {"polygon_bytes", "B", neither, 0.0, "size of a scan's polygon, 48 bytes per segment (section 6)"},
+        {"compression", "", neither, 0.0, "size of the scans' ranges, 32 bits per beam, over that of their polygons"}};
   }
 
   bool applies(const MetricInput& input) const override {

@@ -1,4 +1,4 @@
-// Runs of beams that end on one surface.
+// Finds the true lines of a scan: runs of beams that end on one surface.
 #include "metrics/true_lines.hpp"
 
 #include <algorithm>

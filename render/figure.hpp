@@ -30,7 +30,7 @@ struct ScanVerdict {
 struct NamedResult {
   std::string pipeline;
   const PipelineResult* result;
-  const TraceRows* trace = nullptr;     ///< the rows that the figures ask for; absent if none were kept
+  const TraceRows* trace = nullptr;     ///< the rows that the figures request; absent if none were kept
   std::vector<ScanVerdict> verdicts{};  ///< per frame; empty without truth
 };
 
@@ -54,14 +54,14 @@ struct FigureInput {
   NamedPoints waypoints;  ///< may be empty
   std::vector<Circle> circles{};
   std::vector<std::vector<Vec2>> body_paths{};  ///< of bodies that move through the world
-  /// Does the sensor move from each pose to the next? False: it was put down at each of them.
+  /// True if the sensor moves from each pose to the next; false if it was placed at each of them.
   bool continuous = true;
   std::vector<NamedResult> results;          ///< in the scenario's order
   std::vector<MeasuredPipeline> measured{};  ///< in the scenario's order
 };
 
 struct NamedScene {
-  std::string name;  ///< file name without ending
+  std::string name;  ///< file name without extension
   std::string caption;
   Scene scene;
 };

@@ -1,4 +1,4 @@
-// Okabe-Ito palette without its yellow, most different colours first.
+// Chooses styles for methods from the Okabe-Ito palette without its yellow, most different colours first.
 #include "render/palette.hpp"
 
 #include <algorithm>

@@ -31,7 +31,7 @@ struct MethodStyle {
 /// share a colour, seldom a whole look.
 MethodStyle method_style(std::string_view name);
 
-/// The same for the methods of one figure; where two share a whole look, the later one in the alphabet takes the next.
+/// The same for the methods of one figure; if two share a whole look, the later one in the alphabet takes the next.
 std::vector<MethodStyle> method_styles(std::span<const std::string> names);
 
 /// Mixed with white: 0 gives the colour, 1 white.

@@ -77,7 +77,7 @@ struct Text {
   Color color = kBlack;
   bool halo = true;     ///< a white rim under it, which covers points and dashed lines but no solid line
   bool movable = true;  ///< may be put on another side of its point if it would cover a line, a marker or another label
-  bool upwards = false;  ///< turned by 90 degrees: reads from bottom to top
+  bool upwards = false;  ///< rotated by 90 degrees: reads from bottom to top
 };
 
 /// A pose: a dot at its origin and an arrow along its x axis, of a length on paper.
@@ -117,9 +117,10 @@ struct Panel {
   std::string title{};
   Axis x{.label = "x [m]"};
   Axis y{.label = "y [m]"};
-  bool axes = true;          ///< false: no box, ticks and grid; what is drawn brings its own
+  bool axes = true;          ///< false: no box, ticks and grid, because the items draw their own
   bool equal_aspect = true;  ///< a metre is as long in x as in y: ranges grow to fill the box
-  /// "point" or "line": a corner says how many dots, or segments with an end there, are outside the box, if any.
+  /// "point" or "line": the number of dots, or of segments with an end, outside the box is written into a corner, if
+  /// any.
   std::string tell_outside{};
   std::vector<Item> items{};
 };

@@ -1,4 +1,4 @@
-// Copies of the walls, each with a pose of its own error.
+// Copies the walls, and gives each copy a pose with its own error.
 #include "sim/line_copies.hpp"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// Noise of a range sensor, one beam at a time.
+// Computes noisy readings, for one beam or for a whole scan.
 #include "sim/noise.hpp"
 
 #include <cmath>
@@ -55,7 +55,7 @@ double reading(const SensorModel& sensor, double true_range_m, double cos_incide
   return range <= sensor.range_max_m ? range : kInf;
 }
 
-// Fills a list of beams up to a multiple of 4.
+// Pads a list of beams to a multiple of 4.
 void fill_up(std::vector<std::uint32_t>& beams) {
   while (beams.size() % 4 != 0) beams.push_back(beams.back());
 }

@@ -28,14 +28,14 @@ Vec2 rotated(const Vec2& v, double angle_rad);
 /// Angle from a beam's nominal direction to its true one. 0 without bearing noise.
 double bearing_error(const SensorNoise& noise, const BeamAddress& address);
 
-/// The range that a beam of finite width returns at a depth edge: when its two sides meet different surfaces whose
-/// ranges differ by more than the beam is wide there. Uniform between the two ranges, because the edge may be anywhere
+/// The range that a beam of finite width returns at a depth edge, where its two sides hit different surfaces whose
+/// ranges differ by more than the width of the beam. Uniform between the two ranges, because the edge may be anywhere
 /// in the beam.
 double mixed_range(double range_a_m, double range_b_m, const BeamAddress& address);
 
 /// The reading of a beam that hits a surface at `true_range_m` (finite or +inf, never negative) under an angle
 /// with cosine `cos_incidence` to its normal. In this order:
-///   nothing within range_max: +inf, no noise; nearer than range_min: -inf;
+///   nothing within range_max: +inf, no noise; closer than range_min: -inf;
 ///   drop-out, with probability min(1, dropout_probability + dropout_grazing (1 - cos)^2): +inf;
 ///   short return, with spurious_probability: the range becomes uniform between range_min and the true one;
 ///   gaussian error with SensorNoise::gaussian_sigma of that range; rounding to multiples of the quantum;

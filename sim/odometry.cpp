@@ -1,4 +1,4 @@
-// Random walk along the path, then an independent error per pose.
+// Computes odometry: a random walk along the path, then an independent error per pose.
 #include "sim/odometry.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Arc length along a polyline. Uses only + - * / sqrt: positions enter recordings, whose bytes must not depend on the
-// machine.
+// Computes arc lengths along a polyline with + - * / and sqrt only, because positions enter recordings, whose bytes
+// must not depend on the machine.
 #include "sim/path.hpp"
 
 #include <algorithm>

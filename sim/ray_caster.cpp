@@ -1,4 +1,4 @@
-// Choice of the caster, and checks of its callers' buffers.
+// Chooses the caster, and checks the buffers of its callers.
 #include "sim/ray_caster.hpp"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Exact ranges of a world, computed in batches. The caller owns the memory; nothing is allocated per ray.
+// Casts rays in batches and gives exact ranges. The caller owns the memory; nothing is allocated per ray.
 #pragma once
 
 #include <memory>
@@ -13,15 +13,15 @@
 
 namespace scanbench::sim {
 
-/// How rays are cast. Recordings are equal to the byte; time is not.
+/// The algorithm of ray casting. Both give the same bytes, but not in the same time.
 enum class CasterKind {
-  exact,  ///< walls are swept over the beams of a scan: the fast one
-  box2d,  ///< Box2D's broad phase, one ray at a time: the reference
+  exact,  ///< fast: sweeps walls over the beams of a scan
+  box2d,  ///< the reference: Box2D's broad phase, one ray at a time
 };
 
-/// A frozen world that answers rays; const calls may come from several threads at once.
+/// Casts rays in a fixed world; const calls may come from several threads at once.
 ///
-/// Double arithmetic decides which surface is hit and how far it is (sim/wall_range.hpp). Of surfaces within 1e-9 m of
+/// Double arithmetic decides which surface is hit and at what range (sim/wall_range.hpp). Of surfaces within 1e-9 m of
 /// the nearest the lowest index wins (walls that overlap, corners).
 class RayCaster {
  public:
@@ -31,12 +31,12 @@ class RayCaster {
   /// One ray. Surfaces beyond `range_max_m` are ignored.
   RayHit cast(const Ray& ray, double range_max_m) const;
 
-  /// Whole scans, each taken in an instant: poses x beams, row-major. `stamps_s`: one time per pose, or empty for 0.
-  /// A buffer has poses x beams places or none, else InternalError.
+  /// Whole scans, each taken in an instant: poses x beams, row-major. `stamps_s`: one time per pose, or empty for 0. A
+  /// buffer has poses x beams elements or none, else InternalError.
   void cast_scans(std::span<const Pose2> world_from_sensor, std::span<const double> stamps_s, const ScanGeometry& beams,
                   double range_max_m, const HitBuffers& out) const;
 
-  /// One scan whose beams do not point where the data sheet says. A buffer has one place per beam or none, and
+  /// One scan whose beams do not point where the data sheet says. A buffer has one element per beam or none, and
   /// `scan.directions` has one per beam, else InternalError.
   void cast_bent_scan(const BentScan& scan, const ScanGeometry& beams, double range_max_m, const HitBuffers& out) const;
 

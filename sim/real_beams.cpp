@@ -1,4 +1,4 @@
-// Deflected, tilted and wide beams of a frame.
+// Casts the deflected, tilted and wide beams of a frame.
 #include "sim/real_beams.hpp"
 
 #include <algorithm>
@@ -63,7 +63,7 @@ void RealBeams::deflect(std::span<const Beam> from, double angle_rad, std::vecto
   for (const Beam& beam : from) to.push_back({rotated_by(beam.direction, angle), rotated_by(beam.in_sensor, angle)});
 }
 
-// Casts the beams as seen from above; of a tilted sensor the ranges become those along the beams.
+// Casts the beams as seen from above, then converts the ranges of a tilted sensor to ranges along the beams.
 void RealBeams::meet(const FrameBeams& frame, std::span<const Beam> beams, const TiltRotation* tilt, Hits& hits) {
   const double range_max_m = sensor_.range_max_m;
   const std::size_t n = beams.size();
@@ -105,8 +105,8 @@ void RealBeams::meet(const FrameBeams& frame, std::span<const Beam> beams, const
   }
 }
 
-// Depth edges: the two sides of a beam meet surfaces that are farther apart in range than the beam is wide. A smaller
-// difference is a corner seen at a slant.
+// Mixes ranges at depth edges, where the two sides of a beam hit surfaces whose ranges differ by more than the width of
+// the beam. A smaller difference is a slanted corner.
 void RealBeams::mix(std::uint32_t frame, Hits& hits) const {
   for (std::size_t i = 0; i < hits.ranges.size(); ++i) {
     const double left = left_.ranges[i];

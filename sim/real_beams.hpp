@@ -1,4 +1,4 @@
-// Beams as they really are: tilted, deflected and of finite width. They decide what is observed, not the truth.
+// Real beams, which are tilted, deflected and of finite width. They determine the readings, not the truth.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ class RealBeams {
   /// False if all beams are the nominal ones.
   static bool needed(const SensorNoise& noise, const Tilt& tilt);
 
-  /// What each beam meets: ranges along the beams and cosines of incidence. The floor is one more surface.
+  /// Casts the beams: gives ranges along the beams and cosines of incidence. The floor is one more surface.
   /// `bearing_errors`: one per beam, or none for 0.
   void meet(const FrameBeams& beams, std::span<const double> bearing_errors, std::span<double> ranges,
             std::span<double> cos_incidence);

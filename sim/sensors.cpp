@@ -1,4 +1,5 @@
-// Data sheets as parameter sets. Where a value is ours and not a document's, the preset's source says so.
+// Defines sensors by the parameters of their data sheets. If a value is ours and not a document's, the preset's source
+// says so.
 #include "sim/sensors.hpp"
 
 #include <cmath>
@@ -45,23 +46,25 @@ struct SensorParams {
         field("range_min_m", &P::range_min_m, at_least(0), "m", "closer surfaces give -inf (too close)"),
         field("range_max_m", &P::range_max_m, above(0), "m", "farther surfaces give +inf (nothing in range)"),
         field("scan_period_s", &P::scan_period_s, above(0), "s", "between the first beams of two scans"),
-        field("time_per_beam_s", &P::time_per_beam_s, at_least(0), "s", "from beam to beam; 0: all beams at once"),
+        field("time_per_beam_s", &P::time_per_beam_s, at_least(0), "s",
+              "time from beam to beam; 0 fires all beams at once"),
         field("sigma_m", &P::sigma_m, at_least(0), "m", "standard deviation of the range, constant part"),
         field("sigma_relative", &P::sigma_relative, at_least(0), "",
               "standard deviation of the range, part proportional to it"),
         field("relative_from_m", &P::relative_from_m, at_least(0), "m",
-              "0: both parts in quadrature; else the constant part below this range, the proportional one from it on"),
+              "0 adds both parts in quadrature; else the constant part acts below this range, the proportional part "
+              "from it on"),
         field("bearing_sigma_deg", &P::bearing_sigma_deg, between(0, 45), "deg",
               "standard deviation of a beam's true direction about its nominal one"),
         field("quantum_m", &P::quantum_m, at_least(0), "m", "rounding step of ranges; 0 disables rounding"),
         field("dropout_probability", &P::dropout_probability, between(0, 1), "",
-              "of a beam that hits to return nothing, at normal incidence"),
+              "probability that a beam that hits returns nothing, at normal incidence"),
         field("dropout_grazing", &P::dropout_grazing, between(0, 1), "",
-              "added to it at grazing incidence; in between it grows as (1 - cos(incidence))^2"),
+              "added to that probability at grazing incidence; in between it grows as (1 - cos(incidence))^2"),
         field("spurious_probability", &P::spurious_probability, between(0, 1), "",
-              "of a short return, uniform between range_min_m and the true range"),
+              "probability of a short return, uniform between range_min_m and the true range"),
         field("beam_divergence_deg", &P::beam_divergence_deg, between(0, 45), "deg",
-              "full opening angle of a beam; > 0: ranges between the two surfaces at depth edges (mixed pixels)")};
+              "full opening angle of a beam; > 0 gives ranges between the two surfaces at depth edges (mixed pixels)")};
   }
 };
 
@@ -70,7 +73,7 @@ SensorPreset preset(std::string name, std::string summary, std::string source, c
 }
 
 std::map<std::string, SensorPreset, std::less<>> make_presets() {
-  // Half of a turn of a 75 Hz mirror per 180 deg, 0.5 deg a beam.
+  // Half of a turn of a 75 Hz mirror per 180 deg, 0.5 deg per beam.
   constexpr double kLmsBeam = 1.0 / 75.0 / 720.0;
   std::map<std::string, SensorPreset, std::less<>> all;
   const auto add = [&](SensorPreset p) { all.emplace(p.name, std::move(p)); };

@@ -1,4 +1,4 @@
-// Simulation in chunks of frames, shared by threads; every frame writes to its own place.
+// Simulates chunks of frames on several threads; every frame writes to its own memory.
 #include "sim/simulate.hpp"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ namespace scanbench::sim {
 namespace {
 
 constexpr std::size_t kFramesPerChunk = 8;
-// Of Box2D, which needs more than the other caster: an empty world, and per surface a fixture, a shape, a proxy and two
-// tree nodes (measured: 360 to 450 bytes).
+// Memory of Box2D, which needs more than the other caster: an empty world, and per surface a fixture, a shape, a proxy
+// and two tree nodes (measured: 360 to 450 bytes).
 constexpr std::uint64_t kBytesPerWorld = 160 * 1024;
 constexpr std::uint64_t kBytesPerSurface = 512;
 
@@ -69,7 +69,7 @@ class Worker {
   std::size_t beams() const { return static_cast<std::size_t>(input_.sensor.geometry.beams()); }
   const TimedPose& start(std::size_t k) const { return input_.trajectory.poses[k]; }
 
-  // The truth: ranges and walls of the nominal beams.
+  // Casts the truth: ranges and walls of the nominal beams.
   void cast_nominal(std::size_t first, std::size_t last) {
     const std::size_t n = beams();
     Truth& truth = *recording_.truth;
@@ -133,8 +133,8 @@ class Worker {
   std::vector<Ray> rays_;
 };
 
-// Runs make_worker()'s frames(first, last) over [0, count) in chunks on `threads` threads, this one included, with a
-// worker each; all are joined before it returns or throws. The first exception ends the rest.
+// Runs frames(first, last) of workers over [0, count) in chunks. Each of `threads` threads, this one included, has its
+// own worker from make_worker(); all are joined before it returns or throws. The first exception ends the rest.
 template <class MakeWorker>
 void in_chunks(std::size_t count, int threads, const std::function<void(double)>& progress,
                const MakeWorker& make_worker) {

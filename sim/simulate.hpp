@@ -26,7 +26,7 @@ struct SimulationInput {
   CasterKind caster = CasterKind::exact;
 };
 
-/// Bytes that simulate() will hold at once, for the check against the memory limit before it starts.
+/// Bytes that simulate() will use at once, for the check against the memory limit before it starts.
 std::uint64_t memory_estimate(const SimulationInput& input);
 
 /// The scans of a trajectory and the truth behind them. Calls validate() and check_clear() first and throws what they

@@ -1,4 +1,4 @@
-// Rotation of a tilted scanning plane: beams are rotated in space and projected on the floor.
+// Computes the beams of a tilted scanning plane: rotates them in space and projects them on the floor.
 #include "sim/tilt.hpp"
 
 #include <cmath>

@@ -17,7 +17,7 @@ namespace scanbench::sim {
 struct Tilt {
   double roll_sigma_rad = 0.0;
   double pitch_sigma_rad = 0.0;
-  double height_m = 0.0;  ///< of the sensor over the floor, which tilted beams may meet; 0: there is no floor
+  double height_m = 0.0;  ///< of the sensor over the floor, which tilted beams may hit; 0: there is no floor
 
   static auto fields() {
     using P = Tilt;
@@ -26,7 +26,7 @@ struct Tilt {
                       degrees_field("pitch_sigma_deg", &P::pitch_sigma_rad, between(0, 30),
                                     "standard deviation of the pitch, independent per scan"),
                       field("height_m", &P::height_m, at_least(0), "m",
-                            "height of the sensor over the floor, which tilted beams may meet; 0: no floor")};
+                            "height of the sensor over the floor, which tilted beams may hit; 0 removes the floor")};
   }
   bool level() const { return !(roll_sigma_rad > 0 || pitch_sigma_rad > 0); }
 };

@@ -1,4 +1,4 @@
-// Motion between poses, and checks that the path is clear.
+// Interpolates the motion between poses, and checks that the path is clear.
 #include "sim/trajectory.hpp"
 
 #include <algorithm>
@@ -85,7 +85,7 @@ void check_body(const std::string& who, const Vec2& p, const std::string& body, 
     consider((p - circle.center).norm() - circle.radius_m, "circle", circle.label);
   for (const MovingBody& body : world.moving)
     consider((p - body.position(pose.stamp_s)).norm() - body.radius_m, "moving body", body.label);
-  throw ConfigError(who + " is outside any free space: the nearest thing, " + name + ", is " + metres_text(nearest) +
+  throw ConfigError(who + " is outside any free space: the nearest surface, " + name + ", is " + metres_text(nearest) +
                     " m away, and the sensor's range is " + metres_text(range_max_m) + " m");
 }
 

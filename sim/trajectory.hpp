@@ -35,8 +35,8 @@ class TrajectoryKind {
   virtual Trajectory generate(double scan_period_s) const = 0;
 };
 
-/// The pose `time_s` after the scan `frame` began: SE(2) interpolation (constant twist) to the next pose, beyond the
-/// last pose the last twist again. The pose of the frame itself if the sensor is placed or stops.
+/// The pose `time_s` after the scan `frame` began: SE(2) interpolation (constant twist) to the next pose; after the
+/// last pose the last twist continues. The pose of the frame itself if the sensor is placed or stops.
 Pose2 pose_during_scan(const Trajectory& trajectory, std::size_t frame, double time_s);
 
 /// Throws ConfigError, naming the wall or body and the place in metres, if a continuous path crosses a wall or a round

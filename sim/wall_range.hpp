@@ -1,4 +1,4 @@
-// Range from a ray's origin to a wall, on plain numbers: the one expression that every caster uses.
+// The range from a ray's origin to a wall, computed on plain numbers by the one expression that every caster uses.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,4 @@
-// Checks of a world, and positions of its moving bodies.
+// Checks a world, and computes the positions of its moving bodies.
 #include "sim/world.hpp"
 
 #include <algorithm>

@@ -44,7 +44,7 @@ inline constexpr double kMaxWorldExtentM = 1e5;
 /// a number that is not finite, a label given to two walls, a world larger than kMaxWorldExtentM. Names the wall.
 void validate(const World& world);
 
-/// The middle of the bounding box of all that the world holds; the origin for an empty world.
+/// The middle of the bounding box of all surfaces; the origin for an empty world.
 Vec2 center(const World& world);
 
 }  // namespace scanbench::sim

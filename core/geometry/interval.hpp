@@ -17,15 +17,14 @@ struct Interval {
   bool operator==(const Interval&) const = default;
 };
 
-/// Where a segment's ends project to on the axis through `origin` with the unit vector `along`, in metres from
-/// `origin`.
+/// The projection of a segment on the axis through `origin` with the unit vector `along`, in metres from `origin`.
 Interval projection(const Segment& segment, const Vec2& origin, const Vec2& along);
 
-/// What two intervals have in common; high < low if they are apart.
+/// The common part of two intervals; high < low if they are apart.
 Interval intersection(const Interval& a, const Interval& b);
 
-/// The union of the intervals: in order, disjoint, without those of no length. Intervals closer than `gap` are joined
-/// across it.
+/// The union of the intervals: sorted, disjoint, without intervals of length zero. Intervals closer than `gap` are
+/// joined across it.
 std::vector<Interval> unite(std::vector<Interval> intervals, double gap = 0.0);
 
 /// Sum of the lengths of a union.

@@ -11,9 +11,9 @@
 
 namespace scanbench {
 
-/// A segment V1 -> V2 with everything that position correction needs repeatedly, 32 bits a field, sensor frame, metres.
-/// Its normalised implicit line is a x + b y + c = 0 with (a, b) = normal and c = -distance (eq. 8). The normal points
-/// away from the origin, so that the origin's side is negative; for a line through the origin either normal is
+/// A segment V1 -> V2 with everything that position correction needs repeatedly, 32 bits per field, sensor frame,
+/// metres. Its normalised implicit line is a x + b y + c = 0 with (a, b) = normal and c = -distance (eq. 8). The normal
+/// points away from the origin, so that the origin's side is negative; for a line through the origin either normal is
 /// possible. A record without a direction (one point) has length 0 and a normal along its ray, and is not `valid`.
 struct PolygonSegment {
   enum Flag : std::uint32_t {

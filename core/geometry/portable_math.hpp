@@ -3,8 +3,8 @@
 // glibc chooses FMA variants of sin, cos, log and exp at run time, and they differ from the plain ones in the last bit.
 // Everything in a recording is computed with the functions below: they use only + - * / and sqrt, which IEEE 754
 // defines to the last bit, so the same seed gives the same bytes with gcc or clang, debug or release (the build never
-// contracts a*b+c). Errors stay under 2 ulp over the stated ranges (tests/core/portable_math_test.cpp compares them
-// with long double).
+// contracts a*b+c). Errors stay under 2 ulp over the stated ranges (tests/core/geometry/portable_math_test.cpp compares
+// them with long double).
 #pragma once
 
 namespace scanbench::portable {

@@ -9,7 +9,7 @@
 
 namespace scanbench::mean_shift {
 
-/// Numbers of everything; the only row of an input without a usable line.
+/// Counts of lines, pieces and clusters; the only row of an input without a usable line.
 struct CountsRow {
   static constexpr std::string_view kName = "counts";
   int lines = 0;  ///< given

@@ -1,3 +1,4 @@
+// Names of stages, in the order of the enumerators.
 #include "core/trace/stage.hpp"
 
 #include <algorithm>

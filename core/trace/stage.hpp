@@ -32,7 +32,7 @@ enum class Stage {
 /// Names in the order of the enumerators; each is the enumerator's own.
 std::span<const std::string_view> stage_names();
 std::string_view to_string(Stage stage);
-/// Nothing for text that names no stage.
+/// nullopt for text that names no stage.
 std::optional<Stage> stage_named(std::string_view name);
 
 }  // namespace scanbench

@@ -1,3 +1,4 @@
+// Converts labels of timing.csv to slot and stage, and back.
 #include "core/trace/stage_time.hpp"
 
 #include <algorithm>

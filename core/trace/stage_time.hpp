@@ -21,7 +21,7 @@ struct StageTime {
   std::string label() const;
 };
 
-/// The slot and the stage of a label, with seconds 0; nothing for a label that names neither.
+/// The slot and the stage of a label, with seconds 0; nullopt for a label that names neither.
 std::optional<StageTime> stage_time_labelled(std::string_view label, int frame);
 
 }  // namespace scanbench

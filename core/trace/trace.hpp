@@ -1,5 +1,5 @@
-// The trace of an algorithm: the stages of its work and rows of intermediate results. Both cost next to nothing without
-// a listener.
+// The trace of an algorithm: the stages of its work and rows of intermediate results. Without a listener both cost
+// almost nothing.
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@ class Trace {
   Trace() = default;
   explicit Trace(Listener listener) : listener_(std::move(listener)) {}
 
-  /// Are rows read? Code that must prepare its rows checks this first.
+  /// True if a listener reads rows. Code that must prepare its rows checks this first.
   bool recording() const { return static_cast<bool>(listener_.row); }
   /// A stage of the work begins; the stage before it ends.
   void stage(Stage begun) {

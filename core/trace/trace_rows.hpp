@@ -1,4 +1,4 @@
-// The rows of a trace as its file holds them, and as the structs that wrote them.
+// The rows of a trace as numbers from its file, and as the structs that wrote them.
 #pragma once
 
 #include <functional>

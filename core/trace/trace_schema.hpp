@@ -46,7 +46,7 @@ concept TraceRowType = requires {
   Row::columns();
 };
 
-/// What a listener gets to know of a kind of row.
+/// The name and the columns of a kind of row, for listeners.
 struct TraceSchema {
   std::string_view name;
   std::vector<std::string_view> columns;
@@ -85,7 +85,7 @@ inline bool read_value(double value, int& member) {
 
 }  // namespace detail
 
-/// Nothing if the values do not fit the schema: another number of them, or an index that is no whole number.
+/// nullopt if the values do not fit the schema: another number of them, or an index that is no whole number.
 template <TraceRowType Row>
 std::optional<Row> row_from(std::span<const double> values) {
   if (values.size() != kColumns<Row>) return std::nullopt;

@@ -1,4 +1,4 @@
-// Pairs of methods, best methods, correlations.
+// Compares our values with a paper's: orderings of methods, best methods, correlations.
 #include "harness/analysis/agreement.hpp"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ std::vector<ComparedMethod> methods_of(const Scenario& scenario, const std::vect
   return methods;
 }
 
-/// Values of a scenario's summary by what they are about.
+/// Values of a scenario's summary by pipeline, metric and subject.
 class OurValues {
  public:
   OurValues(const Scenario& scenario, const std::vector<SummaryRow>& rows) : seeds_(scenario.seeds) {
@@ -65,7 +65,7 @@ class OurValues {
   std::map<std::tuple<std::string, std::string, std::string>, std::map<std::uint64_t, double>> values_;
 };
 
-/// The paper's subjects; and ours that it does not print, where it speaks of single ones.
+/// The paper's subjects, and our other subjects if the paper prints single ones.
 std::vector<std::string> subjects_of(const std::string& metric, const std::vector<PublishedValue>& published,
                                      const Scenario& scenario, const std::vector<SummaryRow>& rows) {
   std::vector<std::string> subjects;
@@ -81,7 +81,7 @@ std::vector<std::string> subjects_of(const std::string& metric, const std::vecto
   return subjects;
 }
 
-/// The indices of the finite values that no other one is better than.
+/// Indices of the best finite values: no other value is better.
 std::vector<std::size_t> best_of(const std::vector<double>& values, const MetricDescription& metric) {
   double best = kNaN;
   for (const double value : values)

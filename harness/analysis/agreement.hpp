@@ -1,5 +1,5 @@
-// How far our values agree with the tables of a paper: the same cells side by side, and what the paper's numbers say
-// that does not depend on digits: which method beats which, who is best on how many lines, how the cells correlate.
+// Agreement of our values with the tables of a paper: the same cells side by side, and statements that do not depend on
+// digits, namely which method is better than which, which is best on how many lines, and how the cells correlate.
 #pragma once
 
 #include <cstddef>
@@ -21,14 +21,14 @@ struct ComparedMethod {
 struct ComparedCell {
   double paper;               ///< in the unit of our metric; NaN: not printed, or a rating
   std::string printed;        ///< as printed
-  std::vector<double> ours;   ///< one value a seed, in the order of the scenario's seeds; NaN: undefined or missing
+  std::vector<double> ours;   ///< one value per seed, in the order of the scenario's seeds; NaN: undefined or missing
   double our_median() const;  ///< NaN values left out
 };
 
 /// One quantity of the paper: a column of one of its tables, for all methods and subjects (lines).
 struct ComparedColumn {
   std::string table;                  ///< the paper's number of the table; may be empty
-  metrics::MetricDescription metric;  ///< doc is empty where nothing here computes it (a rating)
+  metrics::MetricDescription metric;  ///< doc is empty if no metric computes it (a rating)
   std::string printed_unit;
   std::size_t seeds = 0;
   std::vector<ComparedMethod> methods;
@@ -38,9 +38,9 @@ struct ComparedColumn {
   const ComparedCell& at(std::size_t subject, std::size_t method) const {
     return cells[subject * methods.size() + method];
   }
-  bool printed(std::size_t subject) const;  ///< whether the paper says anything of it
+  bool printed(std::size_t subject) const;  ///< true if the paper prints a value of it
   std::size_t printed_subjects() const;
-  bool of_lines() const { return subjects != std::vector<std::string>{"all"}; }  ///< of single ones, not of the whole
+  bool of_lines() const { return subjects != std::vector<std::string>{"all"}; }  ///< true if subjects are single lines
 };
 
 /// The columns that the scenario's `published` file prints, in the file's order; none without such a file. Methods are
@@ -64,10 +64,10 @@ struct Ordering {
 /// one family at two settings. Equal printed values imply none.
 std::vector<Ordering> orderings(const ComparedColumn& column);
 
-/// How many of them hold for the values of each seed.
+/// For each seed, the number of orderings that hold for its values.
 std::vector<double> orderings_per_seed(const ComparedColumn& column);
 
-/// On how many of the subjects that the paper prints no other method that it has is better.
+/// Number of printed subjects on which no other published method is better.
 struct BestCount {
   std::size_t method = 0;
   std::size_t paper = 0;
@@ -78,7 +78,7 @@ enum class Ties {
   shared,  ///< all methods that share the first place are best
   nobodys  ///< only a method that is better than every other
 };
-/// One for each published method; none if the metric has no better direction.
+/// One count for each published method; none if the metric has no better direction.
 std::vector<BestCount> best_counts(const ComparedColumn& column, Ties ties);
 
 /// Pearson's correlation of our cells with the printed ones; NaN for fewer than two pairs or no spread.

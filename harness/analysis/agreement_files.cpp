@@ -1,4 +1,4 @@
-// cells.csv, orderings.csv, agreement.csv: the comparison with a paper for other programs.
+// Writes the comparison with a paper for other programs: cells.csv, orderings.csv, agreement.csv.
 #include "harness/analysis/agreement_files.hpp"
 
 #include <algorithm>
@@ -8,6 +8,10 @@
 
 namespace scanbench::harness {
 namespace {
+
+const RunFile kCellsFile("published/cells.csv");
+const RunFile kOrderingsFile("published/orderings.csv");
+const RunFile kAgreementFile("published/agreement.csv");
 
 using Scenarios = std::vector<std::pair<std::string, std::vector<ComparedColumn>>>;
 
@@ -45,7 +49,7 @@ std::string orderings_csv(const Scenarios& scenarios) {
   return csv.str();
 }
 
-// A measure of one column: what the paper has, what our medians give, and the spread over single seeds.
+// Writes a measure of one column: the paper's value, that of our medians, and the spread over single seeds.
 void agreement_row(CsvWriter& csv, const std::string& scenario, const ComparedColumn& column,
                    const std::string& measure, const std::string& method, double paper, double of_medians,
                    const std::vector<double>& per_seed, std::size_t of) {
@@ -83,9 +87,9 @@ std::string agreement_csv(const Scenarios& scenarios) {
 }  // namespace
 
 std::vector<NamedBytes> agreement_files(const Scenarios& scenarios) {
-  return {{"cells.csv", cells_csv(scenarios)},
-          {"orderings.csv", orderings_csv(scenarios)},
-          {"agreement.csv", agreement_csv(scenarios)}};
+  return {{kCellsFile.name(), cells_csv(scenarios)},
+          {kOrderingsFile.name(), orderings_csv(scenarios)},
+          {kAgreementFile.name(), agreement_csv(scenarios)}};
 }
 
 }  // namespace scanbench::harness

@@ -9,7 +9,8 @@
 
 namespace scanbench::harness {
 
-/// The files of the run folder's `published`: name and bytes (docs/formats.md). `columns` by scenario.
+/// A file of a run's folder `published` (docs/formats.md). agreement_files() makes them from the columns of each
+/// scenario.
 struct NamedBytes {
   std::string name;
   std::string bytes;

@@ -1,4 +1,4 @@
-// Averages over conditions and seeds; ranks and tests.
+// Ranks the pipelines of a benchmark: averages over conditions and seeds, and tests the differences.
 #include "harness/analysis/benchmark.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::vector<std::string> pipeline_names(const Scenario& scenario) {
   return names;
 }
 
-/// Each value over the baseline's in the same scenario and seed.
+/// Divides each value by the baseline's in the same scenario and seed.
 CellValues ratios_to(const CellValues& values, const std::string& baseline) {
   CellValues ratios;
   for (const auto& [key, value] : values) {

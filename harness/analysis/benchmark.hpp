@@ -1,11 +1,11 @@
-// A benchmark: all cells of a suite as one ranking of its pipelines. What is requested (the suite's key `benchmark`,
-// benchmark.json in the run folder), and the table.
+// A benchmark ranks the pipelines of a suite over all of its cells (harness/scenario/benchmark_spec.hpp reads its
+// specification).
 //
-// A condition is one scenario of the suite: a world seen by one sensor at one noise level. Every condition counts the
-// same, whatever the number of lines in it: a value is averaged over the conditions first, for each seed, and the seeds
-// give the interval then. Shares, lengths and angles are averaged by the arithmetic mean, ratios and times by the
-// geometric mean. What is undefined in a cell (the error of an extractor that found nothing) is left out of the
-// average; F1 is always defined where there are walls, and the errors of poses where a matcher gives one.
+// A condition is one scenario of the suite: a world seen by one sensor at one noise level. Every condition has the same
+// weight, independent of its number of lines: for each seed a value is averaged over the conditions, and the seeds then
+// give the interval. Shares, lengths and angles are averaged by the arithmetic mean, ratios and times by the geometric
+// mean. Values that are undefined in a cell (the error of an extractor that found nothing) are left out of the average;
+// F1 is always defined if there are walls.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ struct RankedPipeline {
 using CellValues = std::map<std::tuple<std::string, std::uint64_t, std::string>, double>;
 CellValues values_of(const std::vector<SummaryRow>& rows, const std::string& metric);
 
-/// Seed by seed the average over the scenarios of these names; NaN for a seed without values.
+/// For each seed, the average over the scenarios of these names; NaN for a seed without values.
 std::vector<double> per_seed(const CellValues& values, const std::string& pipeline,
                              const std::vector<std::uint64_t>& seeds, const std::vector<std::string>& scenarios,
                              bool geometric = false);
@@ -48,8 +48,8 @@ std::vector<double> per_seed(const CellValues& values, const std::string& pipeli
 /// Seeds of the rows, increasing: a run may have others than its scenarios name.
 std::vector<std::uint64_t> seeds_of(const std::vector<SummaryRow>& rows);
 
-/// Best first by the first column of the subject; ties by name. Pipelines that miss cells come last: what they did not
-/// finish was not measured.
+/// Best value of the subject's first column first; ties by name. Pipelines with missing cells come last, because they
+/// are not measured on all of them.
 std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenarios, const std::vector<SummaryRow>& rows,
                                            const BenchmarkSpec& spec);
 

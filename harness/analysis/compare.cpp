@@ -54,8 +54,8 @@ std::string status_of(const std::optional<LoadedCell>& cell) {
   return cell ? std::string(to_string(cell->status)) : "missing";
 }
 
-/// Different bits count as a change: the smallest drift shows. An infinite value is no result: it is not better than
-/// any other, whatever the direction.
+/// Different bits count as a change, so that the smallest drift is visible. An infinite value is no result: in either
+/// direction it is not better than any other.
 Verdict judge(const MetricDescription& description, double a, double b) {
   if (description.timing) return Verdict::timing;
   if (a == b || (std::isnan(a) && std::isnan(b))) return Verdict::same;
@@ -93,7 +93,7 @@ class Comparer {
   }
 
  private:
-  /// `left_out`: neither run requested the cell: it may be missing in both.
+  /// `left_out` means that neither run requested the cell, so it may be missing in both.
   void compare_cell(const CellKey& key, bool left_out) {
     const auto a = load_cell(a_, key);
     const auto b = load_cell(b_, key);

@@ -19,14 +19,14 @@ enum class Verdict {
   changed,     ///< changed by more, of a metric without direction
   timing,      ///< depends on the machine: shown, never judged
   only_in_a,   ///< the row, or the whole cell, is missing in B
-  only_in_b,   ///< ... in A
+  only_in_b,   ///< the row, or the whole cell, is missing in A
   not_judged,  ///< the cell is ok in neither run
 };
 std::string_view to_string(Verdict verdict);
 
 struct ComparisonRow {
   CellKey cell;
-  std::string metric;  ///< "status" for a cell that is not ok or not there in a run
+  std::string metric;  ///< "status" for a cell that is not ok or missing in a run
   std::string subject;
   double a = 0.0;
   double b = 0.0;
@@ -35,19 +35,19 @@ struct ComparisonRow {
   metrics::Direction direction = metrics::Direction::neither;
   double tolerance = 0.0;
   Verdict verdict = Verdict::same;
-  std::string note;  ///< statuses, where the metric is "status"
+  std::string note;  ///< the statuses in A and B, if the metric is "status"
 };
 
 struct Comparison {
-  std::vector<ComparisonRow> rows;  ///< in the order of A's summary, then what only B has
-  std::vector<std::string> notes;   ///< recordings that differ: then differences are not the algorithm's alone
+  std::vector<ComparisonRow> rows;  ///< in the order of A's summary, then those that only B has
+  std::vector<std::string> notes;   ///< recordings that differ: differences may come from them
   std::map<Verdict, int> counts;
   bool incomplete = false;  ///< a cell or row of one run is missing in the other, or a requested cell in both
   /// 0 nothing is worse or missing, 1 something is worse, 4 incomplete, 5 both.
   int exit_code() const;
 };
 
-/// `tolerances`: by metric, in place of those that the metric families state. Throws ConfigError if A or B is no run.
+/// `tolerances`, by metric, replace those of the metric families. Throws ConfigError if A or B is not a run.
 Comparison compare_runs(const std::filesystem::path& a, const std::filesystem::path& b,
                         const std::map<std::string, double>& tolerances = {});
 

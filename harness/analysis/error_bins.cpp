@@ -1,4 +1,4 @@
-// Sums by bin and seed.
+// Sums errors by bin and seed, and summarizes each bin.
 #include "harness/analysis/error_bins.hpp"
 
 #include <cmath>

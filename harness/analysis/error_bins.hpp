@@ -7,7 +7,7 @@
 
 namespace scanbench::harness {
 
-/// What one bin says.
+/// Summary of one bin.
 struct ErrorPoint {
   double x = 0.0;    ///< mean of the quantity
   double rms = 0.0;  ///< root mean square error of every seed, geometric mean over the seeds

@@ -1,4 +1,4 @@
-// Which cells of a run were requested: all, or those that the option --only names.
+// Tells which cells of a run were requested: all, or those that the option --only names.
 #pragma once
 
 #include "harness/store/manifest.hpp"

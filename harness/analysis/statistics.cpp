@@ -1,20 +1,20 @@
-// Student's t and BCa bootstrap intervals of a mean.
+// Computes intervals of means and medians, tests of paired differences, and correlations.
 #include "harness/analysis/statistics.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/median.hpp"
 #include "core/rng.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench::harness {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTail = 0.025;
 constexpr int kResamples = 2000;
 
@@ -124,18 +124,15 @@ std::vector<double> holm_adjusted(std::span<const double> p_values) {
 }
 
 double median(std::span<const double> all) {
-  std::vector<double> values = finite(all);
-  if (values.empty()) return kNaN;
-  std::ranges::sort(values);
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+  return scanbench::median(finite(all));
 }
 
 MedianInterval median_interval(std::span<const double> all) {
   std::vector<double> values = finite(all);
   std::ranges::sort(values);
   const std::size_t n = values.size();
-  // The number of values below the median is binomial(n, 1/2): ranks k and n + 1 - k miss it with 2 P(X < k).
+  // The number of values below the median is binomial(n, 1/2): the values of rank k and n + 1 - k do not enclose it
+  // with probability 2 P(X < k).
   std::size_t k = 0;
   double term = std::pow(0.5, static_cast<double>(n));
   for (double below = term; below <= kTail && k < n / 2; below += term) {

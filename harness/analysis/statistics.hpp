@@ -1,4 +1,4 @@
-// Summaries of a metric over seeds, with intervals that keep their promise for few seeds.
+// Summaries of a metric over seeds, with intervals that keep their coverage for few seeds.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,15 @@ MeanInterval mean_interval(std::span<const double> values);
 /// values; 0 or 1 for differences without spread. NaN values are left out.
 double paired_p_value(std::span<const double> differences);
 
-/// p-values corrected for being many, in the same order: Holm, "A simple sequentially rejective multiple test
-/// procedure", Scandinavian Journal of Statistics 1979. NaN values are no tests and stay.
+/// p-values corrected for multiple tests, in the same order: Holm, "A simple sequentially rejective multiple test
+/// procedure", Scandinavian Journal of Statistics 1979. NaN values do not count as tests and stay NaN.
 std::vector<double> holm_adjusted(std::span<const double> p_values);
 
 double median(std::span<const double> values);  ///< NaN values left out; NaN for none
 
-/// The interval between two of the values that holds the median of their distribution with at least 95 % probability,
-/// whatever the distribution (of 20 values, the 6th and the 15th in order). Fewer than six values have none: NaN.
+/// The interval between two of the values that contains the median of their distribution with at least 95 %
+/// probability, for every distribution (of 20 values, the 6th and the 15th in order). Fewer than six values have none:
+/// NaN.
 struct MedianInterval {
   double low;
   double high;

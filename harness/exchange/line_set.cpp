@@ -40,7 +40,7 @@ Columns read_header(const LogLines& lines, const std::vector<std::string_view>& 
       columns.has_frame = true;
     } else if (std::ranges::find(kSkipped, words[i]) == kSkipped.end()) {
       lines.refuse(words[i],
-                   fmt::format("a column {}; allowed in the first row: {}", quoted_excerpt(words[i]), kAllowed));
+                   fmt::format("unknown column {}; allowed in the first row: {}", quoted_excerpt(words[i]), kAllowed));
     }
   }
   for (const std::string_view end : kEnds)

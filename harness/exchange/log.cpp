@@ -50,11 +50,10 @@ const std::array<Format, 3>& formats() {
              parse_csv_scans,
              check_csv_options,
              "one scan per row of numbers",
-             {"columns names the fields of a row, in their order; it must have `ranges` once, which takes all fields "
-              "that the others leave",
+             {"columns names the fields of a row in order; `ranges` must occur once and takes all fields that remain",
               "t_s, t_ms, t_us: stamp; without one, scans are the sensor's scan_period_s apart",
-              "x_m, x_cm, x_mm, y_m, y_cm, y_mm, yaw_rad, yaw_deg: pose; what is missing is 0",
-              "skip: one field that is not read; skip:20: 20 of them",
+              "x_m, x_cm, x_mm, y_m, y_cm, y_mm, yaw_rad, yaw_deg: pose; a missing coordinate is 0",
+              "skip: one ignored field; skip:20: 20 ignored fields",
               "inf, -inf and nan are allowed among the ranges: nothing in range, too close, no reading",
               "beam angles: first_angle_deg + i * step_deg; step_deg must be given unless beams is 1"}},
       Format{"dpslam",
@@ -82,7 +81,7 @@ std::uint64_t byte_limit(double max_bytes) {
 
 struct LogSize {
   std::uint64_t bytes = 0;    ///< unpacked
-  std::uint64_t numbers = 0;  ///< at most: separators of words
+  std::uint64_t numbers = 0;  ///< upper bound: the separators of words
 };
 
 /// Reads the log once without keeping it, so that a log that needs too much memory is refused before it takes any.
@@ -95,7 +94,7 @@ LogSize measure_log(const std::filesystem::path& path, double max_bytes) {
     size.bytes += block.size();
     const auto is_separator = [](char c) { return c == ' ' || c == ',' || c == '\n' || c == '\t'; };
     size.numbers += static_cast<std::uint64_t>(std::ranges::count_if(block, is_separator));
-    // A block is smaller than the longest line: looking at its last line break suffices.
+    // A block is smaller than the longest allowed line, so checking its last line break suffices.
     const std::size_t last_break = block.rfind('\n');
     line_bytes = last_break == std::string_view::npos ? line_bytes + block.size() : block.size() - last_break - 1;
     if (line_bytes > kMaxLineBytes)

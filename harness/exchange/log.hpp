@@ -12,8 +12,8 @@
 //          t_s t_ms t_us  x_m x_cm x_mm  y_m y_cm y_mm  yaw_rad yaw_deg  skip skip:20  ranges
 //          "inf", "-inf" and "nan" are allowed among the ranges.
 //
-// What a reading means (REP-117): 0, negative and NaN: no reading (NaN); below range_min_m: too close (-inf); at
-// no_return_m or above (if that is > 0): nothing in range (+inf).
+// Readings follow REP-117. 0, negative values and NaN mean no reading (NaN); values below range_min_m mean too close
+// (-inf); values of no_return_m or more (if that is > 0) mean nothing in range (+inf).
 #pragma once
 
 #include <filesystem>
@@ -34,7 +34,7 @@ std::vector<ParamSpec> log_param_specs(std::string_view format);
 /// Throws ParamError for options that fit no log of the format: wrong `columns`, no `step_deg`.
 void check_log_params(std::string_view format, const ParamSet& params);
 
-/// What a format is, for people.
+/// Description of a format for the help text.
 struct LogFormatText {
   std::string summary;
   std::vector<std::string> notes;  ///< rules that the options alone do not show
@@ -45,9 +45,10 @@ LogFormatText log_format_text(std::string_view format);
 Pose2 sensor_place(std::string_view format, const ParamSet& params);
 
 /// The scans of a log. `sensor` gives name, noise and timing; beam angles and range limits come from the log and its
-/// options. Stamps are the log's, or the sensor's scan period apart if it has none. No truth. Throws ConfigError with
-/// file:line:col for a line that is cut short, fields that are no numbers, beam counts that change, no scan at all;
-/// and, before it keeps any of the text, for a log that needs more than max_bytes. Throws as read_text_file() does.
+/// options. Stamps are the log's, or one scan period of the sensor apart if it has none. The recording has no truth.
+/// Throws ConfigError with file:line:col for a truncated line, fields that are no numbers, beam counts that change, and
+/// a log without scans. A log that needs more than max_bytes is refused before any of its text is kept. Throws as
+/// read_text_file() does.
 Recording read_log(const std::filesystem::path& path, std::string_view format, const ParamSet& params,
                    const SensorModel& sensor, double max_bytes);
 

@@ -1,4 +1,4 @@
-// The rules for lines, angles, poses and readings that all log formats share.
+// Checks lines, angles, poses and readings by the rules that all log formats share.
 #include "harness/exchange/log_builder.hpp"
 
 #include <fmt/format.h>

@@ -52,21 +52,20 @@ struct LogOptions {
              {LogPoses::vertex, "vertex"}},
             "poses, named in the same way, that no algorithm sees and estimates are compared with (metric trajectory)"),
         field("no_return_m", &O::no_return_m, at_least(0), "m",
-              "least reading that means nothing in range; 0: no reading does"),
+              "readings of this value or more mean nothing in range; 0 disables this"),
         field("range_min_m", &O::range_min_m, at_least(0), "m", "readings below this are too close"),
         field("first_angle_deg", &O::first_angle_deg, between(-360, 360), "deg",
               "angle of beam 0, counter-clockwise from straight ahead; used only with step_deg"),
         field("step_deg", &O::step_deg, between(-360, 360), "deg",
-              "angle from a beam to the next; 0: the angles of the format"),
+              "angle from one beam to the next; 0 uses the angles of the format"),
         field("columns", &O::columns,
               "columns of a row: t_s t_ms t_us x_m x_cm x_mm y_m y_cm y_mm yaw_rad yaw_deg skip skip:20 ranges"),
         field("skip_lines", &O::skip_lines, between(0, 1e6), "", "lines to skip at the top"),
-        field("beams", &O::beams, between(0, 1e6), "", "number of ranges in a row; 0: that of the first row"),
+        field("beams", &O::beams, between(0, 1e6), "", "number of ranges in a row; 0 takes it from the first row"),
         field("unit_m", &O::unit_m, above(0), "m", "metres per unit of the ranges"),
         field("every", &O::every, between(1, 1e6), "", "read every n-th scan"),
         field("max_frames", &O::max_frames, between(0, 1e9), "", "number of scans to read; 0: all"),
-        field("sensor_x_m", &O::sensor_x_m, any_number(), "m",
-              "x of the sensor in the frame whose poses the log holds"),
+        field("sensor_x_m", &O::sensor_x_m, any_number(), "m", "x of the sensor in the frame of the log's poses"),
         field("sensor_y_m", &O::sensor_y_m, any_number(), "m", "y of the sensor in that frame"),
         field("sensor_yaw_deg", &O::sensor_yaw_deg, between(-360, 360), "deg", "heading of the sensor in that frame")};
   }
@@ -86,8 +85,8 @@ class LogLines {
 
   [[noreturn]] void refuse(std::string_view word, const std::string& message) const;
   /// Refuses a last line without line break whose last number has fewer decimals than the 32 numbers before it, which
-  /// all have the same: the file was cut inside that number. Whole numbers and numbers of varying width do not show a
-  /// cut.
+  /// all have the same: the file was cut inside that number. The check cannot find a cut in whole numbers or in numbers
+  /// of varying width.
   void check_last_number(const std::vector<std::string_view>& words) const;
   /// A finite number; throws PlacedError naming `what`.
   double number_of(std::string_view word, std::string_view what) const;
@@ -99,7 +98,7 @@ class LogLines {
   bool ends_open_ = false;
 };
 
-/// Degrees of the first beam and between beams.
+/// Angle of the first beam, and from one beam to the next.
 struct BeamAngles {
   double first_deg;
   double step_deg;
@@ -111,7 +110,7 @@ class LogBuilder {
 
   /// True if the next scan is read (`every`). Call it once per scan.
   bool wants_scan();
-  /// True when no further scan is wanted.
+  /// True if the scans that `max_frames` allows are read.
   bool full() const;
 
   /// Checks the count of ranges against the first scan's; throws PlacedError naming both lines.

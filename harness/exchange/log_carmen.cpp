@@ -67,7 +67,7 @@ class CarmenReader {
     return static_cast<std::size_t>(*n);
   }
 
-  // All scans of a log have equally many words after the ranges. A different number shows a cut or foreign line.
+  // All scans of a log have equally many words after the ranges. A different number shows a truncated or foreign line.
   void check_tail(std::size_t tail) {
     if (tail_line_ == 0) {
       tail_ = tail;

@@ -1,4 +1,4 @@
-// Reads `columns`, then one scan per row.
+// Reads logs of one scan per row, whose fields `columns` names.
 #include "harness/exchange/log_csv.hpp"
 
 #include <fmt/format.h>

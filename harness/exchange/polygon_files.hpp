@@ -1,4 +1,4 @@
-// The polygons of a cell's scans as a table (core/geometry/polygon.hpp).
+// Writes the polygons of a cell's scans as a table (core/geometry/polygon.hpp).
 #pragma once
 
 #include <string>

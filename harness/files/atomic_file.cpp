@@ -1,4 +1,4 @@
-// POSIX calls behind the atomic writers: std::filesystem has neither fsync nor exchange.
+// Writes files and folders atomically with POSIX calls: std::filesystem has neither fsync nor an exchange of names.
 #include "harness/files/atomic_file.hpp"
 
 #include <cerrno>
@@ -17,7 +17,7 @@ namespace scanbench::harness {
 namespace fs = std::filesystem;
 namespace {
 
-/// A file that is absent or may not be read is an error of the input; everything else is the system's.
+/// Throws ConfigError for a file that is missing or may not be read, and SystemError for every other failure.
 [[noreturn]] void refuse(const std::string& verb, const fs::path& path, int error) {
   const std::string message = "cannot " + verb + " " + path.string() + ": " + std::strerror(error);
   const bool of_system = verb != "read" || error == EIO || error == EMFILE || error == ENFILE || error == ENOMEM;
@@ -36,7 +36,7 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
   int get() const { return fd_; }
   explicit operator bool() const { return fd_ >= 0; }
-  /// 0, or -1: a network file system may report a failed write only here.
+  /// Returns 0, or -1 with errno: a network file system may report a failed write only here.
   int close() { return ::close(std::exchange(fd_, -1)); }
 
  private:
@@ -74,7 +74,7 @@ std::string read_file(const fs::path& path) {
   bytes.resize(file.size());
   std::size_t filled = 0;
   while (true) {
-    // One more byte proves the end. Files in /proc have size 0, so the buffer then grows.
+    // One more byte shows whether the file ends here. Files in /proc have size 0, so their buffer grows.
     if (filled == bytes.size()) bytes.resize(filled <= file.size() ? filled + 1 : 2 * filled);
     const std::size_t n = file.read(std::span(bytes).subspan(filled));
     if (n == 0) break;
@@ -152,7 +152,7 @@ void StagedFolder::clear() {
 
 void StagedFolder::commit() {
   {
-    // One call for all files of the folder: measured 3 ms instead of 20 ms for six calls of fsync.
+    // One call flushes all files of the folder: it takes 3 ms, while six calls of fsync take 20 ms.
     const Descriptor folder(staging_, O_RDONLY | O_DIRECTORY);
     if (!folder || ::syncfs(folder.get()) != 0) refuse("write", staging_, errno);
   }

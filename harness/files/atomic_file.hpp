@@ -1,5 +1,5 @@
-// Files and folders that appear whole or not at all: each is written under a temporary name beside its target, flushed
-// to disk and renamed.
+// Files and folders that appear complete or not at all: each is written under a temporary name beside its target,
+// flushed to disk and renamed.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@ namespace scanbench::harness {
 /// The bytes of a regular file (input_file.hpp). Throws ConfigError with the file's name and the reason.
 std::string read_file(const std::filesystem::path& path);
 
-/// Writes a file whole: after a failure (disk full, no permission) the target is as it was and the temporary is gone.
-/// Throws ConfigError with the file's name and the reason.
+/// Writes a complete file: after a failure (disk full, no permission) the target is unchanged and the temporary file is
+/// removed. Throws ConfigError with the file's name and the reason.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 /// Writes a file inside a StagedFolder, which is flushed and renamed as a whole later. Throws ConfigError.
@@ -24,7 +24,7 @@ void remove_file(const std::filesystem::path& path);
 /// Makes a folder and its parents. Throws ConfigError.
 void make_folders(const std::filesystem::path& path);
 
-/// Exchanges two existing folders of one file system, in one step where the file system can.
+/// Exchanges two existing folders of one file system, in one step if the file system supports it.
 void exchange_folders(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// True for the names that StagedFolder and write_file_atomically give to unfinished files and folders.

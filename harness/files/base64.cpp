@@ -1,4 +1,4 @@
-// Base64 by OpenSSL.
+// Encodes bytes as base64 with OpenSSL.
 #include "harness/files/base64.hpp"
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 namespace scanbench::harness {
 
 std::string base64(std::string_view bytes) {
-  // Whole groups of three bytes need no padding, so that pieces of them can be joined. EVP counts in int.
+  // EVP takes lengths as int, so the bytes are encoded in pieces. Pieces of whole groups of three bytes need no
+  // padding.
   constexpr std::size_t kPiece = std::size_t{3} << 20;
   std::string out;
   out.reserve(4 * ((bytes.size() + 2) / 3));

@@ -1,4 +1,4 @@
-// Binary prefixes, as memory is counted.
+// Formats numbers of bytes with binary prefixes.
 #include "harness/files/size_text.hpp"
 
 #include <array>

@@ -1,12 +1,13 @@
-// Errors of the operating system, as opposed to errors of what a user wrote.
+// Errors of the operating system, as opposed to errors in a user's input.
 #pragma once
 
 #include "core/error.hpp"
 
 namespace scanbench::harness {
 
-/// The operating system refused something that would succeed elsewhere or later: a disk is full, a folder may not be
-/// written, too many files are open. A cell that ends so is missing: nothing is known of its algorithm.
+/// A failure of the operating system that may not occur elsewhere or later: a full disk, a folder without write
+/// permission, too many open files. A cell that fails with it counts as missing, because the failure says nothing about
+/// its algorithm.
 class SystemError : public ConfigError {
  public:
   using ConfigError::ConfigError;

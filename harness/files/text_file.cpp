@@ -1,4 +1,4 @@
-// Reads files through zlib, which returns plain files unchanged.
+// Reads text files through zlib, which returns plain files unchanged.
 #include "harness/files/text_file.hpp"
 
 #include <fmt/format.h>

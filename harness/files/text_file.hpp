@@ -1,4 +1,4 @@
-// Input files as text: whole, bounded in size, unpacked when they are gzip.
+// Reads input files as text: bounded in size, unpacked if they are gzip.
 #pragma once
 
 #include <cstddef>
@@ -13,17 +13,17 @@
 
 namespace scanbench::harness {
 
-/// The largest world, or set of lines, that is read.
+/// Size limit of a world file or a line set.
 inline constexpr std::size_t kMaxWorldBytes = std::size_t{64} << 20;
 
 /// Calls `use` with the bytes of a regular file, block by block, unpacked if they are gzip (recognized by the file's
-/// first bytes, not by its name). Throws ConfigError for a missing, unreadable, damaged or cut-short file, for anything
-/// but a regular file, for more than max_bytes (packed or unpacked), and for a byte 0, with the file's name. `allowed`
-/// says in that last message what the file may be.
+/// first bytes, not by its name). Throws ConfigError for a missing, unreadable, damaged or truncated file, for a path
+/// that is no regular file, for more than max_bytes (packed or unpacked), and for a zero byte. Messages begin with the
+/// file's name; that of the zero byte ends with `allowed`, the kind of file that is expected.
 void for_each_text_block(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed,
                          const std::function<void(std::string_view)>& use);
 
-/// All bytes of such a file.
+/// Returns all bytes of such a file.
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes,
                            std::string_view allowed = "a text file in UTF-8");
 

@@ -1,4 +1,4 @@
-// Orderings, best methods, correlations and departures as tables.
+// Makes tables of orderings, best methods, correlations and departures.
 #include "harness/report/agreement_tables.hpp"
 
 #include <algorithm>
@@ -33,11 +33,11 @@ std::vector<const ComparedColumn*> compared(const std::vector<ComparedColumn>& c
 std::string spread(const std::vector<double>& per_seed, int decimals) {
   if (per_seed.empty()) return "–";
   const auto [low, high] = std::ranges::minmax_element(per_seed);
-  if (decimals == 0) return fmt::format("{:g} / {:g} / {:g}", *low, median(per_seed), *high);  // a median may be half
+  if (decimals == 0) return fmt::format("{:g} / {:g} / {:g}", *low, median(per_seed), *high);  // a median may end in .5
   return fmt::format("{:.{}f} / {:.{}f} / {:.{}f}", *low, decimals, median(per_seed), decimals, *high, decimals);
 }
 
-// What an ordering is about: two families at one setting, or one family over its settings.
+// Names what an ordering compares: two families at one setting, or one family over its settings.
 std::string pair_of(const ComparedColumn& column, const Ordering& ordering) {
   const auto [low, high] = std::minmax(ordering.lower, ordering.upper);
   const MethodName a = split_method(column.methods[low].published);
@@ -52,17 +52,17 @@ struct Held {
   TableCell cell() const { return {stated == 0 ? "" : fmt::format("{} of {}", held, stated), false, false}; }
 };
 
-// Orderings that hold in the median, counted by what `row_of` says of each; the sum and the spread over seeds below.
+// Counts the orderings that hold in the median, in rows by `row_of`, with the sum and the spread over seeds below.
 Table orderings_table(const std::string& scenario, const std::vector<const ComparedColumn*>& columns,
                       const std::string& head, const std::string& what,
                       const std::function<std::string(const ComparedColumn&, const Ordering&)>& row_of) {
-  Table table{scenario + "-orderings-" + head,
-              scenario + ": " + kTitle + ": orderings " + what,
-              "How many of the orderings of two methods that the printed numbers imply our medians show. Printed ties "
-              "imply none.",
-              {head},
-              {},
-              {}};
+  Table table{
+      scenario + "-orderings-" + head,
+      scenario + ": " + kTitle + ": orderings " + what,
+      "Number of orderings of two methods that the printed values imply and our medians show. Printed ties imply none.",
+      {head},
+      {},
+      {}};
   std::vector<std::string> rows;
   std::map<std::string, std::map<const ComparedColumn*, Held>> counts;
   std::map<const ComparedColumn*, Held> sums;
@@ -90,18 +90,19 @@ Table orderings_table(const std::string& scenario, const std::vector<const Compa
 }
 
 Table best_table(const std::string& scenario, const std::vector<const ComparedColumn*>& columns) {
-  Table table{scenario + "-best",
-              scenario + ": " + kTitle + ": on how many lines a method is best",
-              fmt::format("Of {} lines those on which no other method is better; alone: on which every other is worse. "
-                          "Single seeds: min / median / max.",
-                          columns.front()->printed_subjects()),
-              {"metric", "method"},
-              {{"", "paper", true},
-               {"best", "medians", false},
-               {"best", "single seeds", false},
-               {"best alone", "medians", false},
-               {"best alone", "single seeds", false}},
-              {}};
+  Table table{
+      scenario + "-best",
+      scenario + ": " + kTitle + ": on how many lines a method is best",
+      fmt::format("Number of the {} lines on which no other method is better; alone: on which every other is worse. "
+                  "Single seeds: min / median / max.",
+                  columns.front()->printed_subjects()),
+      {"metric", "method"},
+      {{"", "paper", true},
+       {"best", "medians", false},
+       {"best", "single seeds", false},
+       {"best alone", "medians", false},
+       {"best alone", "single seeds", false}},
+      {}};
   for (const auto* column : columns) {
     const auto shared = best_counts(*column, Ties::shared);
     const auto alone = best_counts(*column, Ties::nobodys);
@@ -156,7 +157,7 @@ std::vector<Table> agreement_tables(const std::string& scenario, const std::vect
 std::vector<Table> departure_tables(const std::string& scenario, const std::vector<ComparedColumn>& all) {
   Table table{scenario + "-departures",
               scenario + ": " + kTitle + ": departures",
-              "Orderings that the printed numbers imply and our medians do not show.",
+              "Orderings that the printed values imply and our medians do not show.",
               {"metric", "line", "the paper has"},
               {{"paper", "lower", true},
                {"paper", "higher", true},

@@ -1,4 +1,4 @@
-// How far our results agree with a paper's.
+// Tables of the agreement of our results with a paper's.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace scanbench::harness {
 
-/// How many of the paper's orderings hold, line by line and pair by pair of methods; on how many lines each method is
-/// best; correlations. None if nothing of ours stands beside the printed values.
+/// Tables of the paper's orderings that hold, by line and by pair of methods, of the number of lines on which each
+/// method is best, and of correlations. Empty if we have no values for the printed ones.
 std::vector<Table> agreement_tables(const std::string& scenario, const std::vector<ComparedColumn>& columns);
 
 /// Every ordering of the paper that our medians do not show.

@@ -1,4 +1,4 @@
-// Curves from rows and matches; render/charts/facets makes the panels.
+// Draws the figures of a benchmark: curves from summary and matches, in the panels of render/charts/facets.
 #include "harness/report/benchmark_figures.hpp"
 
 #include <algorithm>
@@ -26,10 +26,10 @@ using render::Facet;
 using render::FacetChart;
 using render::FacetCurve;
 
-constexpr std::int64_t kLeastMatches = 30;  // of a point of a curve
-constexpr double kFirstRange = 1.0;         // m; and a third of an octave
+constexpr std::int64_t kLeastMatches = 30;  // per point of a curve
+constexpr double kFirstRange = 1.0;         // m; bins are a third of an octave wide
 const double kRangeRatio = std::cbrt(2.0);
-constexpr double kFirstBound = 0.1;  // cm, deg; and a fourth of a decade
+constexpr double kFirstBound = 0.1;  // cm, deg; bins are a quarter of a decade wide
 const double kBoundRatio = std::pow(10.0, 0.25);
 
 /// The matches of one pipeline, binned.
@@ -71,7 +71,7 @@ void add_poses(const fs::path& file, std::uint64_t seed, MatchBins& bins) {
   }
 }
 
-/// Only the cells of the example's noise go into the curves over range: elsewhere the noise would hide the range.
+/// Only cells with the example's noise enter the curves over range, because other noise would hide the effect of range.
 MatchBins load_matches(const fs::path& run, const std::vector<Scenario>& scenarios, const std::string& pipeline,
                        const std::vector<std::uint64_t>& seeds, double noise, bool poses) {
   MatchBins bins;
@@ -104,7 +104,7 @@ std::vector<Vec2> bound_curve(const std::vector<ErrorPoint>& points) {
   return curve;
 }
 
-/// A logarithmic range about the points of the curves, not about their intervals.
+/// The range of a logarithmic axis that contains the points of the curves, but not their intervals.
 std::pair<double, double> log_range(const std::vector<Facet>& facets, int coordinate) {
   double low = INFINITY, high = 0.0;
   const auto take = [&](const std::vector<Vec2>& points) {
@@ -126,7 +126,7 @@ std::vector<std::pair<double, std::string>> round_ticks(double low, double high)
   return ticks;
 }
 
-/// Throws ConfigError if the run has no such scenario: its benchmark.json is then of another run.
+/// Throws ConfigError if the run has no such scenario: its benchmark.json then belongs to another run.
 const Scenario& example_of(const std::vector<Scenario>& scenarios, const BenchmarkSpec& spec) {
   const auto found = std::ranges::find(scenarios, spec.example, &Scenario::name);
   if (found == scenarios.end())
@@ -140,7 +140,7 @@ class Drawer {
       : run_(run),
         scenarios_(scenarios),
         pdf_(pdf),
-        rows_(load_summary(run / "summary.csv")),
+        rows_(load_summary(run / kSummaryFile)),
         seeds_(seeds_of(rows_)),
         subject_(spec.subject()),
         example_(example_of(scenarios, spec)) {
@@ -184,7 +184,7 @@ class Drawer {
     std::set<double> levels;
     for (const auto& scenario : scenarios_) levels.insert(noise_m(scenario));
     const CellValues f1 = values_of(rows_, "f1");
-    FacetChart chart{.title = "F1 against noise: what is missing to 100 %",
+    FacetChart chart{.title = "F1 against noise: difference to 100 %",
                      .x = {.label = "σ of a range [cm]"},
                      .y = {.label = "100 − F1 [%]", .log = true, .ticks = round_ticks(1e-3, 100.0)},
                      .curve_names = {"this extractor"},
@@ -204,9 +204,9 @@ class Drawer {
     }
     chart.y.range = log_range(chart.facets, 1);
     write("f1_noise",
-          "F1 against the standard deviation of the readings, as what is missing to 100 %, lower is better: mean over "
-          "worlds and sensors, bars are 95 % intervals over the seeds. In every panel the other extractors in grey; "
-          "panels in the order of rank.",
+          "F1 against the standard deviation of the readings, as its difference to 100 %, lower is better: mean over "
+          "worlds and sensors, bars are 95 % intervals over the seeds. Every panel shows the other extractors in grey; "
+          "panels are in the order of rank.",
           chart);
   }
 
@@ -264,7 +264,7 @@ class Drawer {
         "error of matched lines with 20 returns or more against the range of the line's midpoint, noise {:.3g} cm, all "
         "worlds and sensors. Root mean square in bins of a third of an octave with at least {} lines, geometric mean "
         "over "
-        "the seeds with its 95 % interval. Dotted: what the same lines' readings allow.",
+        "the seeds with its 95 % interval. Dotted: the bound of the same lines.",
         100 * noise_m(example_), kLeastMatches);
     write("offset_range", "Offset " + caption, chart_of("Offset", "cm", &MatchBins::offset_by_range));
     write("angle_range", "Angle " + caption, chart_of("Angle", "°", &MatchBins::angle_by_range));
@@ -287,15 +287,14 @@ class Drawer {
     for (Facet& facet : chart.facets)
       facet.reference = {Vec2::Constant(chart.x.range->first), Vec2::Constant(chart.x.range->second)};
     chart.y.range->first = std::min(chart.y.range->first, chart.x.range->first);
-    write(
-        "error_bound",
-        fmt::format(
-            "Errors of {} against the root of their Cramér–Rao bound, all conditions: root mean square in bins of a "
-            "fourth of a decade with at least {} of them, geometric mean over the seeds with its 95 % interval. On the "
-            "dotted line {} is as good as the readings allow.",
-            subject_.shows_example ? "matched lines with 20 returns or more" : "matched poses", kLeastMatches,
-            subject_.shows_example ? "an extractor" : "a matcher"),
-        chart);
+    write("error_bound",
+          fmt::format(
+              "Errors of {} against the root of their Cramér–Rao bound, all conditions: root mean square in bins of a "
+              "quarter of a decade with at least {} of them, geometric mean over the seeds with its 95 % interval. On "
+              "the dotted line {} reaches the bound.",
+              subject_.shows_example ? "matched lines with 20 returns or more" : "matched poses", kLeastMatches,
+              subject_.shows_example ? "an extractor" : "a matcher"),
+          chart);
   }
 
   void draw_example() {

@@ -1,5 +1,5 @@
-// The figures of a benchmark: F1 against noise, errors against range and against their bound, one scan as every
-// extractor sees it.
+// The figures of a benchmark: F1 against noise, errors against range and against their bound, one scan with the lines
+// of every extractor.
 #pragma once
 
 #include <filesystem>

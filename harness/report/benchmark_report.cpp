@@ -1,4 +1,4 @@
-// One page over all scenarios of a benchmark.
+// Writes the page of a benchmark over all of its scenarios.
 #include "harness/report/benchmark_report.hpp"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ std::string run_text(const ReportInput& input, const BenchmarkSpec& spec) {
   const std::size_t seeds = seeds_of(input.rows).size();
   return fmt::format(
       "{} {}s on {} conditions: {} worlds, {} sensors, noise of {:.3g} cm. {} seeds make {} recordings with "
-      "{} scans and {} {} in all; every {} sees all of them, with the same noise.",
+      "{} scans and {} {} in total; every {} gets the same recordings.",
       scenarios.front().pipelines.size(), subject.noun, scenarios.size(), worlds.size(), sensors.size(),
       fmt::join(noise_levels(scenarios), ", "), seeds, scenarios.size() * seeds,
       observations(input.rows, spec.baseline, "t_scan"), observations(input.rows, spec.baseline, subject.count_metric),
@@ -58,7 +58,7 @@ std::string run_text(const ReportInput& input, const BenchmarkSpec& spec) {
 }
 
 Table worlds_table(const ReportInput& input) {
-  Table table{"worlds", "Worlds", "", {"world", "what it is"}, {{"", "walls"}, {"", "scans a recording"}}, {}};
+  Table table{"worlds", "Worlds", "", {"world", "what it is"}, {{"", "walls"}, {"", "scans per recording"}}, {}};
   std::set<std::string> seen;
   for (const auto& scenario : input.scenarios) {
     const auto& world = simulated(scenario).world;
@@ -96,7 +96,7 @@ const ModuleChoice& slot_of(const PipelineSpec& pipeline, const std::string& kin
   return *std::ranges::find(pipeline.slots, kind, &ModuleChoice::kind);
 }
 
-/// "threshold_m 0.04 / 0.12 / 0.2", one value a noise level if they differ; empty for the default everywhere.
+/// "threshold_m 0.04 / 0.12 / 0.2", one value per noise level if they differ; empty if all have the default.
 std::string param_text(const std::vector<Scenario>& scenarios, std::size_t pipeline, const std::string& slot,
                        const ParamSpec& spec) {
   std::map<double, std::set<std::string>> by_noise;
@@ -131,8 +131,8 @@ Table modules_table(const ReportInput& input, const BenchmarkSpec& spec, const s
       if (auto text = param_text(scenarios, k, spec.of, param); !text.empty()) params.push_back(std::move(text));
     table.rows.push_back({{ranked.name, module.info.summary, fmt::format("{}", fmt::join(params, ", "))}, {}, false});
   }
-  table.caption =
-      fmt::format("Values with / belong to the noise levels {:.3g} cm.", fmt::join(noise_levels(scenarios), " / "));
+  table.caption = fmt::format("Values separated by / belong to the noise levels {:.3g} cm.",
+                              fmt::join(noise_levels(scenarios), " / "));
   return table;
 }
 
@@ -145,13 +145,13 @@ std::string significance_text(const std::vector<RankedPipeline>& ranking) {
     ++tests;
     if (ranking[i].next_p >= 0.05) ties.push_back(ranking[i].name + " and " + ranking[i + 1].name);
   }
-  if (tests == 0) return "One seed: no differences can be tested.";
+  if (tests == 0) return "There is one seed, so differences cannot be tested.";
   const std::string method = fmt::format(
       "Neighbours in the ranking were compared by paired t tests over the seeds, corrected for their number ({}) after "
       "Holm. ",
       tests);
   if (ties.empty()) return method + "All of them differ at the 5 % level.";
-  return method + fmt::format("All of them differ at the 5 % level but {}.", fmt::join(ties, "; "));
+  return method + fmt::format("All of them differ at the 5 % level, except {}.", fmt::join(ties, "; "));
 }
 
 std::vector<std::pair<std::string, std::string>> definitions(const BenchmarkSpec& spec) {
@@ -166,7 +166,7 @@ std::vector<std::pair<std::string, std::string>> definitions(const BenchmarkSpec
                    rank.geometric ? "mean ratio of the first column to that of the next in rank, with the p-value"
                                   : "mean difference of the first column to the next in rank, in points, with the "
                                     "p-value");
-  all.emplace_back("best in", "conditions in which its first column is the best; equals all count");
+  all.emplace_back("best in", "conditions in which its first column is the best; ties count for all");
   return all;
 }
 

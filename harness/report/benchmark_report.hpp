@@ -1,4 +1,5 @@
-// The page of a benchmark: what was run, the ranking, four figures, what the columns mean, what it does not show.
+// The page of a benchmark: what was run, the ranking, four figures, the meaning of the columns, and the limits of the
+// benchmark.
 #pragma once
 
 #include <string>

@@ -40,9 +40,9 @@ void append_metrics(std::vector<CatalogEntry>& entries) {
 std::string direction_text(const metrics::MetricDescription& metric) {
   switch (metric.direction) {
     case metrics::Direction::lower_is_better:
-      return "less is better";
+      return "lower is better";
     case metrics::Direction::higher_is_better:
-      return "more is better";
+      return "higher is better";
     case metrics::Direction::target:
       return fmt::format("best near {:g}", metric.target);
     case metrics::Direction::neither:

@@ -1,4 +1,4 @@
-// Everything that is registered, of all kinds: what `list`, `describe` and docs/modules.md show.
+// The catalog of all registered modules, sensors and formats, as `list`, `describe` and docs/modules.md show it.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ struct CatalogEntry {
 /// By kind, then by name.
 std::vector<CatalogEntry> catalog();
 
-/// The entries of one kind, which may be in the singular or plural; "modules": all that a pipeline is made of; empty:
-/// everything. Throws ConfigError, naming the kinds, if there are none.
+/// The entries of one kind, in the singular or plural; "modules" selects the modules of pipelines, an empty kind
+/// selects everything. Throws ConfigError, naming the kinds, if there are none.
 std::vector<CatalogEntry> catalog_of_kind(const std::string& kind);
 
 /// The entries of that name, of that "kind/name", or of that kind; single metrics of a family included. Throws

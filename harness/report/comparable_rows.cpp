@@ -1,4 +1,4 @@
-// Common seeds, common lines, and what is missing.
+// Selects the seeds and lines that all pipelines have in common, and notes what is missing.
 #include "harness/report/comparable_rows.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kOk = "ok";
 constexpr const char* kMean = "mean";
 
-/// The cells of the scenario; without a list of cells those that have rows, and the others as missing.
+/// The cells of the scenario. Without a list of cells, those with rows are ok and the others are missing.
 std::vector<CellLine> cells_of(const Scenario& scenario, const std::vector<SummaryRow>& rows,
                                const std::vector<CellLine>& cells) {
   std::vector<CellLine> own;
@@ -41,7 +41,7 @@ bool unconverged(const CellLine& cell) {
   return cell.message.find("align: ") != std::string::npos || cell.message.find("match: ") != std::string::npos;
 }
 
-/// The seeds with a cell that is ok, of every pipeline that has one.
+/// For each pipeline with a cell that is ok, the seeds of these cells.
 std::map<std::string, std::set<std::uint64_t>> finished_seeds(const std::vector<CellLine>& cells) {
   std::map<std::string, std::set<std::uint64_t>> finished;
   for (const auto& cell : cells)
@@ -146,7 +146,7 @@ ComparableRows comparable_rows(const Scenario& scenario, const std::vector<Summa
     if (results.seeds.empty()) {
       results.seeds = seeds;
       results.notes.push_back(
-          "no seed was finished by all pipelines: each mean is over the seeds that its own finished");
+          "no seed was finished by all pipelines, so each mean is over the seeds that its pipeline finished");
     } else {
       results.notes.push_back(
           fmt::format("means are over the {} of {} seeds that every pipeline with a result finished",

@@ -1,4 +1,4 @@
-// The values of a scenario that can be compared: of the cells that every pipeline finished, with what is missing.
+// Selects the comparable values of a scenario: those of seeds that every pipeline finished, with notes on missing ones.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace scanbench::harness {
 
-/// How the cells of one pipeline ended.
+/// Numbers of cells of one pipeline by status.
 struct Coverage {
   std::size_t ok = 0;
   std::size_t all = 0;
@@ -23,7 +23,7 @@ struct Coverage {
   bool complete() const { return ok == all; }
   /// The status of most of the cells that are not ok; empty if all are.
   std::string status() const;
-  /// "2 of 6 ok, 4 crashed; not converged in 1"; empty if there is nothing to say.
+  /// "2 of 6 ok, 4 crashed; not converged in 1"; empty if all cells are ok and converged.
   std::string text() const;
 };
 
@@ -42,8 +42,8 @@ struct ComparableRows {
 
 /// Restricts the rows of a scenario to the seeds that all pipelines have finished, so that means are over the same
 /// input. If no seed is left, every pipeline keeps the seeds that it has, and a note says so. A row "mean" (over walls)
-/// is computed again from the walls on which every pipeline has a value, for the same reason. `cells` says how cells
-/// ended; without any of the scenario a cell is ok if it has rows.
+/// is computed again from the walls on which every pipeline has a value, for the same reason. `cells` has the status of
+/// every cell; if it has none of the scenario, a cell with rows is ok.
 ComparableRows comparable_rows(const Scenario& scenario, const std::vector<SummaryRow>& rows,
                                const std::vector<CellLine>& cells = {});
 

@@ -1,4 +1,4 @@
-// Recording and results from files, through the registered figures, to files.
+// Draws the registered figures from the files of a run, and writes them.
 #include "harness/report/figures.hpp"
 
 #include <cmath>
@@ -24,6 +24,9 @@
 namespace scanbench::harness {
 namespace {
 
+const RunFile kIndexFile("figures/index.json");
+const RunFile kFigureFiles[] = {RunFile("figures/*.svg"), RunFile("figures/*.png"), RunFile("figures/*.pdf")};
+
 namespace fs = std::filesystem;
 
 struct LoadedResult {
@@ -36,13 +39,13 @@ std::vector<LoadedResult> finished_results(const fs::path& run, const Scenario& 
   std::vector<LoadedResult> results;
   for (const auto& pipeline : scenario.pipelines) {
     const fs::path cell = cell_path(run, {scenario.name, pipeline.name, seed});
-    if (!fs::exists(cell / "status.json") || load_status(cell).outcome.status != CellStatus::ok) continue;
+    if (!fs::exists(cell / kStatusFile) || load_status(cell).outcome.status != CellStatus::ok) continue;
     results.push_back({pipeline.name, load_result(cell), load_trace(cell, traces_drawn(scenario, pipeline.name))});
   }
   return results;
 }
 
-/// The values of metrics.csv of all finished cells, pipeline by pipeline.
+/// The values of metrics.csv of all finished cells, by pipeline.
 std::vector<render::MeasuredPipeline> measured_pipelines(const fs::path& run, const Scenario& scenario) {
   std::vector<render::MeasuredPipeline> all;
   for (const auto& pipeline : scenario.pipelines) {
@@ -54,7 +57,7 @@ std::vector<render::MeasuredPipeline> measured_pipelines(const fs::path& run, co
     }
     for (const std::uint64_t seed : scenario.seeds) {
       const fs::path cell = cell_path(run, {scenario.name, pipeline.name, seed});
-      if (!fs::exists(cell / "metrics.csv")) continue;
+      if (!fs::exists(cell / kMetricsFile)) continue;
       for (const auto& row : load_metrics(cell))
         if (row.subject == "all" && std::isfinite(row.value)) measured.metrics[row.metric].push_back(row.value);
     }
@@ -109,11 +112,11 @@ void save_figure_index(const fs::path& run, const std::vector<FigureFile>& figur
   for (const auto& figure : figures)
     list.push_back({{"scenario", figure.scenario}, {"name", figure.name}, {"caption", figure.caption}});
   make_folders(run / "figures");
-  write_file_atomically(run / "figures" / "index.json", list.dump(2) + "\n");
+  write_file_atomically(run / "figures" / kIndexFile, list.dump(2) + "\n");
 }
 
 std::vector<FigureFile> load_figure_index(const fs::path& run) {
-  const fs::path path = run / "figures" / "index.json";
+  const fs::path path = run / "figures" / kIndexFile;
   if (!fs::exists(path)) return {};
   std::vector<FigureFile> figures;
   try {

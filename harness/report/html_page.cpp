@@ -1,4 +1,4 @@
-// The frame of report pages.
+// Writes the frame of report pages and the parts that they share.
 #include "harness/report/html_page.hpp"
 
 #include <algorithm>
@@ -58,10 +58,9 @@ std::string outcome_text(const std::vector<CellLine>& cells) {
   return ok == all ? fmt::format("all {} cells ok", all) : fmt::format("{} of {} cells ok", ok, all);
 }
 
-/// Cells that did not end well, as a table; empty if all did.
+/// Table of the selected cells that are not ok; nullopt if all are.
 std::optional<Table> failures(const std::vector<CellLine>& cells) {
-  Table table{"failures", "Cells that did not end well", "", {"scenario", "pipeline", "seed", "status", "message"}, {},
-              {}};
+  Table table{"failures", "Cells that are not ok", "", {"scenario", "pipeline", "seed", "status", "message"}, {}, {}};
   std::size_t left_out = 0;
   for (const auto& cell : cells) {
     if (cell.status == "ok" || !cell.selected) continue;
@@ -73,12 +72,13 @@ std::optional<Table> failures(const std::vector<CellLine>& cells) {
         {{cell.scenario, cell.pipeline, std::to_string(cell.seed), cell.status, cell.message}, {}, false});
   }
   if (table.rows.empty()) return std::nullopt;
-  if (left_out > 0) table.caption = fmt::format("And {} more: status.json of every cell says how it ended.", left_out);
+  if (left_out > 0)
+    table.caption = fmt::format("And {} more; status.json of every cell has its status and message.", left_out);
   return table;
 }
 
-/// What cells that are ok say of their algorithms, like those that have not converged; one row for all seeds with the
-/// same remark.
+/// Table of remarks on cells that are ok, for example that an algorithm has not converged; one row for all seeds with
+/// the same remark.
 std::optional<Table> remarks(const std::vector<CellLine>& cells) {
   std::vector<std::pair<std::vector<std::string>, std::size_t>> rows;
   std::size_t left_out = 0;
@@ -96,8 +96,8 @@ std::optional<Table> remarks(const std::vector<CellLine>& cells) {
   if (rows.empty()) return std::nullopt;
   Table table{"remarks",
               "Remarks on cells that are ok",
-              "An aligner or matcher that is named here has not converged on that many scans or recordings: its result "
-              "is what it had at the end.",
+              "An aligner or matcher in this table has not converged on that many scans or recordings; its result is "
+              "its last estimate.",
               {"scenario", "pipeline", "remark"},
               {{"", "cells", false}},
               {}};

@@ -1,5 +1,5 @@
-// What all report pages share: the frame with its styles, the verdict over the cells, figures inside the page, and how
-// to get the numbers again. Markdown pages share the same parts.
+// Parts that all report pages share: the frame with its styles, the status of the cells, embedded figures, and how to
+// get the numbers again. Markdown pages have the same parts.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +12,14 @@
 
 namespace scanbench::harness {
 
-/// A whole page: self-contained, it can be mailed.
+/// A complete, self-contained page.
 std::string html_page(const std::string& title, const std::string& body);
 
-/// How many cells ended well, and a table of those that did not.
+/// The number of cells that are ok, and a table of the others.
 std::string html_status(const std::vector<CellLine>& cells);
 std::string markdown_status(const std::vector<CellLine>& cells);
 
-/// run/figures/<name>.svg as data, so that the ids of two figures cannot meet. The caption is HTML.
+/// run/figures/<name>.svg as data, so that the ids of two figures cannot clash. The caption is HTML.
 std::string html_figure(const std::filesystem::path& run, const FigureFile& figure, const std::string& caption);
 
 /// "How to get these numbers again".

@@ -1,4 +1,4 @@
-// Matching of metrics/, in the words of render/.
+// Converts the line matching of metrics/ to the verdicts of render/.
 #include "harness/report/line_verdicts.hpp"
 
 #include <algorithm>

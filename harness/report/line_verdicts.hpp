@@ -9,8 +9,8 @@
 
 namespace scanbench::harness {
 
-/// Per frame, by the rules of the metric family `segments` with its default parameters; empty without the truth of
-/// each beam.
+/// The verdicts of each frame, by the rules of the metric family `segments` with its default parameters; empty without
+/// the truth of each beam.
 std::vector<render::ScanVerdict> line_verdicts(const Recording& recording, const PipelineResult& result);
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// What a report shows.
+// The contents of a report.
 #pragma once
 
 #include <cstdint>

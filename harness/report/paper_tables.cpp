@@ -1,4 +1,4 @@
-// The paper's own layout: lines and methods as it prints them.
+// Makes tables in the layout of a paper, with its lines and methods.
 #include "harness/report/paper_tables.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ int decimals_of(const std::string& printed) {
   return point == std::string::npos ? 0 : static_cast<int>(printed.size() - point - 1);
 }
 
-// The paper's unit and digits; of times, which shrink with the years, as many digits as ours need.
+// The paper's unit and digits; for times, which are much shorter today, the unit and digits that ours need.
 Display display_of(const ComparedColumn& column) {
   double largest = 0.0;
   int decimals = 0;
@@ -73,7 +73,7 @@ Table lines_table(const std::string& scenario, const Columns& columns) {
   const ComparedColumn& first = *columns.front();
   Table table{scenario + "-paper-" + first.table,
               title_of(scenario, first),
-              caption_of(first) + " * the best.",
+              caption_of(first) + " * marks the best.",
               {"line"},
               {},
               {}};
@@ -136,19 +136,18 @@ Table methods_table(const std::string& scenario, const Columns& columns) {
   return table;
 }
 
-// Times divided by the mean time of the first family of methods: what of a time carries over to another machine.
+// Divides times by the mean time of the first family of methods, because such ratios carry over to another machine.
 std::optional<Table> ratio_table(const std::string& scenario, const Columns& columns) {
   const ComparedColumn& first = *columns.front();
   const std::string family = split_method(row_head(first.methods.front())).family;
-  Table table{
-      scenario + "-ratios-" + first.table,
-      fmt::format("{}: times as ratios to {}", scenario, family),
-      fmt::format("Times divided by the mean of the {} rows of the same column, ours by ours and the paper's by "
-                  "the paper's: times depend on the machine.",
-                  family),
-      {"method"},
-      {},
-      {}};
+  Table table{scenario + "-ratios-" + first.table,
+              fmt::format("{}: times as ratios to {}", scenario, family),
+              fmt::format("Times divided by the mean of the {} rows of the same column, ours by ours and the paper's "
+                          "by the paper's, because times depend on the machine.",
+                          family),
+              {"method"},
+              {},
+              {}};
   for (const auto& method : first.methods) table.rows.push_back({{row_head(method)}, {}, false});
   for (const ComparedColumn* column : columns) {
     if (!column->metric.timing) continue;

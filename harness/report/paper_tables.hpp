@@ -1,4 +1,4 @@
-// The tables of a paper in its own layout with our values beside the printed ones, and how far the two agree.
+// The tables of a paper in its own layout, with our values beside the printed ones.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace scanbench::harness {
 
-/// One table for each of the paper's. Where it speaks of single lines: a row per line, and for each metric our value of
-/// a method next to the printed one, the best of either side marked. Else a row per method, ours and the printed value
-/// for each metric; a second table shows times as ratios, for they depend on the machine. Ours are medians over the
-/// seeds, +- half the width of their 95 % interval.
+/// One table for each table of the paper. If the paper prints single lines, the table has a row per line and, for each
+/// metric, our value of a method beside the printed one, with the best of either side marked. Else it has a row per
+/// method with our value and the printed one for each metric; a second table then shows times as ratios, because times
+/// depend on the machine. Our values are medians over the seeds, +- half the width of their 95 % interval.
 std::vector<Table> paper_tables(const std::string& scenario, const std::vector<ComparedColumn>& columns);
 
 }  // namespace scanbench::harness

@@ -27,7 +27,8 @@ std::size_t character_length(std::string_view text) {
   return overlong || surrogate || too_large ? 0 : length;
 }
 
-/// C0 and C1 control characters, DEL, and what reverses the direction of writing (U+202A to U+202E, U+2066 to U+2069).
+/// C0 and C1 control characters, DEL, and characters that change the direction of writing (U+202A to U+202E, U+2066 to
+/// U+2069).
 bool is_control(std::string_view character) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
   if (character.size() == 1) return byte(0) < 0x20 || byte(0) == 0x7F;
@@ -59,7 +60,7 @@ std::string plain_text(std::string_view text) {
 }
 
 std::string plain_line(std::string_view text, std::size_t limit) {
-  // Enough is kept for every character of the line that is shown; the rest is not read.
+  // Reads all bytes of the characters that may be shown, and no others.
   std::string line = plain_text(text.substr(0, limit + 4));
   std::ranges::replace(line, '\n', ' ');
   if (text.size() <= limit) return line;

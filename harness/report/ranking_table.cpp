@@ -1,4 +1,4 @@
-// Values with their intervals, the best of each column marked.
+// Makes the ranking table of a benchmark: values with intervals, and the best of each column marked.
 #include "harness/report/ranking_table.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ std::string number(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "–";
 }
 
-/// Fewer decimals for larger values where a column spans decades.
+/// Larger values get fewer decimals if a column spans decades.
 TableCell interval_cell(const MeanInterval& interval, const BenchmarkColumn& column) {
   if (!std::isfinite(interval.mean)) return {"–"};
   const double mean = interval.mean * column.scale;

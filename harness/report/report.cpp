@@ -1,4 +1,4 @@
-// Tables first, then figures, then what is needed to get the same numbers again.
+// Writes the report of a run: tables, figures, and how to get the numbers again.
 #include "harness/report/report.hpp"
 
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 
 namespace scanbench::harness {
 
-/// HTML with styles and figures inside: it can be mailed. SVG figures are embedded as data, so their ids cannot meet.
+/// Self-contained HTML. SVG figures are embedded as data, so that their ids cannot clash.
 std::string report_html(const ReportInput& input);
 
 std::string report_markdown(const ReportInput& input);

@@ -1,4 +1,4 @@
-// Tables of the metric families: means over seeds, what is missing, the best marked.
+// Makes tables of metric families: means over seeds, notes on missing cells, and marks of the best.
 #include "harness/report/results_table.hpp"
 
 #include <algorithm>
@@ -26,10 +26,10 @@ namespace {
 using metrics::Direction;
 using metrics::MetricDescription;
 
-/// How much worse in completeness than the best a pipeline may be for its errors and costs to be compared.
+/// Errors and costs of a pipeline are compared only if its completeness is at most this much worse than the best.
 constexpr double kCompletenessMargin = 0.05;
 constexpr double kRounding = 1e-9;  ///< a difference of exactly the margin is within it
-/// Metrics that say how much of what is there a pipeline finds, all of them shares; earlier ones are preferred.
+/// Metrics of completeness: shares of the truth that a pipeline finds or misses; earlier ones are preferred.
 constexpr std::array<std::string_view, 4> kCompleteness{"f1", "covered_5cm", "placed", "missed"};
 
 using Key = std::pair<std::string, std::string>;  // metric, subject
@@ -124,7 +124,7 @@ class TableBuilder {
     return value;
   }
 
-  /// Errors, costs and deviations from a target are marked for pipelines of comparable completeness alone.
+  /// Errors, costs and deviations from a target are marked only for pipelines of comparable completeness.
   void mark(const std::vector<TableCell*>& cells, const std::vector<Value>& values, const MetricDescription& metric) {
     std::vector<double> means;
     std::vector<bool> eligible;
@@ -149,7 +149,7 @@ class TableBuilder {
     return display;
   }
 
-  /// Other than "all", in the order of their first row.
+  /// Subjects other than "all", in the order of their first row.
   std::vector<std::string> subjects_of(const Family& family) const {
     std::set<std::string> names;
     for (const auto& metric : family.metrics) names.insert(metric.metric);
@@ -214,7 +214,7 @@ class TableBuilder {
     return std::ranges::any_of(results_.rows, [&](const SummaryRow& r) { return r.metric == metric; });
   }
 
-  // Of any of these subjects: a metric of the whole run has no place among lines.
+  // True for a metric of any of these subjects; a metric of the whole run does not belong in a table of lines.
   bool reported(const std::string& metric, const std::vector<std::string>& subjects) const {
     return std::ranges::any_of(results_.rows, [&](const SummaryRow& r) {
       return r.metric == metric && std::ranges::count(subjects, r.subject) > 0;
@@ -228,13 +228,13 @@ class TableBuilder {
   }
 
   std::string caption(const Family& family) const {
-    std::vector<std::string> parts{"* the best value"};
+    std::vector<std::string> parts{"* marks the best value"};
     if (std::ranges::any_of(family.metrics, [&](const auto& m) { return gated(m) && reported(m.metric); }))
       parts.front() += fmt::format("; of errors and costs among pipelines within {} of the best {}",
                                    kCompletenessMargin, gate_->metric);
     const bool incomplete =
         std::ranges::any_of(results_.coverage, [](const auto& of_pipeline) { return !of_pipeline.second.complete(); });
-    if (incomplete) parts.emplace_back("a pipeline with cells that did not end ok has no mark");
+    if (incomplete) parts.emplace_back("a pipeline with cells that are not ok has no mark");
     if (scenario_.seeds.size() > 1)
       parts.push_back(fmt::format("mean over {} seeds ± half width of the 95 % interval", scenario_.seeds.size()));
     parts.insert(parts.end(), results_.notes.begin(), results_.notes.end());
@@ -249,7 +249,7 @@ class TableBuilder {
   const ComparableRows& results_;
   std::vector<MetricDescription> all_metrics_;
   Values values_;
-  const MetricDescription* gate_ = nullptr;  ///< the metric of completeness of the table in work; may be absent
+  const MetricDescription* gate_ = nullptr;  ///< the metric of completeness of the current table; may be null
   std::vector<bool> gate_passed_;            ///< for each pipeline
 };
 

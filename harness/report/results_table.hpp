@@ -1,4 +1,4 @@
-// From the values of a scenario's cells to the tables of a report.
+// Makes the tables of a report from the values of a scenario's cells.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace scanbench::harness {
 
-/// One table per metric family of the scenario, without the metrics that are `shown_elsewhere`. Families that speak of
-/// many subjects (walls) have a row per subject and a column per pipeline; the others a row per pipeline and a column
-/// per metric. Over several seeds a value is the mean with the half width of its 95 % interval.
+/// One table per metric family of the scenario, without the metrics that are `shown_elsewhere`. Families with many
+/// subjects (walls) have a row per subject and a column per pipeline; the others a row per pipeline and a column per
+/// metric. Over several seeds a value is the mean with the half width of its 95 % interval.
 ///
-/// The best value of a metric is marked. A pipeline of which a cell or a value is missing is never marked. Where the
-/// family or, failing that, the scenario has a metric of completeness (f1, covered_5cm, placed, missed), errors and
-/// costs are marked only for pipelines within 0.05 of the best of it: a pipeline that finds little also errs little.
+/// The best value of a metric is marked. A pipeline with a missing cell or value is never marked. If the family, or
+/// else the scenario, has a metric of completeness (f1, covered_5cm, placed, missed), errors and costs are marked only
+/// for pipelines within 0.05 of its best value, because a pipeline that finds little also has small errors.
 std::vector<Table> result_tables(const Scenario& scenario, const ComparableRows& results,
                                  const std::vector<std::string>& shown_elsewhere = {});
 

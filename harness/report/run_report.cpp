@@ -1,4 +1,4 @@
-// Gathers what a report shows; writes figures and reports.
+// Collects the contents of reports, and writes figures and reports.
 #include "harness/report/run_report.hpp"
 
 #include <system_error>
@@ -24,6 +24,8 @@
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
+#include "harness/store/recording_folder.hpp"
+#include "harness/store/run_files.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/summary.hpp"
 
@@ -32,7 +34,7 @@ namespace scanbench::harness {
 namespace fs = std::filesystem;
 namespace {
 
-// published/*.csv, if a scenario has values of a paper.
+// Writes published/*.csv if a scenario has values of a paper.
 void write_agreement(const fs::path& run, const ReportInput& input) {
   std::vector<std::pair<std::string, std::vector<ComparedColumn>>> compared;
   for (const auto& scenario : input.scenarios)
@@ -43,13 +45,13 @@ void write_agreement(const fs::path& run, const ReportInput& input) {
   for (const auto& file : agreement_files(compared)) write_file_atomically(run / "published" / file.name, file.bytes);
 }
 
-/// "SHA-256 ...; 180 beams from -90 deg in steps of 1 deg, the rule for logs without angles".
+/// "SHA-256 ...; 180 beams from -90 deg in steps of 1 deg, from first_angle_deg and step_deg".
 std::string source_of(const fs::path& run, const Scenario& scenario, const RecordedInput& recorded) {
   std::error_code absent;
   const bool readable = fs::is_regular_file(recorded.log, absent);
-  std::string text = readable ? "SHA-256 " + sha256_of_file(recorded.log) : "the log is no longer there";
+  std::string text = readable ? "SHA-256 " + sha256_of_file(recorded.log) : "the log no longer exists";
   if (scenario.seeds.empty()) return text;
-  const fs::path file = recording_path(run, scenario.name, scenario.seeds.front()) / "scan.json";
+  const fs::path file = recording_path(run, scenario.name, scenario.seeds.front()) / kScanFile;
   if (!fs::is_regular_file(file, absent)) return text;
   const auto json = nlohmann::json::parse(read_file(file), nullptr, false);
   if (json.is_discarded() || !json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
@@ -59,8 +61,8 @@ std::string source_of(const fs::path& run, const Scenario& scenario, const Recor
     return text + fmt::format("; {} beams from {:.6g} deg in steps of {:.6g} deg, {}", json.at("beams").get<int>(),
                               degrees(json.at("angle_min_rad").get<double>()),
                               degrees(json.at("angle_step_rad").get<double>()),
-                              given ? "as first_angle_deg and step_deg say"
-                                    : "as the log states or by the rule of its format for this number of beams");
+                              given ? "from first_angle_deg and step_deg"
+                                    : "from the log or the rule of its format for this number of beams");
   } catch (const nlohmann::json::exception& error) {
     throw ConfigError(file.string() + ": " + error.what());
   }
@@ -74,12 +76,12 @@ ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& 
   input.title = "scanbench: " + fs::absolute(run).lexically_normal().filename().string();
   input.facts = manifest_facts(run);
   input.scenarios = scenarios;
-  if (fs::exists(run / "summary.csv")) input.rows = load_summary(run / "summary.csv");
+  if (fs::exists(run / kSummaryFile)) input.rows = load_summary(run / kSummaryFile);
   const Manifest manifest = load_manifest(run);
   for (const auto& key : manifest.cells) {
     const fs::path cell = cell_path(run, key);
     CellLine line{key.scenario, key.pipeline, key.seed, "missing", "not run", 0.0, 0.0, was_selected(manifest, key)};
-    if (fs::exists(cell / "status.json")) {
+    if (fs::exists(cell / kStatusFile)) {
       const CellRecord record = load_status(cell);
       line.selected = true;
       line.status = to_string(record.outcome.status);
@@ -123,8 +125,9 @@ std::vector<Table> closing_tables(const ReportInput& input) {
 
 void write_reports(const fs::path& run, const ReportInput& input) {
   const auto benchmark = load_benchmark(run);
-  write_file_atomically(run / "report.html", benchmark ? benchmark_html(input, *benchmark) : report_html(input));
-  write_file_atomically(run / "report.md", benchmark ? benchmark_markdown(input, *benchmark) : report_markdown(input));
+  write_file_atomically(run / kReportPage, benchmark ? benchmark_html(input, *benchmark) : report_html(input));
+  write_file_atomically(run / kReportMarkdown,
+                        benchmark ? benchmark_markdown(input, *benchmark) : report_markdown(input));
   write_agreement(run, input);
   refresh_manifest(run);
 }

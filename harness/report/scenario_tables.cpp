@@ -1,4 +1,4 @@
-// Published tables first, our own after them.
+// Collects the tables of a scenario: those of a paper first, then our own.
 #include "harness/report/scenario_tables.hpp"
 
 #include <algorithm>

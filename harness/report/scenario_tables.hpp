@@ -11,14 +11,14 @@
 
 namespace scanbench::harness {
 
-/// How much is told about a scenario with published values.
+/// How much is shown for a scenario with published values.
 enum class TableDetail {
-  summary,    ///< the paper's tables and how far ours agree
+  summary,    ///< the paper's tables and their agreement with ours
   departures  ///< and every ordering that does not hold
 };
 
-/// The tables of a paper beside ours, if the scenario names them, and then what the paper does not print.
-/// `cells` says how the scenario's cells ended: values are compared on those that every pipeline finished.
+/// The tables of a paper with our values, if the scenario names one, then tables of the other metrics. `cells` has the
+/// status of the scenario's cells; values are compared on the seeds that every pipeline finished.
 std::vector<Table> scenario_tables(const Scenario& scenario, const std::vector<SummaryRow>& rows,
                                    const std::vector<CellLine>& cells, TableDetail detail);
 

@@ -1,4 +1,4 @@
-// One table, three spellings. Best values carry a * everywhere, so that nothing depends on colour or weight.
+// Writes a table for a terminal, as Markdown and as HTML. Best values are marked by characters, not by colour alone.
 #include "harness/report/table.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Tables for people: the same table as text on a terminal, Markdown and HTML.
+// Tables that are written as terminal text, Markdown and HTML.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ struct TableCell {
   std::string text;
   bool best = false;       ///< the best of its row or column
   bool published = false;  ///< from a paper, not computed here
-  std::string spread{};    ///< "± 0.12": behind the text, below it in HTML; may be empty
+  std::string spread{};    ///< "± 0.12": after the text, below it in HTML; may be empty
 };
 
 struct TableColumn {
@@ -33,11 +33,11 @@ struct Table {
   std::vector<Row> rows;
 };
 
-/// The table in parts of at most `width` characters where it is wider: whole groups of columns, or single columns where
-/// there are no groups, side by side as far as they go. The first part has the title, the last the caption.
+/// Splits a table into parts of at most `width` characters if it is wider: between groups of columns, or between single
+/// columns if there are no groups. The first part has the title, the last the caption.
 std::vector<Table> parts_of_width(const Table& table, std::size_t width);
 
-/// Groups of columns that do not fit `width` characters side by side stand below each other.
+/// Groups of columns that do not fit `width` characters side by side are written below each other.
 std::string to_terminal(const Table& table, bool color, std::size_t width = 1000);
 std::string to_markdown(const Table& table);
 std::string to_html(const Table& table);

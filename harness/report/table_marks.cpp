@@ -1,4 +1,4 @@
-// Units, digits and marks.
+// Formats values with units and digits, and marks the best.
 #include "harness/report/table_marks.hpp"
 
 #include <algorithm>

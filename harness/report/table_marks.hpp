@@ -1,4 +1,4 @@
-// How values become cells of a table: the unit and digits they are shown with, and the mark of the best.
+// Formats values as cells of a table, with unit and digits, and marks the best of them.
 #pragma once
 
 #include <optional>
@@ -32,7 +32,7 @@ std::string heading(const std::string& metric, const Display& display);
 
 /// Marks the best of the cells that may be marked. `values` belong to `cells` one by one, NaN: no value; ties are all
 /// best. Nothing is marked if the metric has no best value, fewer than two values are finite, or all are equal.
-/// `eligible`, one entry a cell, excludes cells from the mark; empty: none is excluded.
+/// `eligible`, one entry per cell, excludes cells from the mark; empty: none is excluded.
 void mark_best(const std::vector<TableCell*>& cells, const std::vector<double>& values,
                const metrics::MetricDescription& metric, const std::vector<bool>& eligible = {});
 

@@ -1,4 +1,4 @@
-// Hashes the canonical text of what a cell is made of: no field of a scenario has to be remembered here.
+// Hashes the effective scenario, so that every field of a scenario enters the address of its cells.
 #include "harness/run/cell_address.hpp"
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace {
 
 using Paths = std::vector<std::filesystem::path>;
 
-/// Takes the files out of an input: their bytes enter the address, their paths do not. Returns the paths.
+/// Removes the paths of files from an input and returns them. The files' bytes enter the address, not their paths.
 Paths take_files(SimulatedInput& input) {
   input.caster = sim::CasterKind::exact;  // both casters give the same bytes
   return {};                              // the world itself is part of the text
@@ -56,7 +56,7 @@ std::string input_address(const Scenario& scenario) {
 std::string cell_address(const std::string& input, const std::vector<ModuleChoice>& metrics,
                          const PipelineSpec& pipeline, std::uint64_t seed, const TraceChoice& trace) {
   Scenario part;
-  part.input = LinesInput{};  // none: it has an address of its own
+  part.input = LinesInput{};  // no input here: it has its own address
   part.pipelines.push_back({.name = "", .slots = pipeline.slots, .published = ""});
   part.metrics = metrics;
   return Sha256()

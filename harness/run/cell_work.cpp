@@ -1,4 +1,4 @@
-// One pipeline on one recording, to files.
+// Runs and scores one pipeline on one recording, and writes the files of the cell.
 #include "harness/run/cell_work.hpp"
 
 #include "harness/files/atomic_file.hpp"
@@ -14,9 +14,9 @@ std::string make_cell(const std::filesystem::path& folder, const Scenario& scena
   const bool traced = !trace.nothing();
   const PipelineRun run = run_pipeline(pipeline, recording.observed, traced ? &journal : nullptr);
   write_result(folder, pipeline, run.result);
-  if (traced) write_staged_file(folder / "trace.csv", journal.csv());
+  if (traced) write_staged_file(folder / kTraceFile, journal.csv());
   const Scores scores = score_cell(scenario.metrics, recording, folder);
-  write_staged_file(folder / "metrics.csv", metrics_csv(scores.rows));
+  write_staged_file(folder / kMetricsFile, metrics_csv(scores.rows));
   for (const auto& table : scores.tables) write_staged_file(folder / (table.name + ".csv"), metric_table_csv(table));
   return run.remarks;
 }

@@ -1,4 +1,4 @@
-// From a scenario to its recording, after a look at the memory that it will need.
+// Makes the recording of a scenario, after a check of the memory that it needs.
 #include "harness/run/make_recording.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ void refuse_if_too_large(const Scenario& scenario, double needed, std::size_t fr
       scenario.limits.memory_bytes / (1024.0 * 1024.0)));
 }
 
-/// The poses of ten million scans take seconds to lay out: a number that the scenario states is looked at before.
+/// Checks a stated number of scans before it generates their poses, because ten million poses take seconds.
 sim::SimulationInput input_within_memory(const Scenario& scenario, std::uint64_t seed) {
   const auto& simulated = std::get<SimulatedInput>(scenario.input);
   const auto stated = simulated.trajectory.params.find("scans");

@@ -14,8 +14,8 @@ namespace scanbench::harness {
 /// suffices, and that the log can be read. Throws ConfigError.
 void check_scenario(const Scenario& scenario);
 
-/// The recording of a scenario for one seed: simulates, or reads the log (the seed is then unused).
-/// Throws ConfigError if it would need more memory than the limit, with the arithmetic.
+/// The recording of a scenario for one seed: simulates, or reads the log (the seed is then unused). Throws ConfigError
+/// if it would need more memory than the limit; the message shows the calculation.
 Recording make_recording(const Scenario& scenario, std::uint64_t seed, int threads,
                          const std::function<void(double)>& progress = {});
 

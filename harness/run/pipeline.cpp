@@ -1,4 +1,4 @@
-// The chain extract -> (align | match) -> (map | merge).
+// Runs the chain extract -> (align | match) -> (map | merge) on all scans.
 #include "harness/run/pipeline.hpp"
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 namespace scanbench::harness {
 namespace {
 
-/// Makes a module's trace for one slot and frame (-1: the whole recording), calls the module with it, and keeps what
-/// the pass wants of it.
+/// Makes a module's trace for one slot and frame (-1: the whole recording), calls the module with it, and stores what
+/// the pass records.
 using Listener = std::function<void(std::string_view slot, int frame, const std::function<void(Trace&)>& call)>;
 
 void nobody_listens(std::string_view, int, const std::function<void(Trace&)>& call) {
@@ -41,13 +41,13 @@ Listener written_into(Journal& journal) {
   };
 }
 
-constexpr double kFarthest_m = 1e6;  // no scanner and no building is larger
+constexpr double kFarthest_m = 1e6;  // larger than every scanner's range and every building
 
 bool is_near(const Vec2& p) {
   return p.cwiseAbs().maxCoeff() < kFarthest_m;
 }
 
-/// What is wrong with one line; empty if nothing is. Lines that are given in place of scans have no beams and may be of
+/// Describes what is wrong with a line; empty if nothing is. Lines given instead of scans have no beams and may have
 /// any size.
 std::string fault_of(const LineFeature& line, int beams) {
   if (!line.segment.a.allFinite() || !line.segment.b.allFinite() || !std::isfinite(line.line.rho) ||
@@ -255,7 +255,7 @@ std::vector<ScanLines> extract_all(const LineExtractor& extractor, const ScanSet
   return lines;
 }
 
-/// Lines that are given in place of scans, as an extractor would have found them.
+/// Converts lines given instead of scans to an extractor's result.
 std::vector<ScanLines> given_lines(const ScanSet& scans) {
   std::vector<ScanLines> lines(scans.frames.size());
   for (std::size_t k = 0; k < lines.size(); ++k)

@@ -15,17 +15,17 @@ struct PipelineRun {
   std::string remarks;  ///< outcomes other than `converged`, with counts: "match: 2 no_match, 1 degenerate"
 };
 
-/// `extract` runs on every frame, unless the scan set holds lines in place of scans: the chain then begins after it.
-/// `align` gets all scans and their odometry; `match` chains consecutive scans, each
-/// guess being the odometry between them, or, if no scan has another odometry pose than the first, the step before it
-/// (at first: no motion); the guess is the step where the matcher says no_match; `map` gets scan after scan
-/// with its pose; `merge` gets the lines and the valid points placed in the world. Poses are those of `align` or
-/// `match`, else the odometry.
+/// `extract` runs on every frame, unless the scan set has lines instead of scans; the chain then begins after it.
+/// `align` gets all scans and their odometry; `match` chains consecutive scans, with the odometry between them as the
+/// guess (and as the result if the matcher returns no_match). Without odometry, if all scans have one odometry pose,
+/// the guess is the step before; the first one is no motion. `map` gets one scan after the other with its pose;
+/// `merge` gets the lines and the valid points placed in the world. Poses are those of `align` or `match`, else the
+/// odometry.
 ///
-/// Results come from a pass in which nobody listens to `extract`; its stage times from a second pass (microseconds a
-/// scan). The other slots are timed while they work: a second pass of them could take as long as the first. Stages of
-/// `extract` keep their names, those of the other slots get `<slot>.` in front. A journal, if given, listens to a pass
-/// of its own over all slots.
+/// Results come from a pass in which `extract` has no listener; its stage times come from a second pass (microseconds
+/// per scan). The other slots are timed in the first pass, because a second one could take as long. Stages of `extract`
+/// keep their names, those of the other slots begin with `<slot>.`. A journal, if given, records a separate pass over
+/// all slots.
 ///
 /// Throws ConfigError for an unknown module or chain, ParamError for its parameters, InvalidResult, and what the
 /// modules throw.

@@ -57,10 +57,10 @@ bool EarlierCells::files_are_whole(const CellKey& key, const PipelineSpec& pipel
   const bool merge = has_slot(pipeline, "merge");
   const bool places = std::ranges::any_of(pipeline.slots, [](const auto& slot) { return slot.kind != "extract"; });
   for (const auto& [file, written] :
-       {std::pair("timing.csv", true), std::pair("trace.csv", !trace.nothing()), std::pair("merge_labels.csv", merge),
-        std::pair("pose_matches.csv", has_slot(pipeline, "match")),
-        std::pair("map.csv", merge || has_slot(pipeline, "map")), std::pair("poses.csv", places && frames > 0)})
-    if (written && !fs::exists(folder / file)) return false;
+       {std::pair(&kTimingFile, true), std::pair(&kTraceFile, !trace.nothing()), std::pair(&kMergeFile, merge),
+        std::pair(&kPoseMatchesFile, has_slot(pipeline, "match")),
+        std::pair(&kMapFile, merge || has_slot(pipeline, "map")), std::pair(&kPosesFile, places && frames > 0)})
+    if (written && !fs::exists(folder / *file)) return false;
 
   if (const auto agree = hashes_agree(folder)) return *agree;
   return load_result(folder).lines.size() == frames;

@@ -1,4 +1,4 @@
-// The cells of an earlier run that can be reused: made of the same input by the same program, with whole files.
+// The cells of an earlier run that can be reused: made from the same input by the same program, with undamaged files.
 #pragma once
 
 #include <filesystem>
@@ -22,22 +22,22 @@ struct EarlierCell {
 
 class EarlierCells {
  public:
-  /// Reads the hashes in the run's manifest: must be constructed before that is written anew.
+  /// Reads the hashes in the run's manifest. Construct it before the manifest is rewritten.
   explicit EarlierCells(std::filesystem::path run);
 
-  /// The cell, if it is ok, has this address, and the recording of its scenario and seed is whole. All files that the
-  /// manifest lists must have their SHA-256; where a killed run has left no list, those that the pipeline writes must
-  /// be there, readable, and fit each other and the recording.
+  /// Returns the cell if it is ok, has this address, and its recording is undamaged. All files that the manifest lists
+  /// must have their SHA-256. If a killed run has left no list, the files that the pipeline writes must exist, be
+  /// readable, and agree with each other and with the recording.
   std::optional<EarlierCell> find(const CellKey& key, const std::string& address, const PipelineSpec& pipeline,
                                   const TraceChoice& trace);
 
-  /// True if the cell has ended well, whatever it was made of.
+  /// True if the cell is ok, with any input and program.
   bool is_ok(const CellKey& key) const;
 
  private:
-  /// Number of frames; none if the recording is absent or not what its hash says.
+  /// Number of frames; nullopt if the recording is missing or does not have its hash.
   std::optional<std::size_t> recorded_frames(const std::string& scenario, std::uint64_t seed);
-  /// Have all files of the folder the hashes that the manifest lists? Nothing if it lists none of them. Throws
+  /// True if all files of the folder have the hashes that the manifest lists; nullopt if it lists none. Throws
   /// ConfigError for a file that cannot be read.
   std::optional<bool> hashes_agree(const std::filesystem::path& folder) const;
   /// Throws ConfigError for a file that cannot be read.

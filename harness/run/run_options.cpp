@@ -1,4 +1,4 @@
-// Exit codes of runs.
+// Computes the exit code of a run.
 #include "harness/run/run_options.hpp"
 
 #include <algorithm>

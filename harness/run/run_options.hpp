@@ -1,4 +1,4 @@
-// What a run is to do, its progress, and how it ended.
+// Options, progress and result of a run.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@
 
 namespace scanbench::harness {
 
-/// How one cell ended.
+/// Result of one cell.
 struct CellResult {
   CellKey key;
   bool done = false;    ///< its folder is in the run; false: missing
-  bool reused = false;  ///< taken from an earlier run: made of the same input by the same program
+  bool reused = false;  ///< taken from an earlier run with the same input and program
   CellRecord record;
 };
 
@@ -33,7 +33,7 @@ struct RunResult {
   std::filesystem::path out;      ///< RunOptions::out without "." and ".."
   std::vector<CellResult> cells;  ///< selected ones, in the order of summary.csv
   bool interrupted = false;
-  bool old_run_kept = false;  ///< interrupted or with missing cells: it did not replace the earlier run in its folder
+  bool old_run_kept = false;  ///< interrupted or incomplete, so that it did not replace the earlier run in its folder
   /// 0 all cells ok; 3 some are not; 4 some are missing; 130 interrupted.
   int exit_code() const;
 };
@@ -45,11 +45,11 @@ struct RunOptions {
   /// cells.
   std::vector<std::string> only = {};
   bool resume = false;
-  bool journal = false;                ///< the whole trace.csv in every cell; else the rows that the figures draw from
+  bool journal = false;                ///< keep all trace rows of every cell; else those that the figures draw
   std::vector<std::string> argv = {};  ///< for the manifest
   std::optional<BenchmarkSpec> benchmark = {};
   std::function<void(const RunProgress&)> progress = {};
-  /// Called when all cells have ended and the run is in its place, while its folder is still locked: draws and reports.
+  /// Draws figures and writes reports. Called after the run has reached its folder, which is still locked.
   std::function<void(const RunResult&)> finish = {};
 };
 

@@ -1,4 +1,4 @@
-// Scenarios x pipelines x seeds.
+// Plans the cells of a run: scenarios x pipelines x seeds.
 #include "harness/run/run_plan.hpp"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ void check_scenarios(const std::vector<Scenario>& scenarios, const RunOptions& o
         found = found || only == pipeline.name || only == scenario.name + "/" + pipeline.name;
       }
     }
-    if (!found) throw ConfigError("nothing is named '" + only + "' here; known: " + known);
+    if (!found) throw ConfigError("no scenario or pipeline is named '" + only + "'; known: " + known);
   }
 }
 

@@ -23,7 +23,7 @@ struct PlannedCell {
   std::string address;  ///< cell_address()
   const Scenario* scenario = nullptr;
   const PipelineSpec* pipeline = nullptr;
-  TraceChoice trace;      ///< what of it is kept
+  TraceChoice trace;      ///< the rows that are kept
   std::size_t group = 0;  ///< index into RunPlan::groups
 };
 
@@ -33,10 +33,10 @@ struct RunPlan {
 };
 
 /// All cells, whether selected or not; points into `scenarios`. Throws ConfigError for options that select nothing or
-/// make no sense, and for names that cannot be folders or are given twice.
+/// are invalid, and for names that cannot be folders or are given twice.
 RunPlan plan_run(const std::vector<Scenario>& scenarios, const RunOptions& options);
 
-/// Does `options.only` choose this cell?
+/// True if `options.only` selects this cell.
 bool selected(const RunOptions& options, const CellKey& key);
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// The schedule of a run: cells in groups that share a recording, at most `jobs` children at once.
+// Schedules a run: cells form groups that share a recording, and at most `jobs` children run at once.
 #include "harness/run/runner.hpp"
 
 #include <algorithm>
@@ -76,7 +76,7 @@ class Run {
     pool_->kill_all();
     refuse_if_all_input_is_bad(interrupted);
     RunResult result = end(interrupted);
-    pool_.reset();  // from here on an interrupt is the caller's
+    pool_.reset();  // from here on the caller handles interrupts
     if (!interrupted && !result.old_run_kept && options_.finish) options_.finish(result);
     return result;
   }
@@ -100,18 +100,10 @@ class Run {
   }
 
   void write_start() {
-    const fs::path& run = target_->path();
-    manifest_.state = "running";
-    manifest_.start = utc_now();
-    manifest_.argv = options_.argv;
-    for (const auto& scenario : scenarios_) manifest_.scenarios.push_back(scenario.name);
-    for (const auto& cell : cells_) manifest_.cells.push_back(cell.result.key);
-    write_manifest(run, manifest_);  // first of all files: with it the folder is ours
-    if (options_.benchmark)
-      write_file_atomically(run / "benchmark.json", benchmark_json(*options_.benchmark));
-    else
-      remove_file(run / "benchmark.json");  // of an earlier run
-    write_run_scenarios(run, scenarios_, services_.effective_yaml);
+    std::vector<CellKey> keys;
+    for (const auto& cell : cells_) keys.push_back(cell.result.key);
+    manifest_ =
+        start_run(*target_, {scenarios_, std::move(keys), options_.argv, options_.benchmark, services_.effective_yaml});
   }
 
   /// Cells of an earlier run that are ok and have the same address are kept; the others of the selection wait to be
@@ -132,8 +124,8 @@ class Run {
     }
   }
 
-  /// A selection keeps the other cells of the earlier run. Those that belong to other input, or that another build of
-  /// the program made, cannot be kept, and must not vanish either.
+  /// A selection keeps the other cells of the earlier run. Cells of other input or of another build cannot be kept, but
+  /// must not be lost, so the run is refused.
   void refuse_to_drop_cells() {
     if (!earlier_ || options_.only.empty()) return;
     std::string first;
@@ -145,10 +137,10 @@ class Run {
       if (count++ == 0) first = to_string(key);
     }
     if (count > 0)
-      throw ConfigError(options_.out.string() + " holds an earlier run, and --only cannot keep " +
+      throw ConfigError(options_.out.string() + " contains an earlier run, and --only cannot keep " +
                         std::to_string(count) + " of its cells (" + first +
-                        " is the first): this run has other input or parameters, or is made by another build; run all "
-                        "cells, or give another folder");
+                        " is the first), because the input, the parameters or the program differ; run all cells, or "
+                        "choose another folder");
   }
 
   void try_to_reuse(Cell& cell) {
@@ -160,7 +152,7 @@ class Run {
     cell.result.done = cell.result.reused = true;
   }
 
-  /// A cell whose recording is there, else the next recording. False if there is nothing to start now.
+  /// Starts a cell whose recording exists, else the next recording. False if there is nothing to start now.
   bool start_next() {
     if (!ready_.empty()) {
       const std::size_t index = ready_.front();
@@ -238,7 +230,7 @@ class Run {
     try {
       if (recording_hash(load_recording(group.staged->target())) == hash) return;
     } catch (const std::exception&) {
-      // None there, or damaged.
+      // The old recording is missing or damaged.
     }
     group.staged->commit();
   }
@@ -270,7 +262,7 @@ class Run {
       if (outcome.status != CellStatus::ok) cell.staged->clear();
       if (outcome.status == CellStatus::ok)
         cell.summary = summary_lines(cell.result.key, load_metrics(cell.staged->path()));
-      write_staged_file(cell.staged->path() / "status.json", status_json(cell.result.record));
+      write_staged_file(cell.staged->path() / kStatusFile, status_json(cell.result.record));
       cell.staged->commit();
       cell.result.done = true;
     } catch (const ConfigError& e) {
@@ -280,7 +272,7 @@ class Run {
     finish(cell);
   }
 
-  /// Makes the cell's folder under construction. False: it cannot be made, and the cell is missing.
+  /// Makes the unfinished folder of a cell. If that fails, marks the cell as missing and returns false.
   bool stage(Cell& cell) {
     try {
       cell.staged.emplace(cell_path(target_->path(), cell.result.key));
@@ -291,7 +283,8 @@ class Run {
     }
   }
 
-  /// The system refused something: the disk is full, say. The run is then incomplete, but other cells may succeed.
+  /// Marks a cell as missing after a failure of the system, like a full disk. The run is then incomplete, but other
+  /// cells may succeed.
   void mark_missing(Cell& cell, const std::string& reason) {
     cell.result.record.outcome.status = CellStatus::failed;
     cell.result.record.outcome.message = reason;
@@ -312,7 +305,7 @@ class Run {
     if (options_.progress) options_.progress({done_, total_, what, cell});
   }
 
-  /// At most once a second while cells end. On a full disk the run goes on: the last summary counts.
+  /// Writes the summary at most once a second. A full disk does not stop the run, because only the last summary counts.
   void write_summary_now_and_then() {
     const auto now = std::chrono::steady_clock::now();
     if (now - summary_written_ < std::chrono::seconds(1)) return;
@@ -326,7 +319,7 @@ class Run {
   void write_summary() {
     std::string text = summary_header();
     for (const auto& cell : cells_) text += cell.summary;
-    write_file_atomically(target_->path() / "summary.csv", text);
+    write_file_atomically(target_->path() / kSummaryFile, text);
   }
 
   void refuse_if_all_input_is_bad(bool interrupted) {
@@ -352,17 +345,15 @@ class Run {
       return result;
     }
     write_summary();
-    manifest_.state = interrupted ? "interrupted" : missing ? "incomplete" : "complete";
-    manifest_.end = utc_now();
-    write_manifest(target_->path(), manifest_);
-    target_->finish();
+    end_run(*target_, manifest_, interrupted ? "interrupted" : missing ? "incomplete" : "complete");
     return result;
   }
 
   const std::vector<Scenario>& scenarios_;
   const RunOptions& options_;
   const RunServices& services_;
-  std::optional<WorkerPool> pool_{std::in_place};  ///< destroyed last: no interrupt before unfinished files are removed
+  std::optional<WorkerPool> pool_{
+      std::in_place};  ///< destroyed last, so that an interrupt cannot come before unfinished files are removed
   std::vector<Group> groups_;
   std::unique_ptr<RunTarget> target_;
   std::optional<EarlierCells> earlier_;  ///< of a run that is resumed

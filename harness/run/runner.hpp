@@ -1,4 +1,4 @@
-// Runs scenarios: recordings made once, every pipeline on every recording in a child process, results as files.
+// Runs scenarios: makes every recording once, runs every pipeline on it in a child process, and writes the results.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@
 
 namespace scanbench::harness {
 
-/// What a run does not do itself; tests replace it.
+/// Functions that a run calls and that tests replace.
 struct RunServices {
   std::function<Recording(const Scenario&, std::uint64_t seed, int threads)> recording;
   std::function<std::string(const Scenario&)> effective_yaml;
 };
 
 /// Must be called while the process has one thread (it forks). Cells that fail are rows of the result, not exceptions.
-/// Throws ConfigError for options that select nothing, names that cannot be folders, an output folder that is not ours
-/// or cannot be written, and if no recording can be made because the scenarios are wrong: nothing remains then.
+/// Throws ConfigError for options that select nothing, names that cannot be folders, an output folder that is not a run
+/// or cannot be written, and scenarios from which no recording can be made; no file remains in these cases.
 RunResult run_with(const std::vector<Scenario>& scenarios, const RunOptions& options, const RunServices& services);
 
-/// With simulation and logs (harness/run/make_recording.hpp).
+/// The same with the recordings of make_recording().
 RunResult run(const std::vector<Scenario>& scenarios, const RunOptions& options);
 
 }  // namespace scanbench::harness

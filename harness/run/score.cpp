@@ -1,4 +1,4 @@
-// Metric families on recordings and results; the tidy table of a whole run.
+// Scores cells with metric families, and scores a finished run again.
 #include "harness/run/score.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ metrics::MetricInput metric_input(const Recording& recording, const PipelineResu
           recording.reference ? &*recording.reference : nullptr};
 }
 
-/// Calls `use` with every chosen family that can say something of the input.
+/// Calls `use` with every chosen family that applies to the input.
 template <class Use>
 void for_each_family(const std::vector<ModuleChoice>& families, const metrics::MetricInput& input, Use use) {
   for (const auto& choice : families) {
@@ -43,7 +43,7 @@ void append(std::vector<T>& all, std::vector<T> more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// Would a run of a scenario make a cell at this address?
+/// Checks whether a run of a scenario would make a cell with this address.
 class ScenarioAddresses {
  public:
   bool is_of(const Scenario& scenario, const CellKey& key, const std::string& address) {
@@ -58,17 +58,8 @@ class ScenarioAddresses {
   }
 
  private:
-  std::map<std::string, std::string> inputs_;  // a log's is the hash of the whole file
+  std::map<std::string, std::string> inputs_;  // kept, because a log's takes a hash of the whole file
 };
-
-/// Files that a score of any families may have left in a cell, beside metrics.csv.
-std::set<std::string> table_files() {
-  std::set<std::string> files;
-  for (const auto& family : Registry<metrics::MetricFamily>::names())
-    for (const auto& table : Registry<metrics::MetricFamily>::make(family, {})->table_names())
-      files.insert(table + ".csv");
-  return files;
-}
 
 }  // namespace
 
@@ -111,29 +102,30 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
   const Manifest manifest = load_manifest(run);
   std::string summary = summary_header();
   std::size_t scored = 0;
-  const std::set<std::string> known_tables = table_files();
-  std::vector<std::pair<fs::path, std::string>> files;  // written when all are known: whoever stops it changes nothing
-  std::vector<fs::path> stale;                          // tables of an earlier score that this one does not make
+  const std::set<std::string> known_tables = metric_table_files();
+  std::vector<std::pair<fs::path, std::string>>
+      files;                    // written when all are known, so that an interrupt changes nothing
+  std::vector<fs::path> stale;  // tables of an earlier score that this one does not make
   ScenarioAddresses addresses;
   std::map<std::pair<std::string, std::uint64_t>, Recording> recordings;  // at most one at a time
   for (std::size_t i = 0; i < manifest.cells.size(); ++i) {
     const CellKey& key = manifest.cells[i];
     if (progress) progress(static_cast<double>(i) / static_cast<double>(manifest.cells.size()), to_string(key));
     const fs::path cell = cell_path(run, key);
-    if (!fs::exists(cell / "status.json") || load_status(cell).outcome.status != CellStatus::ok) continue;
+    if (!fs::exists(cell / kStatusFile) || load_status(cell).outcome.status != CellStatus::ok) continue;
     const auto scenario = std::ranges::find(scenarios, key.scenario, &Scenario::name);
     if (scenario == scenarios.end())
-      throw ConfigError(run.string() + ": the scenario '" + key.scenario + "' of a cell is not at hand");
+      throw ConfigError(run.string() + ": the scenario '" + key.scenario + "' of a cell is missing");
     const std::pair source{key.scenario, key.seed};
     if (!recordings.contains(source)) {
       recordings.clear();
       recordings.emplace(source, load_recording(recording_path(run, key.scenario, key.seed)));
     }
     const Scores scores = score_cell(scenario->metrics, recordings.at(source), cell);
-    files.emplace_back(cell / "metrics.csv", metrics_csv(scores.rows));
+    files.emplace_back(cell / kMetricsFile, metrics_csv(scores.rows));
     if (CellRecord record = load_status(cell); !addresses.is_of(*scenario, key, record.address)) {
-      record.address.clear();  // no run makes what is scored with other metrics: --resume makes the cell anew
-      files.emplace_back(cell / "status.json", status_json(record));
+      record.address.clear();  // no run has these metrics, so --resume makes the cell again
+      files.emplace_back(cell / kStatusFile, status_json(record));
     }
     std::set<std::string> others = known_tables;
     for (const auto& table : scores.tables) {
@@ -146,7 +138,7 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
   }
   for (const auto& path : stale) remove_file(path);
   for (const auto& [path, text] : files) write_file_atomically(path, text);
-  write_file_atomically(run / "summary.csv", summary);
+  write_file_atomically(run / kSummaryFile, summary);
   refresh_manifest(run);
   return scored;
 }

@@ -1,4 +1,4 @@
-// Scores from files: a recording's folder and a cell's folder in, metrics.csv and summary.csv out.
+// Scores cells from their files and the recording's, and writes metrics.csv and summary.csv.
 #pragma once
 
 #include <filesystem>
@@ -24,19 +24,19 @@ struct Scores {
   std::vector<metrics::MetricTable> tables;
 };
 
-/// The same and the families' tables, the result read from the cell's folder. `recording` is what load_recording()
-/// gives: bit for bit what was saved.
+/// Scores the result in the cell's folder: the same rows, and the families' tables. `recording` comes from
+/// load_recording(), which returns the saved bits.
 Scores score_cell(const std::vector<ModuleChoice>& families, const Recording& recording,
                   const std::filesystem::path& cell);
 
 /// A table as a file of the cell, <name>.csv.
 std::string metric_table_csv(const metrics::MetricTable& table);
 
-/// Scores the finished cells of a run again, with the metrics of the given scenarios, and rewrites metrics.csv,
-/// the tables (those of an earlier score that are no longer requested are removed), summary.csv and the manifest's
-/// list. Returns how many cells were scored. Throws ConfigError if a cell's scenario is not among them or a file is
-/// missing. `progress` is told of each cell before it is scored; nothing is written before all are, so that whatever it
-/// throws leaves the run as it was.
+/// Scores the finished cells of a run again, with the metrics of the given scenarios, and rewrites metrics.csv, the
+/// tables (those of an earlier score that are no longer requested are removed), summary.csv and the manifest's list.
+/// Returns the number of scored cells. Throws ConfigError if a cell's scenario is not among them or a file is missing.
+/// `progress` is called before each cell is scored. Nothing is written before all are scored, so an exception from it
+/// leaves the run unchanged.
 std::size_t score_run(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
                       const std::function<void(double, const std::string&)>& progress = {});
 

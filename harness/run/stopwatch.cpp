@@ -1,4 +1,4 @@
-// Sums of thread CPU time per stage.
+// Measures thread CPU time per stage.
 #include "harness/run/stopwatch.hpp"
 
 #include <time.h>

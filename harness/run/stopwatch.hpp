@@ -12,7 +12,7 @@
 
 namespace scanbench::harness {
 
-/// CPU time of the calling thread in seconds: other processes on the machine do not enter it.
+/// CPU time of the calling thread in seconds: other processes on the machine do not count.
 double thread_cpu_seconds();
 
 /// Thread CPU time per stage between start() and stop(). Time before the first stage counts for that stage; a module

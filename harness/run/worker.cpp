@@ -1,4 +1,4 @@
-// Child processes by fork(): limits, pipes, signals.
+// Runs tasks in child processes by fork(), with limits, pipes and signals.
 #include "harness/run/worker.hpp"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ constexpr std::size_t kTail = 4096;               // bytes kept of what a child 
 constexpr std::size_t kMessageLimit = 16 * 1024;  // bytes kept of an exception's message
 constexpr std::size_t kReportLimit = 8 << 20;     // bytes that a child may report
 constexpr int kBlocksAtOnce = 64;                 // read of one pipe before the others get their turn
-constexpr double kKillDeadline = 5.0;             // seconds until a killed child that does not end is given up
+constexpr double kKillDeadline = 5.0;             // seconds to wait for a killed child to end
 constexpr int kInterrupts[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t interrupt_seen = 0;
@@ -60,7 +60,7 @@ double wall_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Sets the soft limit, and the hard one `margin` above it, so that the task cannot raise what it is held to.
+/// Sets the soft limit, and the hard one `margin` above it, so that the task cannot raise its own limit.
 void limit(int resource, double value, double margin = 0.0) {
   if (!(value + margin < 1e18)) return;
   rlimit current{};
@@ -89,7 +89,8 @@ void say_out_of_memory() {
 void set_limits(const WorkerLimits& limits) {
   std::set_new_handler(say_out_of_memory);
   limit(RLIMIT_CORE, 0);
-  // Above the limit of wall time, for the case that the parent cannot act. SIGXCPU comes first, SIGKILL at the margin.
+  // CPU time is limited above the limit of wall time, in case the parent cannot act. SIGXCPU comes first, SIGKILL at
+  // the margin.
   const double cores = std::max(1U, std::thread::hardware_concurrency());
   limit(RLIMIT_CPU, std::ceil(limits.seconds) * cores + 2.0, 2.0);
   // Each thread reserves address space for its stack and its heap arena without using it.
@@ -97,7 +98,7 @@ void set_limits(const WorkerLimits& limits) {
   if (!SCANBENCH_UNDER_SANITIZER) limit(RLIMIT_AS, address_space_bytes() + limits.memory_bytes + reserve);
 }
 
-/// The start of an exception's message: a module may write one of any length.
+/// Cuts an exception's message, because a module may write one of any length.
 std::string shortened(std::string text) {
   if (text.size() <= kMessageLimit) return text;
   const std::string rest = std::to_string(text.size() - kMessageLimit);
@@ -105,7 +106,7 @@ std::string shortened(std::string text) {
   return text + " [" + rest + " more bytes]";
 }
 
-/// What goes through the pipe: one character for the status, then the message.
+/// Runs the task and returns the bytes for the pipe: one character for the status, then the message.
 std::string perform(const std::function<std::string()>& task) {
   try {
     return "o" + task();
@@ -128,12 +129,12 @@ std::string perform(const std::function<std::string()>& task) {
   }
 }
 
-/// Leaves the child its output, its report as descriptor 3, and an empty standard input: what it starts itself then
-/// cannot hold the lock of the run's folder, the pipes of other children or the user's terminal. Returns 3.
+/// Keeps only the child's output, its report as descriptor 3, and an empty standard input, so that processes started by
+/// the task cannot hold the lock of the run's folder, the pipes of other children or the user's terminal. Returns 3.
 int keep_only(int report, int output) {
   constexpr int kReport = STDERR_FILENO + 1;
   const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-  // The pipes may have any numbers: both are moved out of the way first.
+  // The pipes may have any descriptors, so both are moved above kReport first.
   const int from = ::fcntl(report, F_DUPFD_CLOEXEC, kReport + 1);
   const int to = ::fcntl(output, F_DUPFD_CLOEXEC, kReport + 1);
   if (from < 0 || to < 0 || nothing < 0) _exit(3);
@@ -149,7 +150,7 @@ int keep_only(int report, int output) {
                                 int report, int output) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(3);  // it has ended before it could send the signal
+  if (getppid() != parent) _exit(3);  // the parent ended before prctl() was called
   for (const int signal : kInterrupts)
     if (sigismember(&held, signal) == 1) std::signal(signal, SIG_DFL);
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of write(), with a message
@@ -168,7 +169,8 @@ int keep_only(int report, int output) {
   _exit(0);
 }
 
-/// Reads what is there, up to a number of blocks: a child that writes without end must not keep us. False at the end.
+/// Reads the available bytes, up to a number of blocks, because a child may write without end. False at the end of the
+/// pipe.
 bool drain(int fd, std::string& text) {
   std::array<char, 1 << 14> block{};
   for (int i = 0; i < kBlocksAtOnce; ++i) {
@@ -191,11 +193,11 @@ void kill_child(pid_t pid) {
 }
 
 bool has_ended(pid_t pid) {
-  siginfo_t info{};  // the child stays as it is until wait4(): its number cannot be used again before
+  siginfo_t info{};  // the child remains until wait4(), so its process id is not used again before
   return ::waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == pid;
 }
 
-/// Waits for a killed child, but not for ever: one that the kernel cannot end now must not hold up the run.
+/// Waits for a killed child, but not forever: one that the kernel cannot end now must not delay the run.
 void reap(pid_t pid) {
   const double deadline = wall_seconds() + kKillDeadline;
   while (::waitpid(pid, nullptr, WNOHANG) == 0 && wall_seconds() < deadline) {
@@ -283,9 +285,9 @@ struct WorkerPool::Worker {
       result.message = "used up the limit of CPU time";
     } else if (signal == SIGKILL) {
       result.status = CellStatus::out_of_memory;
-      result.message = "killed by the system, most likely for want of memory";
+      result.message = "killed by the system, most likely because it ran out of memory";
     } else {
-      // A bad_alloc that met a noexcept ends by abort(): say_out_of_memory() has written its line.
+      // A bad_alloc in a noexcept function ends in abort(), after say_out_of_memory() has written its line.
       const bool memory = output_text.find(kOutOfMemory) != std::string::npos;
       result.status = memory ? CellStatus::out_of_memory : CellStatus::crashed;
       result.message = "ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
@@ -300,14 +302,14 @@ WorkerPool::WorkerPool() {
   sigemptyset(&held);
   for (std::size_t i = 0; i < std::size(kInterrupts); ++i) {
     sigaction(kInterrupts[i], nullptr, &old_actions[i]);
-    // `nohup` starts us with SIGHUP ignored: it stays so.
+    // `nohup` starts the program with SIGHUP ignored, which stays so.
     if (kInterrupts[i] == SIGHUP && old_actions[i].sa_handler == SIG_IGN) continue;
     struct sigaction action {};
     action.sa_handler = on_interrupt;
     sigaction(kInterrupts[i], &action, nullptr);
     sigaddset(&held, kInterrupts[i]);
   }
-  // Where SIGCHLD is ignored, as a parent may have left it to us, ended children vanish and nobody can wait for them.
+  // If SIGCHLD is ignored, which a parent may have set, ended children vanish and cannot be waited for.
   struct sigaction standard {};
   standard.sa_handler = SIG_DFL;
   sigaction(SIGCHLD, &standard, &old_child_action);
@@ -327,7 +329,7 @@ std::size_t WorkerPool::running() const {
 }
 
 bool WorkerPool::interrupted() const {
-  // While pipes keep having something to read, ppoll() returns before it delivers a signal: ask for it.
+  // While pipes have bytes to read, ppoll() returns before it delivers a signal, so pending signals are checked here.
   sigset_t pending;
   sigpending(&pending);
   return interrupt_seen != 0 || std::ranges::any_of(kInterrupts, [&](int signal) {
@@ -344,7 +346,7 @@ void WorkerPool::start(std::size_t id, const std::function<std::string()>& task,
     ::close(report[1]);
     throw SystemError(std::string("cannot start a worker: ") + std::strerror(errno));
   }
-  std::fflush(nullptr);  // or the child would print our buffers once more
+  std::fflush(nullptr);  // or the child would print the parent's buffers again
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
   if (pid == 0) live_as_child(task, limits, parent, report[1], output[1]);
@@ -355,7 +357,7 @@ void WorkerPool::start(std::size_t id, const std::function<std::string()>& task,
     ::close(output[0]);
     throw SystemError(std::string("cannot start a worker: ") + std::strerror(errno));
   }
-  setpgid(pid, pid);  // in both processes: whoever comes first
+  setpgid(pid, pid);  // called in both processes, because either may be the first
   fcntl(report[0], F_SETFL, O_NONBLOCK);
   fcntl(output[0], F_SETFL, O_NONBLOCK);
   workers_.push_back({id, pid, report[0], output[0], limits.seconds, wall_seconds()});
@@ -365,16 +367,16 @@ std::vector<WorkerPool::Finished> WorkerPool::wait() {
   std::vector<Finished> finished;
   while (finished.empty() && !workers_.empty() && !interrupted()) {
     std::vector<pollfd> fds;
-    double pause = 0.02;  // nothing wakes us when a child ends while a process that it started holds its pipes
+    double pause = 0.02;  // no event reports the end of a child while a process that it started holds its pipes
     for (const auto& w : workers_) {
       if (w.report_open) fds.push_back({w.report, POLLIN, 0});
       if (w.output_open) fds.push_back({w.output, POLLIN, 0});
-      // A closed report means that the end is near; then there is nothing left to poll.
+      // A closed report means that the child ends soon, without anything left to poll.
       pause = std::min(pause, w.report_open && !w.killed_for_time ? w.start + w.seconds - wall_seconds() : 1e-3);
     }
     pause = std::max(pause, 0.0);
     const timespec timeout{static_cast<time_t>(pause), static_cast<long>(1e9 * (pause - std::floor(pause)))};
-    ::ppoll(fds.data(), fds.size(), &timeout, &old_mask);  // signals arrive here and nowhere else
+    ::ppoll(fds.data(), fds.size(), &timeout, &old_mask);  // the only place where signals are delivered
 
     for (std::size_t i = 0; i < workers_.size();) {
       Worker& w = workers_[i];
@@ -387,8 +389,8 @@ std::vector<WorkerPool::Finished> WorkerPool::wait() {
         ++i;
         continue;
       }
-      ::kill(-w.pid, SIGKILL);  // what the task may have started itself
-      w.read_pipes();           // what they still hold: less than is read at once
+      ::kill(-w.pid, SIGKILL);  // processes that the task may have started
+      w.read_pipes();           // the rest, which is less than one read takes
       int status = 0;
       rusage usage{};
       ::wait4(w.pid, &status, 0, &usage);

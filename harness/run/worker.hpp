@@ -1,4 +1,5 @@
-// Child processes with limits: a crash, a hang or a memory blow-up is an outcome, not a lost run.
+// Child processes with limits: a crash, a hang or excessive memory use is an outcome of a cell and does not end the
+// run.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +14,8 @@ namespace scanbench::harness {
 
 struct WorkerLimits {
   double seconds = 600.0;     ///< wall time
-  double memory_bytes = 4e9;  ///< address space beyond what the parent uses at the fork; not held under sanitizers
-  int threads = 1;            ///< the task starts up to this many
+  double memory_bytes = 4e9;  ///< address space beyond what the parent uses at the fork; not limited under sanitizers
+  int threads = 1;            ///< the task may start this many
 };
 
 /// Runs tasks in forked children. The parent must have one thread only when start() is called. While a pool exists,
@@ -24,7 +25,7 @@ struct WorkerLimits {
 class WorkerPool {
  public:
   WorkerPool();
-  ~WorkerPool();  ///< kills what still runs
+  ~WorkerPool();  ///< kills children that still run
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 

@@ -109,18 +109,4 @@ std::string benchmark_json(const BenchmarkSpec& spec) {
   return json.dump(2) + "\n";
 }
 
-std::optional<BenchmarkSpec> load_benchmark(const fs::path& run) {
-  const fs::path path = run / "benchmark.json";
-  if (!fs::exists(path)) return std::nullopt;
-  try {
-    const auto json = nlohmann::json::parse(read_file(path));
-    const BenchmarkSpec spec{json.at("about"), json.at("baseline"), json.at("example"), json.value("of", "extract")};
-    if (const auto slots = benchmark_slots(); std::ranges::find(slots, spec.of) == slots.end())
-      throw ConfigError(path.string() + ": no benchmark ranks modules of the kind " + spec.of);
-    return spec;
-  } catch (const nlohmann::json::exception& error) {
-    throw ConfigError(path.string() + ": " + error.what());
-  }
-}
-
 }  // namespace scanbench::harness

@@ -28,6 +28,5 @@ BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& 
 
 std::string benchmark_json(const BenchmarkSpec& spec);
 /// Reads benchmark.json of a run folder; nullopt if the run is no benchmark. Throws ConfigError if the file is damaged.
-std::optional<BenchmarkSpec> load_benchmark(const std::filesystem::path& run);
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// The effective scenario: every default written out, in one canonical form.
+// Writes the effective scenario: all defaults are stated, and the form is canonical.
 #include "harness/scenario/effective.hpp"
 
 #include <algorithm>
@@ -42,8 +42,8 @@ void add_input(YamlNode& root, const SimulatedInput& input) {
   if (input.caster == sim::CasterKind::box2d) yaml_add(root, "caster", yaml_text("box2d"));
 }
 
-/// A path with the variable is valid in any folder. Any other path is made absolute: this text is read from the run
-/// folder.
+/// A path that begins with a variable is valid in any folder. Any other path is made absolute, because this text is
+/// read from the run folder.
 YamlNode path_node(const std::filesystem::path& path, const std::string& as_written) {
   const bool portable = as_written.starts_with("${");
   return yaml_text(portable ? as_written : std::filesystem::absolute(path).lexically_normal().string());

@@ -1,4 +1,4 @@
-// The effective scenario: every default written out, in one canonical form.
+// The effective scenario: all defaults are stated, and the form is canonical.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Factors of a suite: what it varies besides its scenarios. Each level is a set of overrides.
+// Factors of a suite: settings that it varies in addition to its scenarios. Each level is a set of overrides.
 //
 //   factors:
 //     sensor: {ladar: {sensor.preset: ladar_2d30}, urg: {sensor.preset: urg_04lx, sensor.quantum_m: 0}}
@@ -24,7 +24,7 @@ std::vector<Variant> read_variants(const YamlNode& factors);
 
 /// The overrides whose keys begin with `section` and a dot.
 std::vector<std::string> sets_of_section(const std::vector<std::string>& sets, std::string_view section);
-/// The others.
+/// The overrides that sets_of_section() leaves out.
 std::vector<std::string> sets_outside_section(const std::vector<std::string>& sets, std::string_view section);
 
 }  // namespace scanbench::harness

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kParam = "pipeline";
 
-/// The message about a wrong `pipeline` of the figure; empty if it is right.
+/// Error message for the figure's parameter `pipeline`; empty if it is valid.
 std::string complaint(const ModuleChoice& figure, const std::vector<PipelineSpec>& pipelines) {
   const auto param = figure.params.find(kParam);
   const auto* wanted = param != figure.params.end() ? std::get_if<std::string>(&param->second) : nullptr;

@@ -10,7 +10,7 @@
 
 namespace scanbench::harness {
 
-/// Throws PlacedError for a figure whose `pipeline` (not empty) is none of these: the figure would be empty. The
+/// Throws PlacedError for a figure whose `pipeline` (not empty) does not exist, because the figure would be empty. The
 /// message names the existing pipelines. `list` is the YAML that the figures were read from.
 void check_figure_pipelines(const YamlNode& list, const std::vector<ModuleChoice>& figures,
                             const std::vector<PipelineSpec>& pipelines);

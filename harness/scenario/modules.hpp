@@ -21,7 +21,7 @@ const std::vector<std::string>& module_kinds();
 /// Alphabetical. Throws ConfigError for an unknown kind.
 std::vector<std::string> module_names(std::string_view kind);
 
-/// The module; throws ConfigError for an unknown kind or name, naming the known ones.
+/// Finds a module. Throws ConfigError for an unknown kind or name, and names the known ones.
 ModuleEntry find_module(std::string_view kind, std::string_view name);
 
 /// Constructs the module and discards it, to check its parameters. Throws ParamError for parameters that contradict

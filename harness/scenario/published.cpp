@@ -41,7 +41,7 @@ std::vector<PublishedValue> load_published(const std::filesystem::path& path) {
   for (std::size_t r = 0; r < csv.rows(); ++r) {
     const std::string& unit = csv.text(r, "unit");
     const bool rating = unit == "rating";
-    const double per_unit = unit == "cm" ? 100.0 : 1.0;  // divided by: 0.39 / 100 is 0.0039 to the last bit
+    const double per_unit = unit == "cm" ? 100.0 : 1.0;  // divisor: 100 is exact, a factor of 0.01 is not
     values.push_back({.metric = csv.text(r, "metric"),
                       .subject = csv.text(r, "subject"),
                       .method = csv.text(r, "method"),
@@ -51,7 +51,7 @@ std::vector<PublishedValue> load_published(const std::filesystem::path& path) {
                       .table = tables ? csv.text(r, "table") : "",
                       .line = csv.line(r)});
     const PublishedValue& value = values.back();
-    if (value.printed.empty()) csv.refuse(r, "value is empty; allowed: a number, or a row less");
+    if (value.printed.empty()) csv.refuse(r, "value is empty; allowed: a number; remove rows without a value");
     const auto [first, is_new] = lines.try_emplace({value.metric, value.subject, value.method}, value.line);
     if (!is_new)
       csv.refuse(r, fmt::format("a second value for {}, {}, {}; the first is in line {}", value.metric, value.subject,

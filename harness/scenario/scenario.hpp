@@ -36,7 +36,7 @@ struct PipelineSpec {
 /// True if the pipeline has a slot of this kind.
 bool has_slot(const PipelineSpec& pipeline, std::string_view kind);
 
-/// Scans come from a simulated world ...
+/// Input of a run with scans of a simulated world.
 struct SimulatedInput {
   std::string world_text;  ///< bytes of the world's file, unpacked; empty: the world is written into the scenario
   sim::World world;
@@ -52,7 +52,7 @@ struct SimulatedInput {
   sim::CasterKind caster = sim::CasterKind::exact;
 };
 
-/// ... or from a recorded log.
+/// Input of a run with scans of a recorded log.
 struct RecordedInput {
   std::filesystem::path log;
   std::string log_as_written;       ///< in the scenario, with ${SCANBENCH_DATA}
@@ -61,11 +61,11 @@ struct RecordedInput {
   std::string relations_as_written;
   ParamSet params;  ///< of the reader: no-return value, first angle, pose triple, ...; effective
   std::string sensor_preset;
-  ParamSet sensor_params;  ///< effective; beam angles and range limits of it are not used: the log has its own
+  ParamSet sensor_params;  ///< effective; its beam angles and range limits are unused, because the log has its own
   SensorModel sensor;
 };
 
-/// ... or lines are given instead of scans: copies of the world's walls, or the lines of a file.
+/// Input of a run with lines instead of scans: copies of the world's walls, or the lines of a file.
 struct LinesInput {
   std::optional<sim::World> world;           ///< the truth; present for copies
   std::filesystem::path file;                ///< empty: copies
@@ -76,12 +76,13 @@ struct LinesInput {
 };
 
 struct Limits {
-  double seconds = 600.0;                          ///< per cell, wall time
-  double memory_bytes = 4.0 * 1024 * 1024 * 1024;  ///< per cell, and of a recording before it starts
+  double seconds = 600.0;  ///< per cell, wall time
+  double memory_bytes =
+      4.0 * 1024 * 1024 * 1024;  ///< per cell; a recording that needs more is refused before it starts
 };
 
 struct Scenario {
-  std::string name;  ///< key `name`, or the file's name without ending
+  std::string name;  ///< key `name`, or the file's name without extension
   std::filesystem::path path;
   std::string text;  ///< the file's bytes
   std::string about;

@@ -1,4 +1,4 @@
-// Reads the sections of a scenario in the order of the file.
+// Reads the sections of a scenario file and checks how they fit each other.
 #include "harness/scenario/scenario_file.hpp"
 
 #include <fmt/format.h>
@@ -59,7 +59,8 @@ class ScenarioReader {
   }
 
  private:
-  /// All parameters of an optional section that holds only parameters. Angles are in degrees, as in the file.
+  /// Reads an optional section that has only parameters; missing ones get their defaults. Angles are in degrees, as in
+  /// the file.
   template <class Params>
   static ParamSet read_optional(YamlMap& map, const std::string& key) {
     const std::vector<ParamSpec> specs = param_specs<Params>();
@@ -82,7 +83,7 @@ class ScenarioReader {
         map_.require("world", "{file: PATH}, or the keys of a world file; or a recording, or lines"));
     input.world = std::move(loaded.world);
     input.world_text = std::move(loaded.text);
-    const YamlNode& sensor = map_.require("sensor", "{preset: NAME}, with any of its fields beside it");
+    const YamlNode& sensor = map_.require("sensor", "{preset: NAME}, and any field that overrides the preset");
     read_sensor(sensor, sim::sensor_param_specs(), input.sensor_preset, input.sensor_params, input.sensor);
     read_trajectory(map_.require("trajectory", "{kind: NAME, ...}"), input);
     read_caster(input);
@@ -98,7 +99,7 @@ class ScenarioReader {
     input.caster = name == "box2d" ? sim::CasterKind::box2d : sim::CasterKind::exact;
   }
 
-  /// `text` is empty for a world that is written into the scenario.
+  /// `text` is empty for a world inside the scenario file.
   LoadedWorld read_world_section(const YamlNode& node) {
     YamlMap map(node, "world");
     LoadedWorld loaded;
@@ -144,8 +145,9 @@ class ScenarioReader {
     if (const YamlNode* sweep_node = map.find("sweep")) {
       input.sweep = std::get<bool>(read_param(*sweep_node, sweep));
       if (input.sweep && !(input.sensor.time_per_beam_s > 0))
-        throw PlacedError(sweep_node->mark,
-                          "sweep is true, but the sensor's time_per_beam_s is 0; allowed: a sensor that takes time");
+        throw PlacedError(
+            sweep_node->mark,
+            "sweep is true, but the sensor's time_per_beam_s is 0; allowed: a sensor with time_per_beam_s > 0");
     }
     input.trajectory = {"trajectory", kind, map.params(entry.params)};
     map.done();
@@ -165,7 +167,8 @@ class ScenarioReader {
     input.format = map.text("format", "a name");
     const auto specs = at_param(format_node, [&] { return log_param_specs(input.format); });
     if (input.format != "csv")
-      map.require("no_return_m", "the least range in m that means that nothing was in range, or 0 if no reading does");
+      map.require("no_return_m",
+                  "the reading in m that means nothing in range, as do all greater ones; 0 if there is none");
     const YamlNode* relations = map.find("relations");
     if (relations != nullptr) input.relations_as_written = map.text("relations", "a file's path");
     input.params = resolve(specs, map.params(specs));
@@ -200,10 +203,9 @@ class ScenarioReader {
       refuse_many_seeds("a file of lines");
       if (const YamlNode* world = map_.find("world")) input.world = read_world_section(*world).world;
     } else {
-      const auto params = make_params<LineCopiesParams>(map.params(param_specs<LineCopiesParams>()));
+      input.params = map.params(param_specs<sim::LineCopies>());
       map.done();
-      input.params = to_param_set(params);
-      input.copies = params.copies_of();
+      input.copies = make_params<sim::LineCopies>(input.params);
       input.world = read_world_section(
                         map_.require("world", "{file: PATH}, or the keys of a world file: the walls that are copied"))
                         .world;
@@ -237,7 +239,7 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& path
   scenario.path = path;
   scenario.text = text;
   in_file(path.string(), sets, [&] {
-    // A scenario may hold its world: the larger limit.
+    // The larger limit applies, because a scenario may contain its world.
     YamlNode root = parse_yaml(text, kMaxWorldBytes);
     apply_sets(root, sets);
     ScenarioReader(root, scenario).read();

@@ -1,7 +1,7 @@
 // Reads a scenario file, checks it, and fills in every default.
 //
 //   schema: 1
-//   name: rooms                                  # optional, default: the file's name without ending
+//   name: rooms                                  # optional, default: the file's name, no extension
 //   about: two rooms, seen from a corridor       # optional
 //   world: {file: worlds/rooms.yaml}             # relative to the scenario; or the keys of a world file themselves
 //   sensor: {preset: ladar_2d30, sigma_m: 0.02}  # any field may be overridden
@@ -11,14 +11,14 @@
 //     scans: 200
 //     odometry: {translation_per_m: 0.02}
 //     sweep: false
-//   caster: exact                                # optional; box2d: the reference, slower, equal recordings
+//   caster: exact                                # optional; box2d is a slower reference
 //   seed: 1                                      # or seeds: [1, 2], or seeds: {first: 1, count: 20}; default: seed: 1
 //   pipelines:                                   # slots: extract, then align or match, then map or merge
 //     - {name: iepf, extract: {module: iepf, params: {threshold_m: 0.10}}}
 //   metrics: [borges2000, {name: segments, params: {}}]
 //   figures: [environment]
 //   published: published/rooms.csv               # optional: values that a paper prints
-//   limits: {seconds: 600, memory_mib: 4096}     # of a cell; memory also of a recording before it starts
+//   limits: {seconds: 600, memory_mib: 4096}     # per cell; memory_mib also limits a recording
 //
 // A log replaces world and trajectory: `recording: {log: FILE, format: carmen, ...}` with the options of its format
 // (harness/exchange/log.hpp); `sensor` then gives noise and timing, which algorithms may use.

@@ -8,8 +8,8 @@
 
 namespace scanbench::harness {
 
-/// The input of simulate(). Its trajectory has the waypoints that figures show. The scenario must be simulated, else
-/// InternalError.
+/// The input of simulate(). Its trajectory has the waypoints that figures show. Throws InternalError for a scenario
+/// that is not simulated.
 sim::SimulationInput simulation_input(const Scenario& scenario, std::uint64_t seed);
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// Reads a suite: its scenarios, and the parts that replace theirs.
+// Reads a suite: loads its scenarios and replaces their parts by those of the suite.
 #include "harness/scenario/suite.hpp"
 
 #include <fmt/format.h>
@@ -60,7 +60,7 @@ class SuiteReader {
   }
 
  private:
-  /// A scenario whose parts are replaced by those of the suite.
+  /// Loads a scenario and replaces its parts by those of the suite.
   Scenario load(const std::filesystem::path& path, const std::vector<std::string>& sets) const {
     Scenario scenario = load_scenario(path, pipelines_ != nullptr ? sets_outside_section(sets, "pipelines") : sets);
     if (!seeds_.empty() && has_chance(scenario)) scenario.seeds = seeds_;
@@ -81,7 +81,7 @@ class SuiteReader {
     return scenario;
   }
 
-  /// Errors name the level as their place: without it the scenario was valid.
+  /// Errors have the place of the level, because the scenario is valid without it.
   Scenario load_variant(const std::filesystem::path& path, const std::string& name, const Variant& variant) const {
     std::vector<std::string> sets = variant.sets;
     sets.insert(sets.end(), sets_.begin(), sets_.end());

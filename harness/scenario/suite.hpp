@@ -3,7 +3,7 @@
 //   schema: 1
 //   about: four extractors                              # optional
 //   scenarios: [../abcdef.yaml, ../four_rooms.yaml]     # relative to the suite
-//   seeds: {first: 1, count: 20}                        # optional: replaces the scenarios' own (not of logs)
+//   seeds: {first: 1, count: 20}                        # optional: replaces the scenarios' own; logs keep theirs
 //   pipelines: [...]                                    # optional: replaces the scenarios' own
 //   metrics: [...]                                      # optional: replaces the scenarios' own
 //   figures: [...]                                      # optional: replaces the scenarios' own
@@ -24,11 +24,11 @@
 namespace scanbench::harness {
 
 struct Suite {
-  std::string name;  ///< the file's name without ending
+  std::string name;  ///< the file's name without extension
   std::filesystem::path path;
   std::string text;  ///< the file's bytes
   std::string about;
-  /// These have the suite's seeds, pipelines and metrics, and different names. With factors, each scenario occurs once
+  /// They have the suite's seeds, pipelines and metrics, and different names. With factors, each scenario occurs once
   /// per combination of levels: rooms-ladar-1cm, rooms-ladar-5cm, ...
   std::vector<Scenario> scenarios;
   std::optional<BenchmarkSpec> benchmark;
@@ -38,7 +38,7 @@ struct Suite {
 /// that is not YAML.
 bool is_suite(const std::filesystem::path& path);
 
-/// `sets` are overrides of each scenario, and of the suite's pipelines where it has some. Throws ConfigError with
+/// `sets` are overrides of each scenario, and of the suite's pipelines if it has any. Throws ConfigError with
 /// file:line:col.
 Suite load_suite(const std::filesystem::path& path, const std::vector<std::string>& sets = {});
 

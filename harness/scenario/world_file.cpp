@@ -16,7 +16,7 @@
 namespace scanbench::harness {
 namespace {
 
-// Labels become entries of CSV tables and names of subjects of metrics.
+// Labels appear in CSV tables and as subjects of metrics.
 const std::string& read_label(const YamlNode& node, std::string_view what) {
   constexpr std::string_view kAllowed = "a label of 1 to 64 characters without comma, quote or line break";
   const std::string& label = read_word(node, what, kAllowed);

@@ -12,11 +12,11 @@
 //     box: [[2, 1], [3, 1], [3, 2]]
 //   circles:                                          # return beams but are no lines of the truth
 //     - [pillar, 5, 3, 0.2]                           # [label, x, y, radius]
-//   moving:                                           # round bodies that move; in metres, whatever unit_m says
+//   moving:                                           # round bodies that move; in metres, independent of unit_m
 //     - {label: person, radius_m: 0.2, path_m: [[1, 1], [5, 1]], speed_mps: 1.2, loop: true}
 //
 // loop: false moves a body along its path once, after which it stays at the last point; loop: true moves it to the last
-// point, back to the first, and so on. It has the first point when the recording starts.
+// point, back to the first, and so on. It is at the first point when the recording starts.
 //
 // A file that ends in .txt or .txt.gz is a vector map as used for robot localisation: "x1, y1, x2, y2" per line (commas
 // or blanks), metres, `#` begins a comment; walls are labelled with their line's number. Segments without length are

@@ -1,5 +1,4 @@
-// PipelineResult <-> lines.csv, labels.npy, map.csv, poses.csv, pose_matches.csv, merge_labels.csv, timing.csv;
-// status.json; metrics.csv.
+// Writes and reads the files of a cell: results of a pipeline, status.json and metrics.csv.
 #include "harness/store/cell_files.hpp"
 
 #include <cmath>
@@ -79,19 +78,19 @@ void write_lines(const fs::path& cell, const std::vector<ScanLines>& scans) {
       csv.end_row();
     }
   }
-  write_staged_file(cell / "lines.csv", csv.str());
+  write_staged_file(cell / kLinesFile, csv.str());
   const std::size_t beams = scans.empty() ? 0 : scans.front().labels.size();
-  write_staged_file(cell / "labels.npy", npy_bytes(labels, scans.size(), beams));
+  write_staged_file(cell / kLabelsFile, npy_bytes(labels, scans.size(), beams));
 }
 
-/// Only the header states their number: no byte of the file belongs to them.
+/// Frames without beams occupy no bytes, so only this limit protects from a damaged header that states too many.
 constexpr std::size_t kMostFramesWithoutBeams = 1000000;
 
 std::vector<ScanLines> load_lines(const fs::path& cell) {
-  const fs::path file = cell / "lines.csv";
-  const auto labels = parse_npy_int32(read_file(cell / "labels.npy"), cell / "labels.npy");
+  const fs::path file = cell / kLinesFile;
+  const auto labels = parse_npy_int32(read_file(cell / kLabelsFile), cell / kLabelsFile);
   if (labels.columns == 0 && labels.rows > kMostFramesWithoutBeams)
-    throw ConfigError((cell / "labels.npy").string() + ": " + std::to_string(labels.rows) +
+    throw ConfigError((cell / kLabelsFile).string() + ": " + std::to_string(labels.rows) +
                       " frames without beams; allowed: at most " + std::to_string(kMostFramesWithoutBeams));
   std::vector<ScanLines> scans(labels.rows);
   for (std::size_t k = 0; k < labels.rows; ++k) {
@@ -117,9 +116,9 @@ std::vector<ScanLines> load_lines(const fs::path& cell) {
   for (std::size_t k = 0; k < scans.size(); ++k)
     for (const int label : scans[k].labels)
       if (label < -1 || label >= static_cast<int>(scans[k].lines.size()))
-        throw ConfigError((cell / "labels.npy").string() + ": frame " + std::to_string(k) + " has the label " +
+        throw ConfigError((cell / kLabelsFile).string() + ": frame " + std::to_string(k) + " has the label " +
                           std::to_string(label) + ", but lines.csv has " + std::to_string(scans[k].lines.size()) +
-                          " lines of it");
+                          " lines of this frame");
   return scans;
 }
 
@@ -134,7 +133,7 @@ void write_map(const fs::path& cell, const LineMap& map) {
     if (covariance) covariance_fields(csv, map.lines[i].covariance);
     csv.end_row();
   }
-  write_staged_file(cell / "map.csv", csv.str());
+  write_staged_file(cell / kMapFile, csv.str());
 }
 
 void write_matches(const fs::path& cell, const std::vector<FrameMatch>& matches) {
@@ -146,7 +145,7 @@ void write_matches(const fs::path& cell, const std::vector<FrameMatch>& matches)
     csv.number(c(0, 0)).number(c(0, 1)).number(c(0, 2)).number(c(1, 1)).number(c(1, 2)).number(c(2, 2));
     csv.text(to_string(m.match.status)).end_row();
   }
-  write_staged_file(cell / "pose_matches.csv", csv.str());
+  write_staged_file(cell / kPoseMatchesFile, csv.str());
 }
 
 CsvTable table(const fs::path& file, const Columns& columns) {
@@ -194,12 +193,12 @@ std::string status_json(const CellRecord& record) {
                   {"cpu_seconds", record.outcome.cpu_seconds},
                   {"peak_memory_bytes", record.outcome.peak_memory_bytes},
                   {"address", record.address}};
-  // What a module printed need not be UTF-8.
+  // Output of a module may not be valid UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 CellRecord load_status(const fs::path& cell) {
-  const fs::path file = cell / "status.json";
+  const fs::path file = cell / kStatusFile;
   return with_json_of(file, [&](const Json& json) -> CellRecord {
     try {
       return {{.status = cell_status_from(json.at("status").get<std::string>()),
@@ -222,7 +221,7 @@ void write_result(const fs::path& cell, const PipelineSpec& pipeline, const Pipe
       const Pose2& pose = result.world_from_sensor[k];
       csv.integer(static_cast<long long>(k)).number(pose.x()).number(pose.y()).number(pose.yaw()).end_row();
     }
-    write_staged_file(cell / "poses.csv", csv.str());
+    write_staged_file(cell / kPosesFile, csv.str());
   }
   if (has_slot(pipeline, "match")) write_matches(cell, result.matches);
   if (result.has_map) write_map(cell, result.map);
@@ -232,32 +231,31 @@ void write_result(const fs::path& cell, const PipelineSpec& pipeline, const Pipe
       csv.integer(l.frame).integer(l.line).integer(l.cluster1).integer(l.cluster2).integer(l.map_line);
       csv.end_row();
     }
-    write_staged_file(cell / "merge_labels.csv", csv.str());
+    write_staged_file(cell / kMergeFile, csv.str());
   }
   CsvWriter csv(kTimingColumns);
   for (const auto& time : result.times) csv.text(time.label()).integer(time.frame).number(time.seconds).end_row();
-  write_staged_file(cell / "timing.csv", csv.str());
+  write_staged_file(cell / kTimingFile, csv.str());
 }
 
 PipelineResult load_result(const fs::path& cell) {
   PipelineResult result;
   result.lines = load_lines(cell);
-  if (fs::exists(cell / "poses.csv")) {
-    const CsvTable csv = table(cell / "poses.csv", kPoseColumns);
+  if (fs::exists(cell / kPosesFile)) {
+    const CsvTable csv = table(cell / kPosesFile, kPoseColumns);
     for (std::size_t r = 0; r < csv.rows(); ++r) {
       const Eigen::Vector3d p(csv.number(r, "x_m"), csv.number(r, "y_m"), csv.number(r, "yaw_rad"));
       if (!p.allFinite()) csv.refuse(r, "the pose is not finite");
       result.world_from_sensor.emplace_back(p.x(), p.y(), p.z());
     }
     if (csv.rows() != result.lines.size())
-      throw ConfigError((cell / "poses.csv").string() + ": " + std::to_string(csv.rows()) + " poses for " +
+      throw ConfigError((cell / kPosesFile).string() + ": " + std::to_string(csv.rows()) + " poses for " +
                         std::to_string(result.lines.size()) + " frames");
   }
-  if (fs::exists(cell / "pose_matches.csv"))
-    result.matches = load_matches(cell / "pose_matches.csv", result.lines.size());
-  result.has_map = fs::exists(cell / "map.csv");
+  if (fs::exists(cell / kPoseMatchesFile)) result.matches = load_matches(cell / kPoseMatchesFile, result.lines.size());
+  result.has_map = fs::exists(cell / kMapFile);
   if (result.has_map) {
-    const CsvTable csv = table(cell / "map.csv", kMapColumns);
+    const CsvTable csv = table(cell / kMapFile, kMapColumns);
     const bool covariance = csv.has(kCovarianceColumns.front());
     for (std::size_t r = 0; r < csv.rows(); ++r) {
       MapLine line{
@@ -266,14 +264,14 @@ PipelineResult load_result(const fs::path& cell) {
       result.map.lines.push_back(line);
     }
   }
-  if (fs::exists(cell / "merge_labels.csv")) {
-    const CsvTable csv = table(cell / "merge_labels.csv", kMergeColumns);
+  if (fs::exists(cell / kMergeFile)) {
+    const CsvTable csv = table(cell / kMergeFile, kMergeColumns);
     for (std::size_t r = 0; r < csv.rows(); ++r)
       result.merge_labels.push_back({csv.index(r, "frame"), csv.index(r, "line"), csv.index(r, "cluster1"),
                                      csv.index(r, "cluster2"), csv.index(r, "map_line")});
   }
-  if (fs::exists(cell / "timing.csv")) {
-    const CsvTable csv = table(cell / "timing.csv", kTimingColumns);
+  if (fs::exists(cell / kTimingFile)) {
+    const CsvTable csv = table(cell / kTimingFile, kTimingColumns);
     for (std::size_t r = 0; r < csv.rows(); ++r) {
       auto time = stage_time_labelled(csv.text(r, "stage"), csv.index(r, "frame"));
       if (!time) csv.refuse(r, quoted_excerpt(csv.text(r, "stage")) + " is not a stage");
@@ -300,7 +298,7 @@ std::string metrics_csv(const std::vector<metrics::MetricRow>& rows) {
 }
 
 std::vector<metrics::MetricRow> load_metrics(const fs::path& cell) {
-  const CsvTable csv = table(cell / "metrics.csv", kMetricColumns);
+  const CsvTable csv = table(cell / kMetricsFile, kMetricColumns);
   std::vector<metrics::MetricRow> rows;
   for (std::size_t r = 0; r < csv.rows(); ++r)
     rows.push_back({csv.text(r, "metric"), csv.text(r, "subject"), csv.number(r, "value"), csv.text(r, "unit"),

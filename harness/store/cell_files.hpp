@@ -1,4 +1,4 @@
-// A cell on disk: cells/<scenario>/<pipeline>/<seed>/, what one pipeline made of one recording.
+// The folder of a cell, cells/<scenario>/<pipeline>/<seed>/: the results of one pipeline for one recording.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,25 @@
 #include "core/result.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/store/cell_status.hpp"
+#include "harness/store/run_file.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::harness {
 
+inline const RunFile kLinesFile("cells/*/*/*/lines.csv");
+inline const RunFile kLabelsFile("cells/*/*/*/labels.npy");
+inline const RunFile kMapFile("cells/*/*/*/map.csv");
+inline const RunFile kPosesFile("cells/*/*/*/poses.csv");
+inline const RunFile kPoseMatchesFile("cells/*/*/*/pose_matches.csv");
+inline const RunFile kMergeFile("cells/*/*/*/merge_labels.csv");
+inline const RunFile kTimingFile("cells/*/*/*/timing.csv");
+inline const RunFile kStatusFile("cells/*/*/*/status.json");
+inline const RunFile kMetricsFile("cells/*/*/*/metrics.csv");
+
 /// status.json
 struct CellRecord {
   WorkerOutcome outcome;
-  std::string address;  ///< cell_address() of what the cell was made of and with
+  std::string address;  ///< cell_address() of the cell's inputs, settings and program
 };
 std::string status_json(const CellRecord& record);
 /// Throws ConfigError, naming the file.
@@ -23,12 +34,11 @@ CellRecord load_status(const std::filesystem::path& cell);
 
 /// Writes lines.csv and labels.npy, poses.csv if there are poses, pose_matches.csv with a `match` slot, map.csv if the
 /// pipeline has a `map` or `merge` slot, merge_labels.csv with a `merge` slot, and timing.csv into an existing folder.
-/// Covariances follow the columns of the contract where an algorithm gives them (cov_offset_m2, cov_offset_angle,
-/// cov_angle_rad2).
+/// Covariances of an algorithm's lines are the last columns: cov_offset_m2, cov_offset_angle, cov_angle_rad2.
 void write_result(const std::filesystem::path& cell, const PipelineSpec& pipeline, const PipelineResult& result);
 
-/// What write_result wrote; absent files are empty parts. Throws ConfigError, naming file
-/// and line, for files that are malformed or do not fit each other.
+/// Reads the files of write_result(); a part without a file is empty. Throws ConfigError with file and line for files
+/// that are malformed or contradict each other.
 PipelineResult load_result(const std::filesystem::path& cell);
 
 std::string metrics_csv(const std::vector<metrics::MetricRow>& rows);

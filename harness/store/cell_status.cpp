@@ -1,4 +1,4 @@
-// Names of the outcomes.
+// Converts the status of a cell to its name and back.
 #include "harness/store/cell_status.hpp"
 
 #include <algorithm>

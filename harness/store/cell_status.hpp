@@ -1,4 +1,4 @@
-// How a cell ended.
+// Status and outcome of a cell.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@ namespace scanbench::harness {
 
 enum class CellStatus {
   ok,
-  skipped,        ///< not started, because what it needs could not be made
+  skipped,        ///< not started, because its input could not be made
   invalid,        ///< a module's result breaks its interface's contract
-  failed,         ///< an exception, or an outcome of the module that leaves nothing to score
+  failed,         ///< an exception, or an outcome of a module without a result to score
   crashed,        ///< ended by a signal, or without a result
   timeout,        ///< took longer than the limit
   out_of_memory,  ///< needed more memory than the limit
@@ -27,7 +27,7 @@ struct WorkerOutcome {
   double wall_seconds = 0.0;
   double cpu_seconds = 0.0;
   double peak_memory_bytes = 0.0;
-  bool bad_input = false;     ///< failed with a ConfigError: something that a user can correct
+  bool bad_input = false;     ///< failed with a ConfigError, which a user can correct
   bool system_error = false;  ///< failed with a SystemError, like a full disk: the cell is missing
 };
 

@@ -1,4 +1,4 @@
-// Checks of size, depth and kind around the JSON parser.
+// Loads JSON objects and limits their size and depth.
 #include "harness/store/json_file.hpp"
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
-constexpr int kDeepest = 32;  // our files have four levels; copies of a value recurse over all of them
+constexpr int kDeepest = 32;  // files of a run have four levels; copying a value recurses over its levels
 
 }  // namespace
 

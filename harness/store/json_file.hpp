@@ -1,4 +1,4 @@
-// Reads the JSON files of a run folder, which anybody may have written.
+// Reads the JSON files of a run folder, which any program may have written.
 #pragma once
 
 #include <filesystem>
@@ -7,14 +7,14 @@
 
 namespace scanbench::harness {
 
-/// The object that a file holds. Throws ConfigError, naming the file, if it is no regular file, larger than 256 MiB,
-/// no JSON, no object, or nested deeper than 32 levels.
+/// Loads the object in a file. Throws ConfigError with the file's name unless it is a regular file of at most 256 MiB
+/// that contains a JSON object nested at most 32 levels deep.
 nlohmann::ordered_json load_json_object(const std::filesystem::path& file);
 
 [[noreturn]] void refuse_json(const std::filesystem::path& file, const nlohmann::ordered_json::exception& error);
 
-/// Calls `use` with the object and turns what the library throws for absent keys and values of another type into a
-/// ConfigError that names the file.
+/// Calls `use` with the object and turns the library's exceptions for missing keys and wrong types into a ConfigError
+/// that names the file.
 template <class Use>
 auto with_json_of(const std::filesystem::path& file, Use&& use) {
   try {

@@ -1,4 +1,4 @@
-// The manifest as JSON, and what the build knows of itself.
+// Writes and reads manifest.json, and describes the build.
 #include "harness/store/manifest.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::string cpu_name() {
   return colon == std::string::npos ? "unknown" : info.substr(colon + 2, info.find('\n', colon) - colon - 2);
 }
 
-/// "name 1.2,other 3.4" as an object.
+/// Converts "name 1.2,other 3.4" to an object.
 Json libraries() {
   Json json = Json::object();
   std::string_view rest = version::kLibraries;
@@ -44,7 +44,7 @@ Json artefacts(const fs::path& run) {
   std::set<std::string> paths;  // in a fixed order
   for (const auto& entry : fs::recursive_directory_iterator(run)) {
     const fs::path relative = entry.path().lexically_relative(run);
-    if (entry.is_regular_file() && is_run_file(relative) && relative != "manifest.json")
+    if (entry.is_regular_file() && is_run_file(relative) && relative != kManifestFile.name())
       paths.insert(relative.generic_string());
   }
   Json list = Json::array();
@@ -53,7 +53,7 @@ Json artefacts(const fs::path& run) {
 }
 
 Json load_json(const fs::path& run) {
-  const fs::path file = run / "manifest.json";
+  const fs::path file = run / kManifestFile;
   std::error_code absent;
   if (!fs::exists(file, absent)) throw ConfigError(run.string() + ": not the folder of a run: it has no manifest.json");
   Json json = load_json_object(file);
@@ -65,7 +65,7 @@ Json load_json(const fs::path& run) {
 }
 
 void write_json(const fs::path& run, const Json& json) {
-  write_file_atomically(run / "manifest.json", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(run / kManifestFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ Manifest load_manifest(const fs::path& run) {
     }
     return manifest;
   } catch (const Json::exception& e) {
-    refuse_json(run / "manifest.json", e);
+    refuse_json(run / kManifestFile, e);
   }
 }
 
@@ -130,7 +130,7 @@ std::map<std::string, std::string> listed_hashes(const fs::path& run) {
     for (const auto& file : json.at("artefacts")) hashes.emplace(file.at("path"), file.at("sha256"));
     return hashes;
   } catch (const Json::exception& e) {
-    refuse_json(run / "manifest.json", e);
+    refuse_json(run / kManifestFile, e);
   }
 }
 
@@ -141,7 +141,7 @@ void refresh_manifest(const fs::path& run) {
 }
 
 std::string version_text() {
-  // Twelve digits of the commit, and what follows its 40: "-dirty-" with a hash of the code.
+  // Keeps twelve of the commit's 40 digits, and the suffix "-dirty-" with a hash of the code.
   std::string commit = version::kCommit;
   if (commit.size() >= 40 && !commit.starts_with("unknown")) commit.erase(12, 28);
   return std::string("scanbench ") + version::kVersion + " (" + commit + ", " + version::kCompiler + ", " +
@@ -154,7 +154,7 @@ std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& 
   for (const auto& word : json.value("argv", Json::array()))
     command += (command.empty() ? "" : " ") + word.get<std::string>();
   std::string used;
-  const Json libraries = json.value("libraries", Json::object());  // items() only refers to it
+  const Json libraries = json.value("libraries", Json::object());  // items() keeps a reference to it
   for (const auto& [name, number] : libraries.items())
     used += (used.empty() ? "" : ", ") + name + " " + number.get<std::string>();
   const auto text = [&](const char* key) { return json.value(key, std::string()); };
@@ -167,7 +167,7 @@ std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& 
           {"processor", text("cpu")},
           {"files", "effective.yaml holds every parameter; manifest.json the SHA-256 of every file"}};
 } catch (const Json::exception& e) {
-  refuse_json(run / "manifest.json", e);
+  refuse_json(run / kManifestFile, e);
 }
 
 }  // namespace scanbench::harness

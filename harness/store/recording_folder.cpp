@@ -1,5 +1,4 @@
-// Recording <-> walls.csv, frames.csv, lines.csv, rotations.npy, ranges.npy, true_ranges.npy, wall_ids.npy,
-// reference_poses.csv, relations.csv, scan.json.
+// Writes and reads the files of a recording, and computes their content hash.
 #include "harness/store/recording_folder.hpp"
 
 #include <cmath>
@@ -22,9 +21,19 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Files = std::vector<std::pair<std::string, std::string>>;
 
+const RunFile kFramesFile("recordings/*/*/frames.csv");
+const RunFile kRotationsFile("recordings/*/*/rotations.npy");
+const RunFile kRangesFile("recordings/*/*/ranges.npy");
+const RunFile kGivenLinesFile("recordings/*/*/lines.csv");
+const RunFile kReferencePosesFile("recordings/*/*/reference_poses.csv");
+const RunFile kRelationsFile("recordings/*/*/relations.csv");
+const RunFile kWallsFile("recordings/*/*/walls.csv");
+const RunFile kTrueRangesFile("recordings/*/*/true_ranges.npy");
+const RunFile kWallIdsFile("recordings/*/*/wall_ids.npy");
+
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// The numbers of a sensor that scan.json holds, by key.
+/// Numbers of a sensor in scan.json, by key.
 struct SensorNumber {
   const char* key;
   double SensorModel::*member;
@@ -47,7 +56,7 @@ constexpr NoiseNumber kNoiseNumbers[] = {{"sigma_m", &SensorNoise::sigma_m},
                                          {"spurious_probability", &SensorNoise::spurious_probability},
                                          {"beam_divergence_rad", &SensorNoise::beam_divergence_rad}};
 
-/// JSON knows no infinities: they are text.
+/// JSON has no infinities, so they are written as text.
 Json json_number(double value) {
   return std::isfinite(value) ? Json(value) : Json(number_text(value));
 }
@@ -209,18 +218,18 @@ Files data_files(const Recording& recording) {
     }
   }
   Files files;
-  files.emplace_back("frames.csv", frames_csv(recording));
-  files.emplace_back("rotations.npy", npy_bytes(rotations, frames.size(), 4));
-  files.emplace_back("ranges.npy", npy_bytes(ranges, frames.size(), beams));
-  if (recording.observed.has_given_lines()) files.emplace_back("lines.csv", lines_csv(recording.observed));
+  files.emplace_back(kFramesFile.name(), frames_csv(recording));
+  files.emplace_back(kRotationsFile.name(), npy_bytes(rotations, frames.size(), 4));
+  files.emplace_back(kRangesFile.name(), npy_bytes(ranges, frames.size(), beams));
+  if (recording.observed.has_given_lines()) files.emplace_back(kGivenLinesFile.name(), lines_csv(recording.observed));
   if (recording.reference && !recording.reference->world_from_sensor.empty())
-    files.emplace_back("reference_poses.csv", reference_poses_csv(recording.reference->world_from_sensor));
+    files.emplace_back(kReferencePosesFile.name(), reference_poses_csv(recording.reference->world_from_sensor));
   if (recording.reference && !recording.reference->relations.empty())
-    files.emplace_back("relations.csv", relations_csv(recording.reference->relations));
+    files.emplace_back(kRelationsFile.name(), relations_csv(recording.reference->relations));
   if (recording.truth) {
-    files.emplace_back("walls.csv", walls_csv(*recording.truth));
-    files.emplace_back("true_ranges.npy", npy_bytes(recording.truth->ranges, frames.size(), beams));
-    files.emplace_back("wall_ids.npy", npy_bytes(recording.truth->wall_ids, frames.size(), beams));
+    files.emplace_back(kWallsFile.name(), walls_csv(*recording.truth));
+    files.emplace_back(kTrueRangesFile.name(), npy_bytes(recording.truth->ranges, frames.size(), beams));
+    files.emplace_back(kWallIdsFile.name(), npy_bytes(recording.truth->wall_ids, frames.size(), beams));
   }
   return files;
 }
@@ -228,7 +237,7 @@ Files data_files(const Recording& recording) {
 std::string hash_of(const Files& data, const Json& scan_without_hash) {
   Sha256 hash;
   for (const auto& [name, bytes] : data) hash.part(name, bytes);
-  return hash.part("scan.json", scan_without_hash.dump()).hex();
+  return hash.part(kScanFile.name(), scan_without_hash.dump()).hex();
 }
 
 void check_truth(const Recording& recording) {
@@ -249,7 +258,7 @@ SensorModel sensor_from(const Json& json, const fs::path& file) try {
     throw ConfigError(file.string() + ": beams is " + number_text(beams) + "; allowed: a whole number 0 .. 10000000");
   sensor.geometry = ScanGeometry(number_of(json, "angle_min_rad", file), number_of(json, "angle_step_rad", file),
                                  static_cast<int>(beams));
-  // Only the geometry and the range limits are demanded of a recording made elsewhere.
+  // A recording made by another program needs only the geometry and the range limits.
   for (const auto& [key, member] : kSensorNumbers)
     if (json.contains(key) || member == &SensorModel::range_min_m || member == &SensorModel::range_max_m)
       sensor.*member = number_of(json, key, file);
@@ -268,7 +277,7 @@ void check_shape(const NpyArray<T>& array, std::size_t rows, std::size_t columns
                       " values; expected frames x beams = " + std::to_string(rows) + " x " + std::to_string(columns));
 }
 
-/// The pose of a row of frames.csv; the exact rotation if there is one.
+/// Reads a pose from a row of frames.csv, with the exact rotation if there is one.
 Pose2 pose_from(const CsvTable& csv, std::size_t row, const std::string& prefix, const double* rotation) {
   const Vec2 t(csv.number(row, prefix + "_x_m"), csv.number(row, prefix + "_y_m"));
   const double yaw = csv.number(row, prefix + "_yaw_rad");
@@ -287,7 +296,7 @@ Files recording_files(const Recording& recording) {
   Files files = data_files(recording);
   Json scan = scan_json(recording);
   scan["content_hash"] = hash_of(files, scan);
-  files.emplace_back("scan.json", scan.dump(2) + "\n");
+  files.emplace_back(kScanFile.name(), scan.dump(2) + "\n");
   return files;
 }
 
@@ -310,30 +319,30 @@ std::string save_recording(const fs::path& folder, const Recording& recording) {
 }
 
 Recording load_recording(const fs::path& folder) {
-  const fs::path scan_file = folder / "scan.json";
+  const fs::path scan_file = folder / kScanFile;
   Json scan = load_json_object(scan_file);
   Recording recording;
   recording.observed.sensor = sensor_from(scan, scan_file);
   const auto beams = static_cast<std::size_t>(recording.observed.sensor.geometry.beams());
   Files files;
-  const auto bytes_of = [&](const std::string& name) -> const std::string& {
-    return files.emplace_back(name, read_file(folder / name)).second;
+  const auto bytes_of = [&](const RunFile& file) -> const std::string& {
+    return files.emplace_back(file.name(), read_file(folder / file)).second;
   };
 
-  const CsvTable frames(bytes_of("frames.csv"), folder / "frames.csv",
+  const CsvTable frames(bytes_of(kFramesFile), folder / kFramesFile,
                         {"frame", "t_s", "odom_x_m", "odom_y_m", "odom_yaw_rad"});
   const std::size_t count = frames.rows();
   if (scan.contains("frames") && number_of(scan, "frames", scan_file) != static_cast<double>(count))
     throw ConfigError(scan_file.string() + ": frames is " + scan["frames"].dump() + "; frames.csv has " +
                       std::to_string(count));
   NpyArray<double> rotations;
-  const bool exact = fs::exists(folder / "rotations.npy");
+  const bool exact = fs::exists(folder / kRotationsFile);
   if (exact) {
-    rotations = parse_npy_float64(bytes_of("rotations.npy"), folder / "rotations.npy");
-    check_shape(rotations, count, 4, folder / "rotations.npy");
+    rotations = parse_npy_float64(bytes_of(kRotationsFile), folder / kRotationsFile);
+    check_shape(rotations, count, 4, folder / kRotationsFile);
   }
-  const auto ranges = parse_npy_float64(bytes_of("ranges.npy"), folder / "ranges.npy");
-  check_shape(ranges, count, beams, folder / "ranges.npy");
+  const auto ranges = parse_npy_float64(bytes_of(kRangesFile), folder / kRangesFile);
+  check_shape(ranges, count, beams, folder / kRangesFile);
   for (std::size_t k = 0; k < count; ++k) {
     if (frames.index(k, "frame") != static_cast<int>(k)) frames.refuse(k, "frames must be numbered 0, 1, 2, ...");
     if (!std::isfinite(frames.number(k, "t_s"))) frames.refuse(k, "t_s is not finite");
@@ -344,37 +353,36 @@ Recording load_recording(const fs::path& folder) {
                                          pose_from(frames, k, "odom", exact ? rotation + 2 : nullptr),
                                          {}});
   }
-  if (fs::exists(folder / "lines.csv"))
-    read_lines({bytes_of("lines.csv"), folder / "lines.csv", {"frame", "line", "x1_m", "y1_m", "x2_m", "y2_m"}},
+  if (fs::exists(folder / kGivenLinesFile))
+    read_lines({bytes_of(kGivenLinesFile), folder / kGivenLinesFile, {"frame", "line", "x1_m", "y1_m", "x2_m", "y2_m"}},
                recording.observed);
-  if (fs::exists(folder / "reference_poses.csv")) {
-    const fs::path file = folder / "reference_poses.csv";
+  if (fs::exists(folder / kReferencePosesFile)) {
+    const fs::path file = folder / kReferencePosesFile;
     recording.reference.emplace().world_from_sensor =
-        read_reference_poses({bytes_of("reference_poses.csv"), file, kReferenceColumns}, count, file);
+        read_reference_poses({bytes_of(kReferencePosesFile), file, kReferenceColumns}, count, file);
   }
-  if (fs::exists(folder / "relations.csv")) {
+  if (fs::exists(folder / kRelationsFile)) {
     if (!recording.reference) recording.reference.emplace();
     recording.reference->relations =
-        read_relations({bytes_of("relations.csv"), folder / "relations.csv", kRelationColumns}, count);
+        read_relations({bytes_of(kRelationsFile), folder / kRelationsFile, kRelationColumns}, count);
   }
-  if (fs::exists(folder / "walls.csv")) {
+  if (fs::exists(folder / kWallsFile)) {
     Truth truth;
-    const CsvTable walls(bytes_of("walls.csv"), folder / "walls.csv",
-                         {"wall", "label", "x1_m", "y1_m", "x2_m", "y2_m"});
+    const CsvTable walls(bytes_of(kWallsFile), folder / kWallsFile, {"wall", "label", "x1_m", "y1_m", "x2_m", "y2_m"});
     for (std::size_t i = 0; i < walls.rows(); ++i)
       truth.walls.push_back(
           {walls.text(i, "label"),
            {{walls.number(i, "x1_m"), walls.number(i, "y1_m")}, {walls.number(i, "x2_m"), walls.number(i, "y2_m")}}});
     for (std::size_t k = 0; k < count; ++k)
       truth.world_from_sensor.push_back(pose_from(frames, k, "true", exact ? &rotations.values[4 * k] : nullptr));
-    auto true_ranges = parse_npy_float64(bytes_of("true_ranges.npy"), folder / "true_ranges.npy");
-    check_shape(true_ranges, count, beams, folder / "true_ranges.npy");
+    auto true_ranges = parse_npy_float64(bytes_of(kTrueRangesFile), folder / kTrueRangesFile);
+    check_shape(true_ranges, count, beams, folder / kTrueRangesFile);
     truth.ranges = std::move(true_ranges.values);
-    auto ids = parse_npy_int32(bytes_of("wall_ids.npy"), folder / "wall_ids.npy");
-    check_shape(ids, count, beams, folder / "wall_ids.npy");
+    auto ids = parse_npy_int32(bytes_of(kWallIdsFile), folder / kWallIdsFile);
+    check_shape(ids, count, beams, folder / kWallIdsFile);
     for (const std::int32_t id : ids.values)
       if (id < -1 || id >= static_cast<std::int32_t>(truth.walls.size()))
-        throw ConfigError((folder / "wall_ids.npy").string() + ": wall " + std::to_string(id) +
+        throw ConfigError((folder / kWallIdsFile).string() + ": wall " + std::to_string(id) +
                           " is not in walls.csv; allowed: -1 .. " + std::to_string(truth.walls.size()) + " - 1");
     truth.wall_ids = std::move(ids.values);
     recording.truth = std::move(truth);
@@ -390,7 +398,7 @@ Recording load_recording(const fs::path& folder) {
 }
 
 std::string stated_recording_hash(const fs::path& folder) {
-  return with_json_of(folder / "scan.json", [](const Json& json) { return json.value("content_hash", ""); });
+  return with_json_of(folder / kScanFile, [](const Json& json) { return json.value("content_hash", ""); });
 }
 
 }  // namespace scanbench::harness

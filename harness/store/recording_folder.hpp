@@ -1,4 +1,4 @@
-// A recording on disk: recordings/<scenario>/<seed>/, read back bit for bit.
+// The folder of a recording, recordings/<scenario>/<seed>/. Reading it returns the same bits.
 #pragma once
 
 #include <filesystem>
@@ -7,14 +7,17 @@
 #include <vector>
 
 #include "core/recording.hpp"
+#include "harness/store/run_file.hpp"
 
 namespace scanbench::harness {
 
+inline const RunFile kScanFile("recordings/*/*/scan.json");
+
 /// The files of a recording: name and bytes, in the order in which they enter the content hash. Walls, true ranges and
-/// wall ids are absent without truth, lines.csv unless lines are given in place of scans; reference_poses.csv and
-/// relations.csv unless a log has poses to compare with. `rotations.npy` (frames x 4:
-/// cos and sin of the true and of the odometry yaw; NaN without truth) holds the exact unit vectors that the yaw
-/// columns of frames.csv round. Throws ConfigError if frames have different numbers of beams.
+/// wall ids are absent without truth, lines.csv exists only if lines are given instead of scans, reference_poses.csv
+/// and relations.csv only if a log has poses to compare with. `rotations.npy` (frames x 4: cos and sin of the true and
+/// of the odometry yaw; NaN without truth) holds the exact unit vectors that the yaw columns of frames.csv round.
+/// Throws ConfigError if frames have different numbers of beams.
 std::vector<std::pair<std::string, std::string>> recording_files(const Recording& recording);
 
 /// SHA-256 over name, length and bytes of every file but scan.json, which enters without its own `content_hash`.
@@ -23,11 +26,11 @@ std::string recording_hash(const Recording& recording);
 /// Writes the files into an existing, empty folder (a StagedFolder's). Returns the content hash.
 std::string write_recording(const std::filesystem::path& folder, const Recording& recording);
 
-/// The folder appears whole; one that was there before is replaced. Returns the content hash. Throws ConfigError.
+/// Saves a recording as a complete folder, which replaces an earlier one. Returns the content hash. Throws ConfigError.
 std::string save_recording(const std::filesystem::path& folder, const Recording& recording);
 
-/// Throws ConfigError, naming the file, if one is missing or malformed or the bytes do not have the content hash of
-/// scan.json (which may be absent there).
+/// Loads a recording. Throws ConfigError with the file's name if a file is missing or malformed, or if the bytes do not
+/// have the content hash of scan.json (which is optional).
 Recording load_recording(const std::filesystem::path& folder);
 
 /// The content hash that scan.json states.

@@ -1,4 +1,4 @@
-// Paths, replacement and locking of run folders.
+// Builds paths in a run folder, and checks its names and links.
 #include "harness/store/run_folder.hpp"
 
 #include <algorithm>
@@ -39,33 +39,6 @@ void refuse_linked_folders(const fs::path& run) {
     std::error_code absent;
     for (const auto& entry : fs::recursive_directory_iterator(run / name, absent)) refuse_link(entry.path());
   }
-}
-
-bool is_run_file(const fs::path& relative) {
-  std::vector<std::string> parts;
-  for (const auto& part : relative) parts.push_back(part.string());
-  if (parts.empty()) return false;
-  const std::string& last = parts.back();
-  const auto one_of = [&](std::initializer_list<std::string_view> names) {
-    return std::ranges::count(names, last) > 0;
-  };
-  if (parts.size() == 1)
-    return one_of({"manifest.json", "scenario.yaml", "effective.yaml", "summary.csv", "benchmark.json", "report.html",
-                   "report.md"});
-  const std::string& first = parts.front();
-  const std::string ending = relative.extension().string();
-  if (first == "figures") return ending == ".png" || ending == ".svg" || ending == ".pdf" || last == "index.json";
-  if (first == "published") return parts.size() == 2 && one_of({"cells.csv", "orderings.csv", "agreement.csv"});
-  if (first == "scenarios" || first == "effective") return parts.size() == 2 && ending == ".yaml";
-  if (first == "recordings")
-    return parts.size() == 4 &&
-           one_of({"walls.csv", "frames.csv", "lines.csv", "rotations.npy", "scan.json", "ranges.npy",
-                   "true_ranges.npy", "wall_ids.npy", "reference_poses.csv", "relations.csv"});
-  if (first == "cells")
-    return parts.size() == 5 &&
-           one_of({"status.json", "lines.csv", "labels.npy", "map.csv", "poses.csv", "pose_matches.csv",
-                   "merge_labels.csv", "trace.csv", "timing.csv", "metrics.csv", "matches.csv", "pose_errors.csv"});
-  return false;
 }
 
 }  // namespace scanbench::harness

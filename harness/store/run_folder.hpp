@@ -1,4 +1,4 @@
-// The folder of a run: where things are in it.
+// Paths of the files in a run folder.
 #pragma once
 
 #include <compare>
@@ -19,13 +19,10 @@ std::string to_string(const CellKey& key);  ///< "scenario/pipeline/seed"
 std::filesystem::path cell_path(const std::filesystem::path& run, const CellKey& key);
 std::filesystem::path recording_path(const std::filesystem::path& run, const std::string& scenario, std::uint64_t seed);
 
-/// Throws ConfigError unless the name can be a folder's name on its own: not empty, no '/', no leading '.'.
+/// Throws ConfigError unless the name can be a folder's name: not empty, no '/', no leading '.'.
 void check_name(const std::string& what, const std::string& name);
 
 /// Throws ConfigError if a folder that a run writes into is a symbolic link: its files would be written elsewhere.
 void refuse_linked_folders(const std::filesystem::path& run);
-
-/// True for the paths, relative to the run folder, that a run, its figures and its reports write.
-bool is_run_file(const std::filesystem::path& relative);
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// flock() on the folder itself: no file of the lock's own that could remain.
+// Locks a run folder with flock() on the folder itself, so that no lock file can remain.
 #include "harness/store/run_lock.hpp"
 
 #include <cerrno>
@@ -15,7 +15,7 @@
 namespace scanbench::harness {
 namespace {
 
-/// False if another folder has taken the path since it was opened: a run that has just replaced its predecessor.
+/// False if the path now names another folder, because a run has just replaced its predecessor.
 bool is_still_at(int descriptor, const std::filesystem::path& folder) {
   struct stat opened {
   }, found{};
@@ -32,7 +32,7 @@ RunLock::RunLock(const std::filesystem::path& folder) {
     if (descriptor_ < 0) throw ConfigError("cannot read " + folder.string() + ": " + std::strerror(errno));
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       ::close(descriptor_);
-      throw ConfigError("another run is at work in " + folder.string());
+      throw ConfigError("another run is writing to " + folder.string());
     }
   } while (!is_still_at(descriptor_, folder));
 }

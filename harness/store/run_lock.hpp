@@ -5,7 +5,7 @@
 
 namespace scanbench::harness {
 
-/// Exclusive while it exists; the system releases it when the process ends, however it ends.
+/// Exclusive while it exists; the system releases it when the process ends, even after a crash.
 class RunLock {
  public:
   /// Throws ConfigError if another process holds it, or the folder cannot be read.

@@ -1,4 +1,4 @@
-// Replacement and locking of run folders.
+// Replaces and locks run folders.
 #include "harness/store/run_target.hpp"
 
 #include <string>
@@ -8,13 +8,14 @@
 #include "core/error.hpp"
 #include "harness/files/system_error.hpp"
 #include "harness/store/manifest.hpp"
+#include "harness/store/run_file.hpp"
 #include "harness/store/run_folder.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
 namespace {
 
-/// True for an empty folder, and for one that a run left that was killed before its manifest was there.
+/// True for an empty folder, and for the folder of a run that was killed before it wrote its manifest.
 bool holds_only_temporaries(const fs::path& folder) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error))
@@ -22,7 +23,8 @@ bool holds_only_temporaries(const fs::path& folder) {
   return !error;
 }
 
-/// Temporary folders that a killed run left beside `out`. We hold the lock of `out`: nobody is at work in them.
+/// Removes temporary folders that a killed run left beside `out`. The caller holds the lock of `out`, so no run uses
+/// them.
 void remove_stale_siblings(const fs::path& out) {
   const std::string prefix = "." + out.filename().string() + ".tmp-";
   std::error_code ignored;
@@ -30,12 +32,13 @@ void remove_stale_siblings(const fs::path& out) {
   for (const auto& entry : fs::directory_iterator(out.parent_path(), ignored)) {
     const fs::path& path = entry.path();
     if (!path.filename().string().starts_with(prefix) || !fs::is_directory(entry.symlink_status(ignored))) continue;
-    if (fs::exists(path / "manifest.json", ignored) || holds_only_temporaries(path)) stale.push_back(path);
+    if (fs::exists(path / kManifestFile, ignored) || holds_only_temporaries(path)) stale.push_back(path);
   }
   for (const auto& path : stale) fs::remove_all(path, ignored);
 }
 
-/// Removes unfinished files and folders of a killed run inside its folder. We hold the lock: nobody is at work on them.
+/// Removes unfinished files and folders of a killed run inside its folder. The caller holds the lock, so no run uses
+/// them.
 void remove_temporaries(const fs::path& run) {
   std::vector<fs::path> found;
   for (auto it = fs::recursive_directory_iterator(run); it != fs::recursive_directory_iterator(); ++it) {
@@ -47,7 +50,8 @@ void remove_temporaries(const fs::path& run) {
   for (const auto& path : found) fs::remove_all(path, ignored);
 }
 
-/// Takes over what no run writes, by a hard link where the file system has them. Throws ConfigError, naming the file.
+/// Keeps files that no run writes: makes hard links to them, or copies if the file system has no hard links. Throws
+/// ConfigError with the file's name.
 void carry_along(const fs::path& from, const fs::path& to) try {
   for (auto it = fs::recursive_directory_iterator(from); it != fs::recursive_directory_iterator(); ++it) {
     const fs::path relative = it->path().lexically_relative(from);
@@ -56,7 +60,7 @@ void carry_along(const fs::path& from, const fs::path& to) try {
       continue;
     }
     if (it->is_directory() && !it->is_symlink()) {
-      if (fs::is_empty(it->path()) && !is_run_file(relative / "x.png")) make_folders(to / relative);
+      if (fs::is_empty(it->path()) && !is_run_folder(relative)) make_folders(to / relative);
       continue;
     }
     if (is_run_file(relative) || fs::exists(fs::symlink_status(to / relative))) continue;
@@ -66,8 +70,8 @@ void carry_along(const fs::path& from, const fs::path& to) try {
     if (it->is_symlink() || error) fs::copy(it->path(), to / relative, fs::copy_options::copy_symlinks);
   }
 } catch (const fs::filesystem_error& e) {
-  throw SystemError(e.path1().string() + " is no file of a run and cannot be taken over into the new one: " +
-                    e.code().message() + "; remove it, or give another folder");
+  throw SystemError(e.path1().string() + " does not belong to a run and cannot be kept in the new one: " +
+                    e.code().message() + "; remove it, or choose another folder");
 }
 
 }  // namespace
@@ -77,15 +81,15 @@ RunTarget::RunTarget(fs::path out, bool resume) : out_(fs::absolute(out).lexical
   std::error_code error;
   if (fs::is_symlink(out_)) {
     const fs::path real = fs::canonical(out_, error);
-    if (error) throw ConfigError(out_.string() + " is a symbolic link that leads nowhere; allowed: a folder");
+    if (error) throw ConfigError(out_.string() + " is a broken symbolic link; allowed: a folder");
     out_ = real;
   }
   if (fs::exists(out_, error) && !fs::is_directory(out_, error))
-    throw ConfigError(out_.string() + " is a file; the folder of a run must be a folder of its own");
+    throw ConfigError(out_.string() + " is a file; allowed: a folder");
   const bool empty = !fs::is_directory(out_, error) || holds_only_temporaries(out_);
-  if (!empty && !fs::exists(out_ / "manifest.json"))
+  if (!empty && !fs::exists(out_ / kManifestFile))
     throw ConfigError(out_.string() +
-                      " is not empty and has no manifest.json, so it is no run of ours and is left alone");
+                      " is not empty and has no manifest.json, so it is not the folder of a run; it stays unchanged");
   if (!empty) load_manifest(out_);  // refuses a manifest.json that is not ours
   for (fs::path folder = out_; folder.has_relative_path() && !fs::exists(folder, error); folder = folder.parent_path())
     first_made_ = folder;
@@ -97,7 +101,7 @@ RunTarget::RunTarget(fs::path out, bool resume) : out_(fs::absolute(out).lexical
   if (resumed_ || empty) remove_temporaries(out_);
   if (empty || resume) return;
   staged_.emplace(out_);
-  carry_along(out_, staged_->path());  // here, so that what cannot be taken over is known before hours of work
+  carry_along(out_, staged_->path());  // now, so that a file that cannot be kept is reported before hours of work
   staged_->clear();
   staged_lock_.emplace(staged_->path());
 }
@@ -115,7 +119,7 @@ void RunTarget::abandon() {
   if (staged_) {
     staged_.reset();
   } else if (!resumed_) {
-    // The folder was empty or absent: all that is in it is of this run.
+    // The folder was empty or absent, so everything in it belongs to this run.
     for (const auto& entry : fs::directory_iterator(out_, ignored)) fs::remove_all(entry.path(), ignored);
     if (first_made_.empty()) return;
     for (fs::path folder = out_; fs::remove(folder, ignored) && folder != first_made_;) folder = folder.parent_path();

@@ -1,4 +1,4 @@
-// How a new run replaces an old one.
+// Replacement of an old run by a new one.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,14 @@
 
 namespace scanbench::harness {
 
-/// Where a run is written.
+/// The folder into which a run is written.
 ///
-/// - The folder does not exist, or holds nothing but temporary files of a killed run: written in place, and an
-///   interrupted run stays there to be resumed.
-/// - It is a run and is to be resumed: written in place.
-/// - It is a run and is not to be resumed: the new run grows in a temporary folder beside it and replaces it in
-///   finish(); without finish() the new one is removed and the old one stays as it was. Files in the old folder that no
-///   run writes are taken over into the new one; ConfigError, before anything runs, if one of them cannot be.
+/// - If the folder does not exist, or has only temporary files of a killed run, the run is written in place. An
+///   interrupted run stays there and can be resumed.
+/// - If it has a run that is resumed, the run is written in place.
+/// - If it has a run that is not resumed, the new run is written to a temporary folder beside it and replaces it in
+///   finish(). Without finish() the new run is removed and the old one is unchanged. Files in the old folder that no
+///   run writes are kept in the new one. If one of them cannot be kept, ConfigError is thrown before anything runs.
 /// - Any other folder is refused: ConfigError.
 ///
 /// The folder is locked while the target exists, before and after the replacement.
@@ -32,13 +32,13 @@ class RunTarget {
   bool replaces() const { return staged_.has_value(); }
   /// Replaces the old run, if there is one.
   void finish();
-  /// The run could not begin: what it has written is removed.
+  /// Removes everything written so far, for a run that could not begin.
   void abandon();
 
  private:
   std::filesystem::path out_;
   std::optional<StagedFolder> staged_;
-  std::filesystem::path first_made_;  ///< topmost folder that was not there before; may be empty
+  std::filesystem::path first_made_;  ///< topmost folder that this run made; may be empty
   bool resumed_ = false;
   std::optional<RunLock> lock_;         ///< of the folder
   std::optional<RunLock> staged_lock_;  ///< of the one that replaces it

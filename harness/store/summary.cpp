@@ -1,4 +1,4 @@
-// summary.csv, written line by line and read back.
+// Writes and reads summary.csv.
 #include "harness/store/summary.hpp"
 
 #include "harness/files/atomic_file.hpp"

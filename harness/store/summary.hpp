@@ -6,10 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "harness/store/run_file.hpp"
 #include "harness/store/run_folder.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::harness {
+
+inline const RunFile kSummaryFile("summary.csv");
 
 /// A row of summary.csv. An empty value is NaN.
 struct SummaryRow {

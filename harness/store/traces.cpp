@@ -1,4 +1,4 @@
-// Traces as CSV.
+// Writes and reads traces as CSV.
 #include "harness/store/traces.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ void Journal::write(std::string_view name, std::span<const double> values) {
 }
 
 TraceRows load_trace(const std::filesystem::path& cell, const TraceChoice& choice) {
-  const auto file = cell / "trace.csv";
+  const auto file = cell / kTraceFile;
   TraceRows rows;
   std::vector<std::string_view> words;
   if (choice.nothing() || !std::filesystem::exists(file)) return rows;

@@ -1,4 +1,4 @@
-// Traces of modules as a file of the cell.
+// Traces of modules in the file trace.csv of a cell.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,18 @@
 #include "core/trace/trace.hpp"
 #include "core/trace/trace_rows.hpp"
 #include "harness/scenario/trace_choice.hpp"
+#include "harness/store/run_file.hpp"
 
 namespace scanbench::harness {
 
-/// Rows as trace.csv: slot,frame,stage,name,values; `values` are numbers separated by blanks.
+inline const RunFile kTraceFile("cells/*/*/*/trace.csv");
+
+/// Collects the rows of trace.csv: slot,frame,stage,name,values; `values` are numbers separated by blanks.
 class Journal {
  public:
   explicit Journal(TraceChoice choice = {.all = true});
-  /// A trace of this slot and frame (-1: the whole recording). It records while the journal lives, until the next one.
+  /// A trace of this slot and frame (-1: the whole recording). It records until the next begin(), and only while the
+  /// journal exists.
   Trace begin(std::string_view slot, int frame);
   const std::string& csv() const { return text_; }
 

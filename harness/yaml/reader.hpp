@@ -15,14 +15,14 @@ namespace scanbench::harness {
 /// A map that is being read. The keys requested from it are its known keys; done() refuses all others.
 class YamlMap {
  public:
-  /// `what` names the map in messages: "the scenario", "sensor", "params of iepf". Throws PlacedError if the node is no
-  /// map.
+  /// `what` names the map in messages: "the scenario", "sensor", "params of iepf". Throws PlacedError if the node is
+  /// not a map.
   YamlMap(const YamlNode& node, std::string what);
 
   const std::string& what() const { return what_; }
   Mark mark() const { return node_->mark; }
 
-  /// The key's value, or nullptr. The key is known from now on.
+  /// The key's value, or nullptr. The key counts as known afterwards.
   const YamlNode* find(std::string_view key);
   /// The key's value; throws PlacedError, with `allowed`, if it is missing.
   const YamlNode& require(std::string_view key, std::string_view allowed);
@@ -42,10 +42,10 @@ class YamlMap {
   std::vector<std::string> known_;
 };
 
-/// A value as the spec's type. Throws PlacedError. Accepted forms:
-/// boolean: true, false; integer, number: plain decimal (no .nan, .inf, hex, leading zeros, underscores; nothing in
-/// quotes); text: in quotes, or plain if it cannot be taken for a number or a boolean, or a list of such words, which
-/// are joined with ", "; lists: [1, 2]; rows: [[1, 2], [3, 4]]; named points: {A: [1, 2]}.
+/// Converts a value to the type of the spec. Throws PlacedError. Accepted forms: boolean: true, false; integer, number:
+/// plain decimal (no .nan, .inf, hex, leading zeros, underscores; nothing in quotes); text: in quotes, or plain if it
+/// cannot be taken for a number or a boolean, or a list of such words, which are joined with ", "; lists: [1, 2]; rows:
+/// [[1, 2], [3, 4]]; named points: {A: [1, 2]}.
 ParamValue read_param(const YamlNode& node, const ParamSpec& spec);
 
 /// A scalar's text, quoted or plain, numbers included (a wall's label may be 1). Throws PlacedError.
@@ -54,13 +54,13 @@ const std::string& read_word(const YamlNode& node, std::string_view name, std::s
 /// A finite number; `name` and `unit` are for the message. Worlds have many numbers: this is faster than read_param().
 double read_number(const YamlNode& node, std::string_view name, std::string_view unit = "");
 
-/// What a node is, for messages: "empty", "a list", "'010' (a leading zero: some read 8, some 10)".
+/// Describes a node in messages: "empty", "a list", "'010' (leading zeros, which some read as octal)".
 std::string describe_node(const YamlNode& node);
 
 /// Throws PlacedError unless the node is a list.
 const std::vector<YamlNode>& read_list(const YamlNode& node, std::string_view name, std::string_view allowed);
 
-/// A value as a node that read_param() reads back.
+/// Converts a value to a node that read_param() reads back.
 YamlNode to_yaml(const ParamValue& value);
 YamlNode to_yaml(const ParamSet& params);
 

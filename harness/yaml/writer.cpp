@@ -1,4 +1,4 @@
-// The canonical form: maps in block style, lists of scalars in flow style, quotes only where needed.
+// Writes YAML in its canonical form: maps in block style, lists of scalars in flow style, quotes only where needed.
 #include "harness/yaml/writer.hpp"
 
 #include <algorithm>

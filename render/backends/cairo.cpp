@@ -1,5 +1,5 @@
-// SVG and PDF backend through Cairo. Text: one symbol per glyph in SVG, an embedded subset in PDF, so that a file
-// looks the same where the font is not installed.
+// SVG and PDF backend through Cairo. Text has one symbol per glyph in SVG and an embedded subset in PDF, so that a file
+// looks the same if the font is not installed.
 #include "render/backends/cairo.hpp"
 
 #include <cairo-pdf.h>
@@ -83,7 +83,7 @@ class Painter {
     cairo_fill(cr_);
   }
 
-  // A stroke without length and with round caps is a disc: the shortest code for it in SVG and PDF.
+  // A stroke without length and with round caps is a disc, in the shortest code for SVG and PDF.
   void paint(const DotsShape& s) {
     color(s.color);
     cairo_set_line_width(cr_, s.diameter);
@@ -142,8 +142,8 @@ void draw(cairo_surface_t* made, const Layout& layout) {
     if (status != CAIRO_STATUS_SUCCESS) throw InternalError(std::string("Cairo: ") + cairo_status_to_string(status));
 }
 
-/// Cairo numbers its surfaces through the life of the process and calls the glyphs of every file alike. Ids from the
-/// content instead: equal scenes give equal bytes, and one HTML page can hold several figures.
+/// Replaces Cairo's ids by ids from the content, so that equal scenes give equal bytes and one HTML page can contain
+/// several figures. Cairo numbers surfaces over the life of the process and gives the glyphs of all files the same ids.
 std::string with_ids_of_content(const std::string& svg) {
   constexpr std::array<std::string_view, 4> kIntroductions{"id=\"", "href=\"#", "url(#", "url(&quot;#"};
   struct Found {

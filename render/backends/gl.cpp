@@ -25,7 +25,8 @@ constexpr int kTile = 128;  // pixels of the picture; the buffer of 512 x 512 pi
 constexpr int kBuffer = kTile * kOversample;
 constexpr int kMostPixels = 20000;
 
-/// The one OpenGL context of the process: the first costs 20 ms. Used under its mutex, current in one thread at a time.
+/// The only OpenGL context of the process, because one costs 20 ms. Used under its mutex, current in one thread at a
+/// time.
 class Context {
  public:
   /// Throws ConfigError if OSMesa is not installed.
@@ -67,7 +68,7 @@ struct Current {
   std::lock_guard<std::mutex> lock;
 };
 
-/// A square piece of the picture: its first pixel, its size, and what shows on it, in drawing order.
+/// A square piece of the picture: its first pixel, its size, and the triangles that may show on it, in drawing order.
 struct Tile {
   int x, y, width, height;
   std::vector<TriangleBatch> batches{};
@@ -113,7 +114,7 @@ class Picture {
     for (const TriangleBatch& batch : tessellate(layout_.shapes, scale_ * kOversample)) sort_in(batch);
     const Current current(Context::get());
     for (const Tile& tile : tiles_) {
-      if (tile.batches.empty()) continue;  // white, as it is
+      if (tile.batches.empty()) continue;  // remains white
       draw(tile, current.context.gl);
       filter_down(current.context.pixels, tile);
     }
@@ -124,7 +125,7 @@ class Picture {
     return {tile.x / scale_, tile.y / scale_, (tile.x + kTile) / scale_, (tile.y + kTile) / scale_};
   }
 
-  /// Hands each triangle to the tiles that it may show on.
+  /// Adds each triangle to the tiles on which it may show.
   void sort_in(const TriangleBatch& batch) {
     Rect clip{0, 0, layout_.width, layout_.height};
     if (batch.clip >= 0) clip = layout_.panels[static_cast<std::size_t>(batch.clip)].box;
@@ -225,8 +226,9 @@ std::string to_png(const Scene& scene, double dpi) {
   const Layout placed = layout(scene);
   const double side = std::max(placed.width, placed.height) / 72.0 * dpi;
   if (!(dpi > 0) || !(side <= kMostPixels))
-    throw ConfigError(fmt::format("a picture of {:.1f} x {:.1f} in at {} dpi is too large: up to {} pixels a side",
-                                  placed.width / 72, placed.height / 72, dpi, kMostPixels));
+    throw ConfigError(
+        fmt::format("a picture of {:.1f} x {:.1f} in at {} dpi is too large; allowed: up to {} pixels per side",
+                    placed.width / 72, placed.height / 72, dpi, kMostPixels));
   Picture picture(placed, dpi);
   picture.draw();
   return encode_png(picture.rgb(), picture.width(), picture.height(), dpi);

@@ -1,4 +1,4 @@
-// Function table of OSMesa, filled from the shared library.
+// Loads OSMesa and fills its function table.
 #include "render/backends/osmesa.hpp"
 
 #include <dlfcn.h>
@@ -25,7 +25,7 @@ void find(void* library, const char* name, Function& function) {
 }  // namespace
 
 OsMesa::OsMesa(const char* library) {
-  // Never closed: Mesa registers exit handlers, which must still be there at the end of the process.
+  // Never closed: Mesa registers exit handlers, which must still exist at the end of the process.
   void* handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw ConfigError("PNG figures need OSMesa: install libosmesa6 (" + last_error() + ")");
   find(handle, "OSMesaCreateContextExt", create_context);

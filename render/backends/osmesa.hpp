@@ -1,5 +1,5 @@
-// OSMesa, software OpenGL without a display, loaded when the first picture is drawn: it brings LLVM along, 90 MB that
-// most runs of the program never use.
+// OSMesa, software OpenGL without a display, loaded when the first picture is drawn, because it loads LLVM too: 90 MB
+// that most runs of the program never use.
 #pragma once
 
 #include <GL/gl.h>
@@ -7,7 +7,7 @@
 
 namespace scanbench::render {
 
-/// The functions that pictures are drawn with, under the names of OpenGL without their prefix.
+/// The functions that draw pictures, under the names of OpenGL without their prefix.
 struct OsMesa {
   /// Loads the library; it stays loaded until the process ends. Throws ConfigError, which names the package to install,
   /// if the library is missing or lacks a function.

@@ -31,7 +31,7 @@ void append(png_structp png, png_bytep data, std::size_t size) {
   try {
     out->bytes.append(reinterpret_cast<const char*>(data), size);
     return;
-  } catch (const std::exception&) {  // must not leave through C code
+  } catch (const std::exception&) {  // an exception must not pass through C code
   }
   png_error(png, "no memory");
 }

@@ -1,4 +1,5 @@
-// Tessellator: thick lines become quads with round joins, discs polygons, letters and polygons trapezoids.
+// Converts shapes to triangles: thick lines to quads with round joins, discs to polygons, letters and polygons to
+// trapezoids.
 #include "render/backends/tessellate.hpp"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ class Tessellator {
       unit_.clear();
       for (int i = 0; i < n; ++i) unit_.emplace_back(std::cos(kTwoPi * i / n), std::sin(kTwoPi * i / n));
     }
-    // Grown so that the polygon has the disc's area.
+    // The radius grows so that the polygon has the disc's area.
     const double r = radius * std::sqrt(kTwoPi / (n * std::sin(kTwoPi / n)));
     for (std::size_t i = 1; i + 1 < unit_.size(); ++i)
       triangle(c + r * unit_[0], c + r * unit_[i], c + r * unit_[i + 1]);
@@ -60,7 +61,7 @@ class Tessellator {
   void path(const std::vector<Vec2>& points, bool closed, double width, bool round) {
     const double half = 0.5 * width;
     const std::size_t n = points.size(), edges = closed ? n : n - 1;
-    // Below four pixels of the oversampled raster a round end looks like one that is a little longer.
+    // Below four pixels of the oversampled raster a square end that is a little longer looks round.
     const bool tiny = half * px_per_pt_ < 4.0;
     const double longer = !round && !closed ? 0.0 : round ? (tiny ? 0.6 * half : 0.0) : half;  // closed: square corners
     for (std::size_t i = 0; i < edges; ++i) {
@@ -122,7 +123,7 @@ class Tessellator {
     }
   }
 
-  /// Of a convex polygon.
+  /// Adds the triangles of a convex polygon.
   void fan(const Vec2* points, std::size_t count) {
     for (std::size_t i = 1; i + 1 < count; ++i) triangle(points[0], points[i], points[i + 1]);
   }

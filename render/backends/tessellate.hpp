@@ -1,4 +1,4 @@
-// Shapes as triangles: what the OpenGL backend draws.
+// Converts shapes to the triangles that the OpenGL backend draws.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ struct Vertex {
   std::uint8_t r, g, b, a;
 };
 
-/// A run of triangles, every three vertices one.
+/// A run of triangles of three vertices each.
 struct TriangleBatch {
   std::vector<Vertex> vertices{};
   int clip = -1;
 };
 
-/// `px_per_pt`: of the raster, for the number of corners of a disc.
+/// `px_per_pt` is the resolution of the raster, which determines the number of corners of a disc.
 std::vector<TriangleBatch> tessellate(const std::vector<Shape>& shapes, double px_per_pt);
 
 }  // namespace scanbench::render

@@ -1,4 +1,4 @@
-// Items of each panel, from back to front: the other methods, the reference, the curves.
+// Makes the items of each panel, from back to front: the other methods, the reference, the curves.
 #include "render/charts/facets.hpp"
 
 #include "render/palette.hpp"

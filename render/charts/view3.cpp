@@ -1,4 +1,4 @@
-// Parallel projection, and the walls and axes of the box.
+// Projects points, and draws the walls and axes of the box.
 #include "render/charts/view3.hpp"
 
 #include <algorithm>

@@ -20,7 +20,7 @@ struct Axis3 {
   std::vector<std::pair<double, std::string>> ticks{};  ///< absent: round numbers
 };
 
-/// x and y have one scale, the height is chosen for the eye. The camera style at the box from above.
+/// x and y have the same scale, the height is chosen for the eye. The camera looks at the box from above.
 class View3 {
  public:
   struct Camera {
@@ -30,7 +30,7 @@ class View3 {
   };
   View3(std::array<Axis3, 3> axes, const Camera& camera);
 
-  /// On the panel, in units without a name; x right, y up.
+  /// The point on the panel, in arbitrary units; x right, y up.
   Vec2 project(const Vec3& p) const;
   /// Nearness to the camera: 0 at the farthest corner of the box, 1 at the nearest.
   double nearness(const Vec3& p) const;

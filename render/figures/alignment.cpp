@@ -14,16 +14,15 @@ namespace scanbench::render {
 namespace {
 
 const Stroke kPathStroke{kPathColor, 0.7, Dash::solid};
-constexpr std::size_t kMostColored = 40;  // beyond, colours of single scans mix to grey
+constexpr std::size_t kMostColored = 40;  // the colours of more scans mix to grey
 
 class Alignment : public Figure {
  public:
   struct Params {
     std::string pipeline;
     static auto fields() {
-      return std::tuple{
-          field("pipeline", &Params::pipeline,
-                "pipeline whose poses are shown; empty: the first one that does not leave them as they are")};
+      return std::tuple{field("pipeline", &Params::pipeline,
+                              "pipeline whose poses are shown; empty: the first one that changes the poses")};
     }
   };
   explicit Alignment(const Params& params) : params_(params) {}

@@ -1,5 +1,5 @@
-// The world as it is and one scan of it: walls with their labels, the path, the waypoints, the returns of one pose.
-// Of a recorded log: the points of all scans in place of walls.
+// The world and one scan of it: walls with their labels, the path, the waypoints, the returns at one pose. For a
+// recorded log the points of all scans replace the walls.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -99,7 +99,7 @@ class Environment : public Figure {
     if (!input.body_paths.empty()) scene.legend.push_back({.text = "path of a moving body", .stroke = moving});
   }
 
-  /// Points that the view must hold: returns far away from them may be outside.
+  /// Points that the view must contain; returns far away from them may be outside.
   static std::vector<Vec2> world_of(const FigureInput& input, const PlacedFrames& placed) {
     std::vector<Vec2> world = ends_of(true_walls(input.recording, Pose2()));
     for (const Pose2& pose : placed.world_from_sensor) world.push_back(pose.translation());

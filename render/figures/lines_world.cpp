@@ -1,4 +1,4 @@
-// All lines of all frames, placed in the world by the poses that the pipeline had: small multiples.
+// All lines of all frames, placed in the world by the poses that the pipeline used: small multiples.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -67,7 +67,7 @@ class LinesWorld : public Figure {
   }
 
  private:
-  /// In the world; of every `stride`-th scan.
+  /// The lines of every `stride`-th scan, in the world frame.
   static JudgedLines placed_lines(const FigureInput& input, std::size_t i, std::size_t stride) {
     const NamedResult& named = input.results[i];
     const PlacedFrames placed = place_frames(input.recording, named.result);

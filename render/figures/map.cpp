@@ -13,7 +13,7 @@
 namespace scanbench::render {
 namespace {
 
-constexpr std::size_t kMostLinesWithEnds = 200;  // in any panel: the ends of more would hide the lines
+constexpr std::size_t kMostLinesWithEnds = 200;  // in a panel: the ends of more would hide the lines
 
 const Stroke kPathStroke{kGrey, 0.5, Dash::dotted};
 constexpr double kLineWidth = 1.2;

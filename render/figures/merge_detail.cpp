@@ -24,11 +24,10 @@ class MergeDetail : public Figure {
     int frame = -1;
     double size_m = 0.0;
     static auto fields() {
-      return std::tuple{
-          field("pipeline", &Params::pipeline, "pipeline to show; empty: the first one that has a map"),
-          field("frame", &Params::frame, at_least(-1), "", "scan to show, from 0; -1: the middle one"),
-          field("size_m", &Params::size_m, at_least(0), "m",
-                "side of the square, which is where the scan has most lines; 0: a third of what it sees")};
+      return std::tuple{field("pipeline", &Params::pipeline, "pipeline to show; empty: the first one that has a map"),
+                        field("frame", &Params::frame, at_least(-1), "", "scan to show, from 0; -1: the middle one"),
+                        field("size_m", &Params::size_m, at_least(0), "m",
+                              "side of the square around most lines of the scan; 0: a third of their extent")};
     }
   };
   explicit MergeDetail(const Params& params) : params_(params) {}
@@ -71,7 +70,7 @@ class MergeDetail : public Figure {
   }
 
  private:
-  /// Only what the window shows: the rest would swell the file.
+  /// A panel of the lines in the window only, because the others would enlarge the file.
   static Panel panel(const std::string& title, const std::optional<Window>& window,
                      const std::vector<Segment>& segments, const Stroke& stroke, const std::string& note) {
     Panel result{.title = title};

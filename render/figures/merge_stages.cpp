@@ -1,4 +1,4 @@
-// Figures 6 and 9 of Lakaemper 2009: the segments given, what merging made of them, and what is left after cleaning.
+// Figures 6 and 9 of Lakaemper 2009: the segments given, the merged ones, and those left after cleaning.
 #include <fmt/format.h>
 
 #include "core/registry.hpp"

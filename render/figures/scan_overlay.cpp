@@ -1,4 +1,4 @@
-// One scan, or the median and the worst one, and over it the lines that each pipeline found: small multiples in the
+// One scan, or the median and the worst one, and the lines that each pipeline found over it: small multiples in the
 // sensor frame.
 #include <algorithm>
 #include <array>
@@ -119,7 +119,7 @@ class ScanOverlay : public Figure {
     panel.items.emplace_back(Points{.points = points, .color = kBlack, .size_pt = 1.1});
     lines.draw({method_style(named.pipeline).color, kLineWidth, Dash::solid}, true, panel);
     panel.items.emplace_back(Arrow{.pose = Pose2(), .length_pt = 12, .stroke = kSensorStroke});
-    // The view holds what was seen and found, not walls far away.
+    // The view contains the points and the found lines, but not walls far away.
     std::vector<Vec2> seen = points;
     for (const Vec2& end : ends_of(lines.found())) seen.push_back(end);
     const std::array sensor{Vec2(0.0, 0.0)};

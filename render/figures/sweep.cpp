@@ -1,5 +1,5 @@
-// A metric against a parameter that pipelines of one kind are set to: the mean over the seeds, and the band between the
-// smallest and the largest value. A panel per parameter, a curve per kind of pipeline.
+// A metric against a parameter that differs between pipelines of one kind: the mean over the seeds, and the band
+// between the smallest and the largest value. There is a panel per parameter and a curve per kind of pipeline.
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -60,7 +60,7 @@ Setting setting_of(const MeasuredPipeline& measured, const std::string& paramete
   return setting;
 }
 
-/// What the names have in common, without the separators and digits that the values begin with.
+/// The common beginning of two names, without the separators and digits with which the values begin.
 std::string common_name(const std::string& a, const std::string& b) {
   std::string name = a.substr(0, static_cast<std::size_t>(std::ranges::mismatch(a, b).in1 - a.begin()));
   const auto end = name.find_last_not_of("_-.0123456789");
@@ -74,10 +74,11 @@ class Sweep : public Figure {
     std::string metric = "f1";
     std::vector<double> target{};
     static auto fields() {
-      return std::tuple{field("parameters", &Params::parameters,
-                              "what is varied, a panel each: names like extract.threshold_m or [a list of them]"),
-                        field("metric", &Params::metric, "what is shown against it, of the subject all"),
-                        field("target", &Params::target, any_number(), "", "values to draw a dashed line at")};
+      return std::tuple{
+          field("parameters", &Params::parameters,
+                "the varied parameters, one panel each: names like extract.threshold_m or [a list of them]"),
+          field("metric", &Params::metric, "the metric that is shown, of the subject all"),
+          field("target", &Params::target, any_number(), "", "values at which a dashed line is drawn")};
     }
   };
 
@@ -160,7 +161,7 @@ class Sweep : public Figure {
     const auto style_of = [&](const Curve& curve) {
       return styles[static_cast<std::size_t>(std::ranges::find(names, curve.name) - names.begin())];
     };
-    for (const Curve& curve : curves) {  // bands lie below all curves
+    for (const Curve& curve : curves) {  // bands are below all curves
       Polygon band{.fill = lighten(style_of(curve).color, 0.7)};
       for (const Sample& s : curve.samples) band.points.emplace_back(s.x, s.low);
       for (std::size_t i = curve.samples.size(); i-- > 0;)

@@ -1,4 +1,4 @@
-// Axes of a panel: round ticks, the grid behind the data, the frame and its labels in front of them.
+// Draws the axes of a panel: round ticks, the grid behind the data, the frame and its labels in front of them.
 #include "render/layout/axes.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Shapes of each kind of item.
+// Converts each kind of item to shapes.
 #include "render/layout/items.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace scanbench::render {
 namespace {
 
-/// To a grid too fine to see (1/32 pt = 0.01 mm): shorter numbers in SVG and PDF.
+/// Rounds to a grid too fine to see (1/32 pt = 0.01 mm), which gives shorter numbers in SVG and PDF.
 Vec2 snap(const Vec2& p, double steps_per_pt = 32.0) {
   return {std::round(p.x() * steps_per_pt) / steps_per_pt, std::round(p.y() * steps_per_pt) / steps_per_pt};
 }
@@ -151,7 +151,7 @@ class ItemDrawer {
     if (!arrows.points.empty()) shapes_.push_back({std::move(arrows), index_});
   }
 
-  /// How much is outside, in the lower left corner.
+  /// Writes into the lower left corner how many items are outside.
   void tell_outside(const Panel& panel) {
     const int count = panel.tell_outside == "line" ? lines_outside_ : dots_outside_;
     if (panel.tell_outside.empty() || count == 0) return;
@@ -162,7 +162,7 @@ class ItemDrawer {
     labels_.insert(labels_.begin(), Label{&outside_, {box_.x0, box_.y1}});
   }
 
-  /// Halos, then the solid lines below them again, then the texts: a halo hides no wall.
+  /// Draws halos, then the solid lines below them again, then the texts, so that a halo hides no wall.
   void place_texts() {
     const std::vector<Rect> rects = place_labels(labels_, font_pt_, box_, segments_, dots_);
     for (std::size_t i = 0; i < labels_.size(); ++i) add_leader(*labels_[i].text, labels_[i].at, rects[i]);
@@ -176,7 +176,7 @@ class ItemDrawer {
   }
 
  private:
-  /// A line from a label to its point, where the label is not beside it.
+  /// A line from a label to its point, if the label is not beside it.
   void add_leader(const Text& text, const Vec2& at, const Rect& r) {
     const Vec2 nearest(std::clamp(at.x(), r.x0, r.x1), std::clamp(at.y(), r.y0, r.y1));
     if (!text.movable || (nearest - at).norm() <= 1.9 * std::max(text.offset_pt.norm(), 3.0)) return;
@@ -202,22 +202,22 @@ class ItemDrawer {
     }
   }
 
-  /// Height of an error bar's end on paper; beyond the box where the value has no place on the axis.
+  /// Height of an error bar's end on paper; beyond the box if the axis does not contain the value.
   double bar_end(double value) const {
     const double beyond = box_.width() + box_.height();
     if (place_.y_log && !(value > 0)) return box_.y1 + beyond;
     return std::clamp(place_.to_device({place_.x_min, value}).y(), box_.y0 - beyond, box_.y1 + beyond);
   }
 
-  /// An arrow head at the upper or lower edge of the box: the bar goes on.
+  /// An arrow head at the upper or lower edge of the box, which shows that the bar continues.
   void push_edge_arrow(double x, bool up, double half, FillShape& arrows) const {
     const double tip = up ? box_.y0 + 0.5 : box_.y1 - 0.5, back = tip + (up ? 2.0 : -2.0) * half;
     arrows.points.insert(arrows.points.end(), {Vec2(x, tip), Vec2(x - half, back), Vec2(x + half, back)});
     arrows.end_contour();
   }
 
-  /// Far outside is as good as a box away: keeps the backends' fixed-point numbers small. Exact for axis-parallel
-  /// edges; a slanted edge that leaves the paper turns a little outside the clip.
+  /// Moves points far outside nearer to the box, to keep the backends' fixed-point numbers small. This is exact for
+  /// axis-parallel edges; a slanted edge that leaves the paper changes its direction a little outside the clip.
   Vec2 near_box(const Vec2& p) const {
     const double m = 4.0 * (box_.width() + box_.height());
     return snap({std::clamp(p.x(), box_.x0 - m, box_.x1 + m), std::clamp(p.y(), box_.y0 - m, box_.y1 + m)});

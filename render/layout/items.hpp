@@ -1,4 +1,4 @@
-// The items of a panel as shapes on paper.
+// Converts the items of a panel to shapes on paper.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace scanbench::render {
 
-/// Shapes cut off at the panel's box; labels go where they cover least.
+/// Adds the shapes of all items, cut off at the panel's box. Labels are placed where they cover least.
 void add_items(const Panel& panel, int index, const PanelLayout& place, double font_pt, std::vector<Shape>& shapes);
 
 }  // namespace scanbench::render

@@ -1,4 +1,4 @@
-// Label placement: greedy choice among fixed positions around the point, after Christensen, Marks & Shieber, "An
+// Places labels by a greedy choice among fixed positions around the point, after Christensen, Marks & Shieber, "An
 // empirical study of algorithms for point-feature label placement", ACM ToG 14(3), 1995, section 2 (without annealing:
 // figures here have tens of labels, not thousands).
 #include "render/layout/labels.hpp"
@@ -30,7 +30,7 @@ Rect rect_beside(const Vec2& p, const Vec2& offset, const Vec2& half) {
   return {c.x() - half.x(), c.y() - half.y(), c.x() + half.x(), c.y() + half.y()};
 }
 
-/// Moved inside the box; left as it is where the box is too small.
+/// Moves the rectangle into the box; leaves it unchanged if the box is too small.
 Rect inside(Rect r, const Rect& box) {
   const double dx = r.width() > box.width() ? 0 : std::max(0.0, box.x0 - r.x0) - std::max(0.0, r.x1 - box.x1);
   const double dy = r.height() > box.height() ? 0 : std::max(0.0, box.y0 - r.y0) - std::max(0.0, r.y1 - box.y1);

@@ -1,4 +1,4 @@
-// Boxes and margins of a scene, from the widths of the texts around them.
+// Computes the boxes and margins of a scene from the widths of the texts around them.
 #include "render/layout/layout.hpp"
 
 #include <algorithm>
@@ -47,8 +47,8 @@ class Composer {
 
   Layout compose() {
     ranges();
-    // Widths of tick labels depend on the ticks, those on the boxes. Room that was needed once is kept: where labels
-    // come and go with it, the last ones find it.
+    // Widths of tick labels depend on the ticks, those on the boxes. Room that was needed once is kept, so that labels
+    // that come and go with it still fit at the end.
     for (int pass = 0; pass < 4; ++pass) {
       boxes();
       for (int i = 0; i < count_; ++i) choose_ticks(panel(i), em_, place(i));
@@ -97,7 +97,7 @@ class Composer {
                                 0.5 * Font::get().width_em(t.label) * em_ - place(i).box.x1);
     return room;
   }
-  /// Room for the title, in as many lines as the box of the last pass asks for.
+  /// Room for the title, in as many lines as the box of the last pass needs.
   double above_room(int i) {
     const auto k = static_cast<std::size_t>(i);
     if (panel(i).title.empty()) return 0.3 * em_;

@@ -1,4 +1,4 @@
-// Legend entries in centred rows.
+// Places legend entries in centred rows.
 #include "render/layout/legend.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Outlines of markers and arrows.
+// Makes the outlines of markers and arrows.
 #include "render/layout/markers.hpp"
 
 #include <algorithm>

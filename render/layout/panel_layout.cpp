@@ -1,4 +1,4 @@
-// Data to paper, and the extent of a panel's data.
+// Maps data to paper, and computes the extent of a panel's data.
 #include "render/layout/panel_layout.hpp"
 
 #include <algorithm>

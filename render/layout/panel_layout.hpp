@@ -14,15 +14,15 @@ struct PanelLayout {
   bool x_log = false, y_log = false;
   std::vector<Tick> x_ticks{}, y_ticks{};
 
-  /// Data to paper. Not finite for a coordinate that is not, or is <= 0 on a log axis.
+  /// Maps data to paper. Not finite for a coordinate that is not, or is <= 0 on a log axis.
   Vec2 to_device(const Vec2& data) const;
 };
 
-/// Is the point near enough to be drawn? Coordinates beyond 1e9 are treated as infinite: their differences would
-/// overflow between here and paper.
+/// True if the point is near enough to be drawn. Coordinates beyond 1e9 are treated as infinite: their differences
+/// would overflow between here and paper.
 bool drawable(const Vec2& p);
 
-/// Bounding box of the items' drawable coordinates; x0 > x1 if there are none. On log axes of the positive ones.
+/// Bounding box of the items' drawable coordinates; x0 > x1 if there are none. On log axes only positive ones count.
 Rect data_bounds(const Panel& panel);
 
 }  // namespace scanbench::render

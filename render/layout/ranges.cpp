@@ -1,4 +1,4 @@
-// Ranges from the data, with margins.
+// Computes ranges from the data, with margins.
 #include "render/layout/ranges.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Ticks at 1, 2, 5 x 10^k: Heckbert, "Nice numbers for graph labels", Graphics Gems, 1990.
+// Computes ticks at 1, 2, 5 x 10^k: Heckbert, "Nice numbers for graph labels", Graphics Gems, 1990.
 #include "render/layout/ticks.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ double round_below(double x) {
   SCANBENCH_ASSERT(x > 0 && std::isfinite(x));
   const double decade = std::pow(10.0, std::floor(std::log10(x)));
   double best = decade;
-  for (const double m : {1.0, 2.0, 5.0, 10.0})  // 10: log10 of a power of ten may come out a hair low
+  for (const double m : {1.0, 2.0, 5.0, 10.0})  // 10: log10 of a power of ten may be slightly low
     if (m * decade <= x * (1 + 1e-12)) best = m * decade;
   return best;
 }
@@ -53,14 +53,14 @@ std::vector<Tick> ticks_apart(double low, double high, double least_step) {
     if (multiple = 2; least_step <= 2 * decade) break;
     if (multiple = 5; least_step <= 5 * decade) break;
   }
-  // Divide by 10^-k where k < 0: 3 / 10 is the number that "0.3" reads as, 3 * 0.1 is not.
+  // For k < 0 the step is a quotient by 10^-k: 3 / 10 is the double nearest to 0.3, 3 * 0.1 is not.
   const double up = exponent > 0 ? std::pow(10.0, exponent) : 1.0;
   const double down = exponent < 0 ? std::pow(10.0, -exponent) : 1.0;
   const double step = multiple * up / down;
   const double first = std::ceil(low / step - 1e-9);
   const double last = std::floor(high / step + 1e-9);
   std::vector<Tick> ticks;
-  // Too many steps from zero for neighbouring multiples to be different numbers, or a range of no width to the step.
+  // No ticks if they are so far from zero that neighbouring multiples may be equal, or if there are too many.
   if (std::max(std::abs(first), std::abs(last)) > 1e12 || last - first > 1000) return ticks;
   for (double k = first; k <= last; k += 1.0) {
     const double value = k == 0 ? 0.0 : k * multiple * up / down;

@@ -1,4 +1,4 @@
-// Sweep over horizontal bands: between two levels of corners no edge begins or ends, so each band is a row of
+// Sweeps over horizontal bands: between two levels of corners no edge begins or ends, so each band is a row of
 // trapezoids.
 #include "render/paper/fill_triangles.hpp"
 

@@ -1,5 +1,5 @@
-// Outlines and widths of letters through FreeType, without hinting, so that they scale: paper, screen and PNG have one
-// layout.
+// Reads outlines and widths of letters with FreeType, without hinting, so that they scale: PDF, SVG and PNG have the
+// same layout.
 #include "render/paper/font.hpp"
 
 #include <cairo-ft.h>

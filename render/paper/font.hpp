@@ -1,4 +1,4 @@
-// The one font of all figures: DejaVu Sans, loaded from its file, never through the system's font choice, so that the
+// The only font of all figures: DejaVu Sans, loaded from its file, never through the system's font choice, so that the
 // bytes of a figure do not depend on the settings of the desktop.
 #pragma once
 

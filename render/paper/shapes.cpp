@@ -1,4 +1,4 @@
-// Paths of strokes, and the cut of a segment at a rectangle by Liang & Barsky, "A new concept and method for line
+// Builds paths of strokes, and cuts a segment at a rectangle by Liang & Barsky, "A new concept and method for line
 // clipping", ACM ToG 3(1), 1984.
 #include "render/paper/shapes.hpp"
 

@@ -55,7 +55,7 @@ struct TextShape {
   Vec2 origin{};
   std::string text{};
   double size = 8.0;
-  bool upwards = false;  ///< turned by 90 degrees: reads from bottom to top
+  bool upwards = false;  ///< rotated by 90 degrees: reads from bottom to top
   bool halo = false;
   Color color{};
 };

@@ -1,4 +1,4 @@
-// Beams of one scan as the kernels of sim/lanes/ see them: plain numbers and pointers.
+// The beams of one scan as plain numbers and pointers, for the kernels of sim/lanes/.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 namespace scanbench::sim {
 
 /// Beams from one origin, sorted by angle: beam i points within `slack_rad` of start_rad + i * step_rad, world frame.
-/// Arrays have `padded` places, a multiple of 4; those behind the last beam hold copies of it.
+/// Arrays have `padded` elements, a multiple of 4; those after the last beam are copies of it.
 struct BeamFan {
   double origin_x;
   double origin_y;
@@ -19,25 +19,25 @@ struct BeamFan {
   double slack_rad;
 };
 
-/// The nearest surface of each beam so far. Before the first, -1 at unhit_range().
+/// The nearest surface of each beam so far. Initially -1 at unhit_range().
 struct BeamHits {
   double* range;
   double* surface;  ///< index of the surface; -1: none
 };
 
-/// A range that is beyond `range_max_m`, by so much that a surface farther away cannot win over one within it, nor a
-/// tie of the two go unnoticed.
+/// A range so far beyond `range_max_m` that a surface beyond the maximum can neither replace one within it nor hide a
+/// tie.
 [[gnu::always_inline]] inline double unhit_range(double range_max_m) {
   return range_max_m * (1 + 1e-12) + 2e-9;
 }
 
-/// Places of consecutive beams, both included; empty if last < first.
+/// A run of consecutive beams, both ends included; empty if last < first.
 struct BeamRun {
   int first;
   int last;
 };
 
-/// Beams whose numbers lie within [from, from + width], modulo a full turn of `period` beams: up to two runs. `from`
+/// The beams with numbers in [from, from + width], modulo a full turn of `period` beams: up to two runs. `from` must be
 /// within one period of 0.
 struct BeamRuns {
   BeamRun runs[2];

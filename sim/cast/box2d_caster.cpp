@@ -1,4 +1,4 @@
-// Ray casting with Box2D's broad phase.
+// Casts rays with Box2D's broad phase.
 #include "sim/cast/box2d_caster.hpp"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ struct Nearest {
 class Box2DCaster : public Caster {
  public:
   explicit Box2DCaster(const World& world) : surfaces_(world), origin_(center(world)) {
-    const b2BodyDef definition;  // one static body for all: a body per wall costs time and gives nothing
+    const b2BodyDef definition;  // one static body for all, because a body per wall only costs time
     b2Body& body = *box2d_.CreateBody(&definition);
     for (const Wall& wall : world.walls) {
       const Segment& s = wall.segment;
@@ -92,8 +92,8 @@ class Box2DCaster : public Caster {
  private:
   RayHit cast(const Ray& ray, double range_max_m, std::span<const PlacedCircle> moved) const {
     Nearest nearest;
-    // Box2D gets the part of the ray in the disc around the static world, so that its floats stay near its origin,
-    // however far away the sensor is and however far it sees.
+    // Box2D gets only the part of the ray in the disc around the static world, so that its floats stay near its origin
+    // for every distance of the sensor and every range.
     const Vec2 local = ray.origin - origin_;
     const double disc = reach_ + 1.0;
     const double abeam = -ray.direction.dot(local);
@@ -145,7 +145,7 @@ class Box2DCaster : public Caster {
       const auto* proxy = static_cast<const b2FixtureProxy*>(broad_phase.GetUserData(proxy_id));
       const auto surface = static_cast<std::size_t>(proxy->fixture->GetUserData().pointer);
       nearest.offer(world.range_to(ray, surface), static_cast<std::int32_t>(surface));
-      // Clip the ray behind the nearest hit. Never to 0, which would end the search before ties are seen.
+      // Clips the ray behind the nearest hit, but never to 0, which would end the search before ties are found.
       const double fraction = std::max(nearest.range - begin, 0.01) / length;
       return fraction < input.maxFraction ? static_cast<float>(fraction) : input.maxFraction;
     }
@@ -153,7 +153,7 @@ class Box2DCaster : public Caster {
 
   Surfaces surfaces_;
   std::size_t added_ = 0;
-  Vec2 origin_;         ///< of Box2D's floats: the middle of the world
+  Vec2 origin_;         ///< origin of Box2D's floats: the middle of the world
   double reach_ = 0.0;  ///< farthest corner of the static world from there
   b2World box2d_{b2Vec2(0.0F, 0.0F)};
 };

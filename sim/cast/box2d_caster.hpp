@@ -1,5 +1,5 @@
-// The reference caster: Box2D's broad phase names the surfaces near a ray, double arithmetic says which is hit and how
-// far it is.
+// The reference caster: Box2D's broad phase finds the surfaces near a ray, double arithmetic decides which is hit and
+// at what range.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace scanbench::sim {
 
-/// One ray at a time. Box2D's narrow phase is not used: its floats lose grazing rays, and choose the wrong one of two
-/// walls at nearly one distance.
+/// Casts one ray at a time. Box2D's narrow phase is not used, because its floats lose grazing rays and choose the wrong
+/// one of two walls at nearly the same distance.
 std::unique_ptr<Caster> make_box2d_caster(const World& world);
 
 }  // namespace scanbench::sim

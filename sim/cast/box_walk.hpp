@@ -1,4 +1,4 @@
-// Boxes of a tree that a ray may meet, in no order: for surfaces that are not walls.
+// Visits the boxes of a tree that a ray may hit, in no order, for surfaces that are not walls.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace scanbench::sim {
 
-/// Calls visit(index) for the surfaces in all leaves whose boxes the ray meets within `range`, which visit() may
-/// shorten. An index may come twice.
+/// Calls visit(index) for the surfaces in all leaves whose boxes the ray hits within `range`, which visit() may
+/// shorten. An index may occur twice.
 template <class Visit>
 void walk_boxes(const WallView& tree, int node_index, const Vec2& origin, const Vec2& direction, const double& range,
                 const Visit& visit) {

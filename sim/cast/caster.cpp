@@ -1,4 +1,4 @@
-// Shared parts of the casters: the hit on a known surface.
+// Shared parts of the casters: places moving bodies and describes the hit on a known surface.
 #include "sim/cast/caster.hpp"
 
 #include <cstddef>

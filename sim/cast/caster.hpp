@@ -1,4 +1,4 @@
-// Interface of the casters: a frozen world that answers rays. Const calls may come from several threads at once.
+// The interface of the casters, which cast rays in a fixed world. Const calls may come from several threads at once.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,7 @@ struct Surfaces {
 };
 
 /// All casters give the same range to the last bit for the same surface, and the lowest index of the surfaces within
-/// 1e-9 m of the nearest. Buffers have one place per ray, or none.
+/// 1e-9 m of the nearest. Buffers have one element per ray, or none.
 class Caster {
  public:
   virtual ~Caster() = default;
@@ -49,7 +49,7 @@ class Caster {
                               const HitBuffers& out) const = 0;
 };
 
-/// Writes one answer.
+/// Writes one hit.
 void store_hit(const RayHit& hit, std::size_t i, const HitBuffers& out);
 
 }  // namespace scanbench::sim

@@ -1,4 +1,4 @@
-// Scans by sweeping walls, rays by walking the tree; round bodies are offered afterwards, one by one.
+// Casts scans by sweeping walls over the beams and single rays through the tree; round bodies follow one by one.
 #include "sim/cast/exact_caster.hpp"
 
 #include <algorithm>
@@ -23,12 +23,12 @@ namespace scanbench::sim {
 namespace {
 
 constexpr double kTieM = 1e-9;
-// Up to here sweeping every wall is faster than finding those that matter (docs/performance.md).
+// Up to this number, sweeping every wall is faster than a search for the relevant ones (docs/performance.md).
 constexpr int kSweepAllWalls = 64;
-// Fewer beams than this go through the tree one by one.
+// Scans of fewer beams are cast ray by ray through the tree.
 constexpr int kFewBeams = 4;
 
-// Numbers in arrays that begin at cache lines' halves, filled up to a multiple of 4.
+// An array of numbers, aligned to half a cache line and padded to a multiple of 4.
 class LaneArray {
  public:
   LaneArray() = default;
@@ -43,7 +43,7 @@ class LaneArray {
   std::vector<Block> blocks_;
 };
 
-// The beams of one scan and what they hit. Made once for several scans of a sensor.
+// The beams of one scan and their hits. Constructed once for several scans of a sensor.
 class ScanScratch {
  public:
   explicit ScanScratch(const ScanGeometry& beams)
@@ -55,7 +55,7 @@ class ScanScratch {
         dy_(padded_, 0.0),
         range_(padded_, kNoHit),
         surface_(padded_, -1.0) {
-    for (int i = 0; i < padded_; ++i) {  // no beams, no places
+    for (int i = 0; i < padded_; ++i) {  // padded_ is 0 without beams
       const Vec2& d = beams.direction(std::min(i, beams.beams() - 1));
       sensor_x_.data()[i] = d.x();
       sensor_y_.data()[i] = d.y();
@@ -81,7 +81,7 @@ class ScanScratch {
     return fan(scan.world_from_sensor, bend);
   }
 
-  /// Nothing is hit yet; what is beyond `range_max_m` does not count.
+  /// Clears the hits; surfaces beyond `range_max_m` do not count.
   BeamHits clear(double range_max_m, const CastKernels& kernels) {
     const BeamHits hits{range_.data(), surface_.data()};
     kernels.clear(hits, padded_, unhit_range(range_max_m));
@@ -115,7 +115,7 @@ void offer(double range, double surface, int beam, const BeamHits& hits) {
   best = std::min(range, best);
 }
 
-// Offers a round body to the beams that it may cover. The angles only choose them.
+// Offers a round body to the beams that it may cover. The angles only select the beams.
 void offer_circle(const PlacedCircle& circle, double surface, const BeamFan& fan, const BeamHits& hits) {
   const Vec2 origin(fan.origin_x, fan.origin_y);
   const Vec2 c = circle.center - origin;
@@ -231,7 +231,7 @@ class ExactCaster : public Caster {
     write(fan, hits, range_max_m, moved, out);
   }
 
-  // One after the other; most of many are farther away than all that the beams hit.
+  // Sweeps circles one by one; most of many are skipped, because they are farther away than every hit.
   void sweep_circles(const BeamFan& fan, const BeamHits& hits, double range_max_m,
                      std::span<const PlacedCircle> moved) const {
     const double farthest = std::min(range_max_m, *std::max_element(hits.range, hits.range + fan.beams));

@@ -10,7 +10,7 @@
 
 namespace scanbench::sim {
 
-/// `isa` is for tests; the processor must have it.
+/// `isa` is for tests; the processor must support it.
 std::unique_ptr<Caster> make_exact_caster(const World& world, Isa isa);
 
 }  // namespace scanbench::sim

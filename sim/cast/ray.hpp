@@ -1,4 +1,4 @@
-// Rays, what they meet, and where the answers go.
+// Rays, their hits, and the buffers for many hits.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct RayHit {
   double cos_incidence = 0.0;  ///< |cos| of the angle to the surface's normal; 0 without a hit
 };
 
-/// Buffers for answers, one number per ray. An empty span is not filled.
+/// Buffers for hits, one number per ray. An empty span is not filled.
 struct HitBuffers {
   std::span<double> ranges;
   std::span<std::int32_t> wall_ids;

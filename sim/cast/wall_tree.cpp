@@ -1,4 +1,4 @@
-// Tree of walls by median splits.
+// Builds the tree of walls by median splits.
 #include "sim/cast/wall_tree.hpp"
 
 #include <algorithm>
@@ -27,8 +27,8 @@ struct WallTree::Builder {
 
   using Range = std::span<std::int32_t>;
 
-  // Two halves by the median of the midpoints, the first a multiple of a leaf, so that nearly all leaves are full.
-  // Equal midpoints are ordered by index, so that the tree is always the same.
+  // Splits at the median of the midpoints. The size of the first half is a multiple of a leaf's, so that nearly all
+  // leaves are full. Equal midpoints are ordered by index, so that the tree is always the same.
   std::array<Range, 2> split(Range range) const {
     if (range.size() <= kLeafWalls) return {range, Range()};
     Box box;

@@ -16,7 +16,7 @@ class WallTree {
 
   WallTree() = default;
   /// Splits at the median of the midpoints along the longer side of their box: depth log4(n), the same tree for the
-  /// same walls. No walls give a tree without places and an empty root.
+  /// same walls. Without walls the tree is an empty root.
   explicit WallTree(std::span<const Segment> walls);
 
   WallView view() const;

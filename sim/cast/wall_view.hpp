@@ -1,4 +1,4 @@
-// Walls in a tree of boxes as the kernels of sim/lanes/ read them: plain numbers and pointers.
+// Walls in a tree of boxes as plain numbers and pointers, for the kernels of sim/lanes/.
 #pragma once
 
 #include <cstdint>
@@ -6,14 +6,14 @@
 namespace scanbench::sim {
 
 /// Boxes of four children, relative to the world's coordinates. Each is larger than its walls by kBoxMarginM on all
-/// sides, more than rounding moves anything in a world that validate() accepts.
+/// sides, which exceeds all rounding errors in a world that validate() accepts.
 struct alignas(32) TreeNode {
   static constexpr int kChildren = 4;
   double low_x[kChildren];
   double low_y[kChildren];
   double high_x[kChildren];
   double high_y[kChildren];
-  std::int32_t child[kChildren];  ///< >= 0: a node; < 0: walls from place ~child on; kNone: there is no such child
+  std::int32_t child[kChildren];  ///< >= 0: a node; < 0: walls from index ~child on; kNone: no child
   std::int32_t count[kChildren];  ///< walls of a leaf
 
   static constexpr std::int32_t kNone = 0x7fffffff;

@@ -1,4 +1,4 @@
-// Angles in lanes, for choosing candidate beams: never part of a result.
+// Angles in lanes. They only select candidate beams and are never part of a result.
 #pragma once
 
 #include "sim/lanes/lanes.hpp"
@@ -7,11 +7,11 @@ namespace scanbench::sim::SCANBENCH_ISA {
 
 inline constexpr double kPiHere = 0x1.921fb54442d18p+1;
 
-/// More than atan2_near() and the subtractions after it err.
+/// Upper bound of the error of atan2_near() and the subtractions after it.
 inline constexpr double kAngleError = 1e-6;
 
-/// Angle of (x, y) in [-pi, pi] with an error of at most 4.2e-7: a polynomial through the Chebyshev nodes of
-/// atan(sqrt z) / sqrt z on [0, 1]. Any number for (0, 0).
+/// Angle of (x, y) in [-pi, pi] with an error of at most 4.2e-7: a polynomial through the Chebyshev nodes of atan(sqrt
+/// z) / sqrt z on [0, 1]. The result for (0, 0) is arbitrary.
 inline Doubles atan2_near(Doubles y, Doubles x) {
   const Doubles ax = abs(x);
   const Doubles ay = abs(y);

@@ -1,4 +1,4 @@
-// Sweeps of walls over the beams of a scan, of all walls or through the tree.
+// Sweeps walls over the beams of a scan, all of them or through the tree.
 #include "sim/lanes/cast_kernels.hpp"
 
 #include "sim/lanes/lanes.hpp"
@@ -57,8 +57,8 @@ struct SweptWall {
         id(all(id_)) {}
 };
 
-// Groups of beams begin at multiples of kLanes. Beams of the first and last group that are not in the run do no harm:
-// the exact expression says that they miss.
+// Groups of beams begin at multiples of kLanes. Beams of the first and last group that are not in the run are harmless,
+// because the exact expression gives no hit.
 void sweep_run(const SweptWall& wall, const BeamRun& run, const BeamFan& fan, const BeamHits& hits) {
   const double* const fan_dx = fan.dx;
   const double* const fan_dy = fan.dy;
@@ -81,14 +81,14 @@ int length(const BeamRun& run) {
   return run.last < run.first ? 0 : run.last - run.first + 1;
 }
 
-/// Walls of places [first, first + count), count a multiple of 4.
+/// Sweeps the walls with indices [first, first + count); count is a multiple of 4.
 void sweep_walls(const WallView& walls, int first, int count, const BeamFan& fan, const BeamScale& scale,
                  const BeamHits& hits) {
   for (int k = first; k < first + count; k += kLanes) {
     const WallRuns w = wall_runs(walls, k, fan, scale);
     for (int i = 0; i < kLanes; ++i) {
       const double id = walls.id[k + i];
-      if (i > 0 && id == walls.id[k + i - 1]) continue;  // a leaf that is filled up
+      if (i > 0 && id == walls.id[k + i - 1]) continue;  // padding of a leaf
       const BeamRuns runs = beam_runs(w.from[i], w.width[i], scale.period, scale.beams);
       if (length(runs.runs[0]) + length(runs.runs[1]) == 0) continue;
       const SweptWall wall(w, i, id);
@@ -103,7 +103,7 @@ void sweep_all(const WallView& walls, const BeamFan& fan, const BeamHits& hits) 
 
 /// Four boxes as a sensor sees them.
 struct BoxRuns {
-  double nearest[TreeNode::kChildren];  ///< m: no more than the range to anything in the box
+  double nearest[TreeNode::kChildren];  ///< m: a lower bound of the range to a surface in the box
   double from[TreeNode::kChildren];     ///< beams, for beam_runs()
   double width[TreeNode::kChildren];
 };
@@ -151,7 +151,7 @@ bool can_be_seen(double nearest, const BeamRun& run, const double* ranges) {
   return false;
 }
 
-/// A box that few beams meet: each goes through it alone.
+/// Casts the few beams that hit a box one by one.
 void walk_beams(const WallView& walls, int node, const BeamRun& run, const BeamFan& fan, const BeamHits& hits) {
   for (int i = run.first; i <= run.last; ++i) {
     NearestOne nearest{hits.range[i], hits.surface[i]};

@@ -1,10 +1,10 @@
-// Whole scans against walls: walls are swept over the beams, not beams over the walls.
+// Casts whole scans: sweeps every wall over the beams instead of every beam over the walls.
 //
 // Seen from the sensor a wall covers a run of neighbouring beams, and along a direction d its inverse range is linear:
 // 1/r = (d x e) / (a x e) for a wall from a with the edge e. So the angles of its ends give the first and the last
-// beam, and two multiplications say for each group of beams whether the wall can be the nearest there. Where it can,
-// the exact expression of sim/wall_range.hpp says how far it is. Angles and inverse ranges carry margins for their
-// errors: they save work, and never decide.
+// beam, and two multiplications tell for each group of beams whether the wall can be the nearest. If it can, the exact
+// expression of sim/wall_range.hpp gives the range. Angles and inverse ranges have margins for their errors: they save
+// work, but never decide.
 #pragma once
 
 #include <cstdint>
@@ -23,17 +23,17 @@ struct NearestSurface {
 struct CastKernels {
   /// Rotates a sensor's beams into the world: `count` numbers each, a multiple of 4.
   void (*rotate)(const double* x, const double* y, double cos, double sin, int count, double* out_x, double* out_y);
-  /// No beam has hit anything yet; surfaces beyond `unhit` do not count. `count` numbers, a multiple of 4.
+  /// Clears the hits; surfaces beyond `unhit` do not count. `count` numbers, a multiple of 4.
   void (*clear)(const BeamHits& hits, int count, double unhit);
   /// Writes the results of `count` beams: +inf and -1 beyond `range_max`; as wall ids surfaces below `walls`. An array
   /// may be null.
   void (*finish)(const BeamHits& hits, int count, double range_max, double walls, double* ranges,
                  std::int32_t* wall_ids);
-  /// Offers every wall to every beam that it covers: for some hundred walls.
+  /// Offers every wall to every beam that it covers. For a few hundred walls at most.
   void (*sweep_all)(const WallView& walls, const BeamFan& fan, const BeamHits& hits);
-  /// The same through the tree, nearest boxes first; boxes behind what the beams already hit are skipped.
+  /// The same through the tree, nearest boxes first; boxes behind the hits so far are skipped.
   void (*sweep_tree)(const WallView& walls, const BeamFan& fan, const BeamHits& hits);
-  /// One ray; what is farther than `range_max` is left out.
+  /// Casts one ray; surfaces beyond `range_max` are ignored.
   NearestSurface (*walk)(const WallView& walls, double ox, double oy, double dx, double dy, double range_max);
 };
 

@@ -1,4 +1,5 @@
-// Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011) and Box-Muller in lanes.
+// Draws random numbers in lanes: Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011)
+// and Box-Muller.
 #include "sim/lanes/draw_kernels.hpp"
 
 #include "sim/lanes/lanes.hpp"
@@ -19,7 +20,7 @@ Words load_beams(const std::uint32_t* beams) {
   return __builtin_convertvector(*reinterpret_cast<const Halves*>(beams), Words);
 }
 
-/// Four random words per lane, each in the low half; the high halves hold remains.
+/// Four random words per lane, each in the low half; the high halves are unused.
 struct Block {
   Words word[4];
 };
@@ -68,8 +69,8 @@ void uniforms(const DrawAddress& address, int count, double* out) {
   }
 }
 
-// In three passes over short stretches: each is a chain of operations so short that a processor works on several groups
-// at once.
+// Makes three passes over short stretches. Each pass is so short a chain of operations that a processor overlaps
+// several groups.
 void normals(const DrawAddress& address, int count, double* out) {
   constexpr int kStretch = 128;
   const Philox philox(address);

@@ -14,7 +14,7 @@ struct DrawAddress {
   const std::uint32_t* beams;
 };
 
-/// The kernels of random numbers, for one kind of processor. `count` is a multiple of 4: fill up with any beams.
+/// The kernels of random numbers, for one kind of processor. `count` is a multiple of 4; pad the list with any beams.
 struct DrawKernels {
   /// Uniform in (0, 1).
   void (*uniforms)(const DrawAddress& address, int count, double* out);

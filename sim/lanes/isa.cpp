@@ -1,4 +1,4 @@
-// Detection of the processor's instruction set.
+// Detects the processor's instruction set.
 #include "sim/lanes/isa.hpp"
 
 namespace scanbench::sim {

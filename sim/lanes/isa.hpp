@@ -1,4 +1,4 @@
-// Which build of the kernels in sim/lanes/ this processor can run.
+// Selects the build of the kernels in sim/lanes/ that this processor can run.
 #pragma once
 
 namespace scanbench::sim {

@@ -1,4 +1,4 @@
-// A few doubles that are computed on at once: the vector type of the kernels in sim/lanes/.
+// The vector type of the kernels in sim/lanes/: a few doubles that are processed at once.
 //
 // Every source file of this folder is compiled twice: for any x86-64 (namespace baseline, two lanes of SSE2) and for
 // processors with AVX2 (namespace v3, four lanes). Each lane does the same IEEE operations in the same order, so both

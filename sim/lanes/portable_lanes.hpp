@@ -1,5 +1,5 @@
-// The logarithm and the cosine of core/portable_math.cpp in lanes: the same operations in the same order, hence the
-// same bits (tests/sim/draw_kernels_test.cpp holds them against each other).
+// The logarithm and the cosine of core/geometry/portable_math.cpp in lanes: the same operations in the same order,
+// hence the same bits (tests/sim/draw_kernels_test.cpp compares them).
 #pragma once
 
 #include "sim/lanes/lanes.hpp"

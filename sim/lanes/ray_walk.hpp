@@ -1,4 +1,4 @@
-// One ray through the tree of walls, four boxes or walls at a time, nearest box first.
+// Casts one ray through the tree of walls, four boxes or walls at a time, nearest box first.
 #pragma once
 
 #include <cstdint>
@@ -49,21 +49,21 @@ inline void enter_boxes(const TreeNode& node, const WalkRay& ray, double inverse
   }
 }
 
-// Large, not infinite: 0 times it is 0, not NaN.
+// The inverse is large but finite, so that 0 times it is 0, not NaN.
 inline double inverse_component(double d) {
   constexpr double kTiny = 1e-200;
   if (d > kTiny || d < -kTiny) return 1.0 / d;
   return d < 0 ? -1.0 / kTiny : 1.0 / kTiny;
 }
 
-/// Offers the walls below `node` that the ray meets up to `nearest.range`.
+/// Offers the walls below `node` that the ray hits up to `nearest.range`.
 inline void walk_tree(const WallView& walls, const WalkRay& ray, int node_index, NearestOne& nearest) {
   struct Entry {
     double in;
     std::int32_t child;
     std::int32_t count;
   };
-  constexpr double kSlack = 1e-6;  // of ranges against entries into boxes, which are larger than their walls
+  constexpr double kSlack = 1e-6;  // tolerance of ranges against entries into boxes, which are larger than their walls
   const double inverse_dx = inverse_component(ray.dx);
   const double inverse_dy = inverse_component(ray.dy);
   Entry stack[3 * 32 + 1];  // three siblings wait on each level, and 4^32 walls do not fit into memory

@@ -7,10 +7,10 @@
 
 namespace scanbench::sim::SCANBENCH_ISA {
 
-/// Surfaces closer together than this along a ray count as one place; the lowest index wins.
+/// Surfaces closer together than this along a ray count as equally near; the lowest index wins.
 inline constexpr double kTie = 1e-9;
 
-/// The lanes one by one: where a ray passes an end of its wall closely.
+/// Computes the lanes one by one, if a ray passes close to an end of its wall.
 [[gnu::noinline, gnu::cold]] inline Doubles wall_range_one_by_one(Doubles ax, Doubles ay, Doubles bx, Doubles by,
                                                                   Doubles dx, Doubles dy) {
   Doubles range;

@@ -1,4 +1,4 @@
-// Which beams a wall covers, and its inverse range along them, for several walls at once.
+// The beams that a wall covers, and its inverse range along them, for several walls at once.
 #pragma once
 
 #include "sim/cast/beam_fan.hpp"
@@ -14,7 +14,7 @@ struct BeamScale {
   double start;  ///< angle of beam 0
   double beams_per_rad;
   double period;  ///< beams of a full turn
-  double margin;  ///< beams on either side that may be covered in spite of errors
+  double margin;  ///< additional beams on either side that may be covered because of errors
   int beams;
 
   explicit BeamScale(const BeamFan& fan)
@@ -41,7 +41,7 @@ struct WallRuns {
 
 inline WallRuns wall_runs(const WallView& walls, int first, const BeamFan& fan, const BeamScale& scale) {
   constexpr double kAlmostAround = 3.13;  // rad: the sensor is nearly on the wall, which covers any direction
-  constexpr double kNearM = 1e-3;         // nearer than this the angle of an end is not reliable
+  constexpr double kNearM = 1e-3;         // the angle of a nearer end is not reliable
   constexpr double kTouchM = 1e-9;        // more than kEndToleranceM
   constexpr double kRounding = 64 * 0x1p-52;
   WallRuns w;
@@ -65,12 +65,13 @@ inline WallRuns wall_runs(const WallView& walls, int first, const BeamFan& fan, 
   const Doubles inverse = 1.0 / twice_area;
   const Doubles a = ey * inverse;
   const Doubles b = -ex * inverse;
-  // The exact range errs relative to 1/r by about eps |a| / p for a wall whose line passes at p = 1 / |(a, b)|.
-  // A beam that passes an end within the tolerance meets the end, not the line: an error of up to tolerance / p.
+  // The exact range errs relative to 1/r by about eps |a| / p for a wall whose line passes at p = 1 / |(a, b)|. A beam
+  // that passes an end within the tolerance hits the end, not the line, which adds an error of up to tolerance / p.
   const Doubles slope = abs(a) + abs(b);
   const Doubles steepness = kRounding * slope;
   const Doubles relative = (kRounding * (size_a + size_b) + 4 * kEndToleranceM) * slope;
-  // Not for walls seen edge-on, where p is 0, nor for those that the sensor touches, which are hit on both sides.
+  // The bound cannot be used for walls seen edge-on, where p is 0, and for walls that the sensor touches, which are hit
+  // on both sides.
   const Longs touched = near | (abs(twice_area) < kTouchM * (abs(ex) + abs(ey)));
   const Longs usable = (relative < 1e-3) & ~touched;
   w.ux = usable ? a + a * relative : all(0.0);

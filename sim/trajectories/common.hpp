@@ -36,7 +36,8 @@ inline Vec2 point_param(const std::string& name, const std::vector<double>& xy) 
   return {xy[0], xy[1]};
 }
 
-/// Rows x, y, heading in degrees as poses, one scan period apart; throws ParamError for no row or one of other length.
+/// Rows x, y, heading in degrees as poses, one scan period apart; throws ParamError if there is no row, or one without
+/// three numbers.
 inline Trajectory poses_from_rows(const std::string& name, const NumberRows& rows, double scan_period_s) {
   if (rows.empty()) throw ParamError(name, name + " is empty; it needs at least one row [x, y, heading_deg]");
   Trajectory trajectory;

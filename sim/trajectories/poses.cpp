@@ -18,7 +18,8 @@ class Poses : public TrajectoryKind {
       return std::tuple{
           field("poses", &Params::poses, any_number(), "m, m, deg", "rows [x, y, heading_deg], one per scan"),
           field("continuous", &Params::continuous,
-                "the sensor moves straight from pose to pose (its path must be clear); false: it is placed")};
+                "true: the sensor moves straight from pose to pose (its path must be clear); false: it is placed at "
+                "each pose")};
     }
   };
 

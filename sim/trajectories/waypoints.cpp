@@ -29,9 +29,10 @@ class Waypoints : public TrajectoryKind {
       return std::tuple{
           field("points_m", &Params::points_m, any_number(), "m", "corners of the path in order, {A: [x, y], ...}"),
           field("scans", &Params::scans, between(0, kMaxScans), "",
-                "number of scans, at the middle of as many equal intervals of the path's length; 0: by speed"),
+                "number of scans, at the middle of as many equal intervals of the path's length; 0 if speed_mps is "
+                "given"),
           field("speed_mps", &Params::speed_mps, at_least(0), "m/s",
-                "speed; a scan is taken at the start and every scan period from then on; 0: by number"),
+                "speed; a scan is taken at the start and every scan period from then on; 0 if scans is given"),
           field("heading_offset_deg", &Params::heading_offset_deg, between(-360, 360), "deg",
                 "heading of the sensor relative to the direction of travel")};
     }

@@ -1,4 +1,4 @@
-// What may happen to a run in ordinary use: logs on full disks, closed terminals, two verbs in one folder.
+// Accidents of ordinary use: logs on full disks, closed terminals, two verbs in one folder.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST_F(BadLuck, StandardErrorThatCannotBeWrittenEndsNoRun) {
     EXPECT_THAT(differences(results(folder_ / "good"), results(folder_ / "run")), IsEmpty());
     EXPECT_EQ(shell("run nothing.yaml " + redirection).code, 2) << redirection;
   }
-  // A pipe that nobody reads.
+  // A pipe without a reader.
   fs::remove_all(folder_ / "run");
   EXPECT_EQ(shell("run room.yaml --out run 2>&1 >/dev/null | true; test -e run/report.html").code, 0);
 }
@@ -66,7 +66,7 @@ TEST_F(BadLuck, NothingWritesIntoAFolderThatAnotherProcessHasLocked) {
         Args{"score", "run"}, Args{"figures", "run"}, Args{"report", "run"}}) {
     const auto outcome = here(args);
     EXPECT_EQ(outcome.code, 2) << args[0];
-    EXPECT_THAT(outcome.err, HasSubstr("at work")) << args[0];
+    EXPECT_THAT(outcome.err, HasSubstr("another run is writing")) << args[0];
   }
   EXPECT_THAT(differences(before, files(folder_.path())), IsEmpty());
   close(lock);

@@ -1,4 +1,4 @@
-// Equal bytes whatever the number of jobs, after interruption and resume, and from effective.yaml.
+// Equal bytes for any number of jobs, after interruption and resume, and from effective.yaml.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST(Bytes, OneJobTwoJobsAndAnInterruptedRunThatIsResumedGiveTheSame) {
   EXPECT_THAT(differences(expected, results(folder / "cut")), IsEmpty());
 }
 
-// Lines in place of scans, merged.
+// Lines instead of scans, merged.
 TEST(Bytes, OfTheSpiralAreTheSameForAnyNumberOfJobsAndFromTheEffectiveScenario) {
   const Folder folder;
   const std::string spiral = places::source_dir() / "scenarios/lakaemper2009_spiral.yaml";

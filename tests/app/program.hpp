@@ -1,4 +1,4 @@
-// Runs the built program as a child, as a user would: what the tests of this folder share.
+// Runs the built program as a child process, for all tests of this folder.
 #pragma once
 
 #include <fcntl.h>
@@ -27,7 +27,7 @@ inline std::string read(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A folder of the test's own; in memory where that is possible, since a run flushes what it writes.
+/// A folder of the test's own; in memory if possible, because a run flushes its files to disk.
 class Folder {
  public:
   Folder() {
@@ -64,7 +64,7 @@ struct Outcome {
 using Args = std::vector<std::string>;
 using Env = std::map<std::string, std::string>;
 
-/// The program at work; interrupt() and wait() as wanted.
+/// The running program, which a test may interrupt() and wait() for.
 class Child {
  public:
   Child(const Args& command, const Env& env, const fs::path& cwd) {
@@ -140,7 +140,7 @@ inline std::map<std::string, std::string> files(const fs::path& folder) {
   return found;
 }
 
-/// The arrays and tables of a run that must not depend on how it came about.
+/// The arrays and tables of a run that must not depend on jobs or interruptions.
 inline std::map<std::string, std::string> results(const fs::path& run_folder) {
   auto found = files(run_folder);
   std::erase_if(found, [](const auto& file) {

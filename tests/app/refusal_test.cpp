@@ -1,4 +1,4 @@
-// Wrong input: exit code 2, a message that says where and what is allowed, nothing written, nothing lost.
+// Wrong input: exit code 2, a message with the place and the allowed values, nothing written, nothing lost.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -130,10 +130,10 @@ TEST(Refusals, OfARecordedLogNameItsLine) {
   EXPECT_EQ(run({"run", "s.yaml", "--out", "out", "-q"}, {}, folder.path()).code, 0);
 }
 
-TEST(Refusals, OfMemoryComeAtOnceWithTheArithmetic) {
+TEST(Refusals, OfMemoryComeAtOnceWithTheCalculation) {
   const Folder folder;
   folder.write("room.yaml", room_with("scans: 5", "scans: 1000000"));
-  // 361 beams x 20 bytes x 1e6 frames = 7.2e9 bytes, more than 4 GiB; the frames themselves come on top.
+  // 361 beams x 20 bytes x 1e6 frames = 7.2e9 bytes, more than 4 GiB; the frames themselves need more.
   for (const Args& args : {Args{"run", "room.yaml", "--out", "a/b/c"}, Args{"check", "room.yaml"},
                            Args{"simulate", "room.yaml", "--out", "a/b/c"}})
     EXPECT_THAT(refusal_in(folder, args),
@@ -148,13 +148,14 @@ TEST(OutputFolder, ThatIsNotARunIsLeftAlone) {
   folder.write("file", "text");
   folder.write("other/manifest.json", "{\"program\": \"somebody else's\"}");
   fs::create_symlink("nowhere", folder / "dangling");
-  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "thesis"}), HasSubstr("no run of ours"));
-  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "thesis", "--resume"}), HasSubstr("no run of ours"));
-  EXPECT_THAT(refusal_in(folder, {"simulate", "room.yaml", "--out", "thesis"}), HasSubstr("no run of ours"));
+  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "thesis"}), HasSubstr("not the folder of a run"));
+  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "thesis", "--resume"}),
+              HasSubstr("not the folder of a run"));
+  EXPECT_THAT(refusal_in(folder, {"simulate", "room.yaml", "--out", "thesis"}), HasSubstr("not the folder of a run"));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "file"}), HasSubstr("is a file"));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "file/below"}), HasSubstr("file/below"));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "other"}), HasSubstr("manifest.json"));
-  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "dangling"}), HasSubstr("leads nowhere"));
+  EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--out", "dangling"}), HasSubstr("broken symbolic link"));
   EXPECT_FALSE(fs::exists(folder / "nowhere"));
 }
 
@@ -174,7 +175,8 @@ TEST(OutputFolder, OnADiskThatIsFullHoldsNoHalfWrittenFileAndTheOldRunStays) {
   const std::string run_it = places::program().string() + " run room.yaml -q --out run";
   ASSERT_EQ(run({"run", "room.yaml", "-q", "--out", "run"}, {}, folder.path()).code, 0);
   const auto before = files(folder.path());
-  // The limit cuts files at 1 KiB (the manifest: nothing begins), 4 KiB (the recording: all cells are missing).
+  // The limit cuts files at 1 KiB (in the manifest, so nothing begins) and at 4 KiB (in the recording, so all cells are
+  // missing).
   for (const auto& [limit, code] : {std::pair("1", 2), std::pair("4", 4)}) {
     const auto outcome = Child({"/bin/bash", "-c", std::string("ulimit -f ") + limit + "; " + run_it + " --set seed=2"},
                                {}, folder.path())
@@ -200,7 +202,7 @@ TEST(OutputFolder, OfAnInterruptedSimulationVanishes) {
   EXPECT_FALSE(fs::exists(folder / "a"));
 }
 
-TEST(StandardOutput, ThatCannotBeWrittenIsNoBugOfOurs) {
+TEST(StandardOutput, ThatCannotBeWrittenIsNoBugOfTheProgram) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   for (const char* verb : {"list", "describe --all"}) {
     const auto outcome =

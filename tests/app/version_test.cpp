@@ -52,7 +52,7 @@ TEST(Version, OfAChangedTreeHasAHashOfItsCode) {
   folder.write("tree/core/a.cpp", "int b;\n");
   EXPECT_EQ(stated_commit(folder), changed);
   folder.write("tree/core/a.cpp", "int a;\n");
-  folder.write("tree/core/new.hpp", "int n;\n");  // not added, and compiled all the same
+  folder.write("tree/core/new.hpp", "int n;\n");  // not added to git, but compiled
   EXPECT_THAT(stated_commit(folder), HasSubstr("-dirty-"));
 }
 

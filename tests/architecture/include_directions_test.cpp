@@ -1,5 +1,4 @@
-// Who may include whom: every #include "folder/..." of the project against a table. The picture of
-// docs/architecture.md, checked.
+// Checks every #include "folder/..." of the project against a table, which is the picture in docs/architecture.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A row per folder: what its files may include, beside files of their own folder.
+/// A row per folder: the folders that its files may include, in addition to their own.
 const std::map<std::string, std::set<std::string>> kAllowed = {
     {"core", {}},
     {"sim", {"core"}},
@@ -124,7 +123,8 @@ TEST(Architecture, NoUnitsIncludeEachOther) {
   for (const auto& [file, headers] : include_graph())
     for (const auto& header : headers)
       if (unit_of(header) != unit_of(file)) graph[unit_of(file)].insert(unit_of(header));
-  // Units all of whose includes are free of cycles are free of cycles; what is never freed is in one, or above one.
+  // A unit whose includes are all free of cycles is free of cycles; units that never become free are in a cycle or
+  // include one.
   std::set<std::string> free_units;
   for (bool grown = true; grown;) {
     grown = false;

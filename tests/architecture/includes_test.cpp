@@ -16,11 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Supplied {
-  const char* names;   ///< what of the header a file may use, as a regular expression
-  const char* header;  ///< as it stands between the brackets of an include
+  const char* names;   ///< the names of the header, as a regular expression
+  const char* header;  ///< as written between the brackets of an include
 };
 
-// The list of cmake/targets.cmake, with the names that betray a use.
+// The list of cmake/targets.cmake, with the names that show a use.
 const Supplied kSupplied[] = {
     {R"(std::(ranges::)?(sort|stable_sort|find|find_if|count|count_if|transform|any_of|all_of|none_of|min_element|max_element|minmax_element|lower_bound|upper_bound|reverse|copy|fill|unique|nth_element|clamp|includes)\()",
      "algorithm"},

@@ -1,5 +1,5 @@
-// Every registered line extractor, with its defaults, on scans that break careless ones. New files are covered as they
-// register themselves.
+// Every registered line extractor, with its defaults, on scans that break careless implementations. New modules are
+// tested as soon as they register themselves.
 #include <algorithm>
 #include <map>
 
@@ -27,7 +27,7 @@ using testing::PointNear;
 using testing::ring_sensor;
 using testing::with_noise;
 
-// Extractors whose answer may change when the scene turns about the sensor, and why.
+// Extractors whose answer may change when the scene rotates about the sensor, and why.
 const std::map<std::string, std::string> kNotRotationEquivariant = {
     {"hough", "its accumulator has fixed angles"},
 };

@@ -1,4 +1,4 @@
-// Every registered segment merger, with its defaults, on segment sets that break careless ones.
+// Every registered segment merger, with its defaults, on segment sets that break careless implementations.
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -84,7 +84,7 @@ std::vector<MapLine> seen_room(int copies, double sigma, std::uint64_t seed) {
   return lines;
 }
 
-// Both maps hold the same segments, in any order.
+// Both maps have the same segments, in any order.
 void expect_same_map(const LineMap& a, const LineMap& b, double tolerance) {
   ASSERT_EQ(a.lines.size(), b.lines.size());
   for (const MapLine& x : a.lines) {

@@ -1,4 +1,4 @@
-// Estimators of motion and maps: every registered aligner and mapper on inputs with nothing to hold on to, and on the
+// Estimators of motion and maps: every registered aligner and mapper on inputs that determine nothing, and on the
 // easiest one. Matchers: matcher_conformance_test.cpp.
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 using testing::OwnedScan;
 using testing::ScanSeries;
 
-// An observation that owns its scan, with lines by the extractor that is always there.
+// An observation that owns its scan, with the lines of an extractor that always exists.
 struct Seen {
   explicit Seen(OwnedScan s) : scan(std::move(s)), scan_view(scan.view()) {
     Trace silent;
@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(All, AlignerConformance, ::testing::ValuesIn(Registry<A
 
 const std::vector<Pose2> kStops{{0, 0, 0}, {0.4, 0.1, 0.2}, {0.9, -0.2, 0.5}, {1.2, -0.6, 1.0}};
 
-/// Where the sensor believes that it stopped.
+/// The poses at which the sensor stops according to its odometry.
 std::vector<Pose2> believed() {
   std::vector<Pose2> poses = kStops;
   const std::vector<Pose2> errors{{0, 0, 0}, {0.05, -0.03, 0.02}, {-0.04, 0.06, -0.03}, {0.03, 0.05, 0.03}};

@@ -1,4 +1,4 @@
-// Every registered module's trace: declared stages only, whose times timing.csv can hold, and rows of declared schemas.
+// Every registered module's trace: declared stages only, whose times fit timing.csv, and rows of declared schemas.
 #include <map>
 #include <set>
 
@@ -93,7 +93,7 @@ bool is_name(std::string_view text) {
 }
 
 TEST(TraceConformance, RowsOfOneNameHaveOneSchemaWithNamedColumnsAndAValueForEach) {
-  std::map<std::string, TraceSchema> known;  // by kind and name: what a reader of trace.csv goes by
+  std::map<std::string, TraceSchema> known;  // by kind and name, which a reader of trace.csv uses
   for_every_module([&](const std::string& kind, const std::string& module, int, const TraceRecorder& recorder) {
     for (const TraceSchema& schema : recorder.schemas) {
       const std::string key = kind + "." + std::string(schema.name);
@@ -110,7 +110,7 @@ TEST(TraceConformance, RowsOfOneNameHaveOneSchemaWithNamedColumnsAndAValueForEac
       for (const TraceRow& row : recorder.all_rows.at(key)) EXPECT_EQ(row.values.size(), schema.columns.size()) << key;
     }
   });
-  EXPECT_TRUE(known.contains("merge.cluster"));  // the recorder hears what is written
+  EXPECT_TRUE(known.contains("merge.cluster"));  // the recorder gets what is written
 }
 
 }  // namespace

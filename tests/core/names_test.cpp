@@ -1,4 +1,4 @@
-// Lists of names, and the name that a misspelt one means.
+// Lists of names, and the nearest name to a misspelt one.
 #include "core/names.hpp"
 
 #include <gtest/gtest.h>

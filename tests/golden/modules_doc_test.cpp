@@ -1,4 +1,4 @@
-// docs/modules.md says what the program says of itself.
+// docs/modules.md has the program's own description of its modules.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// segments: perfect lines, and small errors whose effect follows by arithmetic.
+// segments: perfect lines, and small errors with a known effect.
 #include "core/index.hpp"
 #include "core/special_values.hpp"
 #include "made_up.hpp"

@@ -137,7 +137,7 @@ TEST(CasterAgreement, ScansAreThoseOfTheBruteForce) {
     World world = round < 6 ? test::tangle(20 + 60 * round, 10.0, rng) : test::rooms_world(6, 6, {-18.0, -15.0});
     world.moving.clear();
     const RayCaster caster(world);
-    // Not from places on walls: there the two definitions differ in which touch counts.
+    // Rays do not start on walls, where the two definitions differ in which touch counts.
     for (int k = 0; k < 6; ++k) {
       const Pose2 pose(test::uniform_point(rng, {-12, -12}, {12, 12}), kTwoPi * rng.uniform());
       Answers answers(500);

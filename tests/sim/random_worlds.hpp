@@ -60,7 +60,8 @@ inline std::vector<Pose2> poses_in(const World& world, double size, int count, C
   return poses;
 }
 
-/// Beam numbers that tests of intervals get wrong: a full turn, nearly one, a part, clockwise, very few, very many.
+/// Sensors that are difficult for tests of intervals: a full turn, nearly one, a part, clockwise, very few beams, very
+/// many.
 inline std::vector<ScanGeometry> geometries() {
   return {{-kPi, kTwoPi / 360.0, 360},
           {-kPi, kTwoPi / 361.0, 360},

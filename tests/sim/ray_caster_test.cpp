@@ -95,7 +95,7 @@ TEST(RayCaster, RangesInABoxAreTheClosedForm) {
   EXPECT_EQ(right.range_m, 3.0);
   EXPECT_EQ(right.wall, 1);
   EXPECT_EQ(right.cos_incidence, 1.0);
-  // 30 deg above the x axis from (1, 1): meets the right wall after 3 / cos 30.
+  // 30 deg above the x axis from (1, 1): hits the right wall after 3 / cos 30.
   const RayHit slanted = caster.cast({{1.0, 1.0}, test::unit(radians(30.0)), 0.0}, 30.0);
   EXPECT_NEAR(slanted.range_m, 3.0 / std::cos(radians(30.0)), 1e-12);
   EXPECT_NEAR(slanted.cos_incidence, std::cos(radians(30.0)), 1e-12);

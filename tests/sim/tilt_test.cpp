@@ -46,7 +46,7 @@ struct Met {
   bool floor = false;
 };
 
-/// The first plane of a box, without a lid and, for height 0, without a floor, that a ray from inside meets.
+/// The first plane of a box, without a lid and, for height 0, without a floor, that a ray from inside hits.
 Met met_in_box(const Vector3d& from, const Vector3d& direction) {
   Met met;
   const auto plane = [&](int axis, double at, bool floor) {

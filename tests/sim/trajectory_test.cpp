@@ -323,7 +323,8 @@ TEST(CheckClear, RefusesSensorsOnWallsOrWhereNothingCanBeSeen) {
       complaint([&] {
         check_clear(world, drive({{-10, 4, 0}}), 9.5);
       }),
-      HasSubstr("outside any free space: the nearest thing, wall 'w8', is 10 m away, and the sensor's range is 9.5 m"));
+      HasSubstr(
+          "outside any free space: the nearest surface, wall 'w8', is 10 m away, and the sensor's range is 9.5 m"));
   const double nan = std::nan("");
   Trajectory wild;
   wild.poses = {{0.0, Pose2(Vec2(nan, 0.0), 0.0)}};

@@ -1,4 +1,4 @@
-// What the tests of the input files share: places, temporary files, messages of refusals.
+// Shared by the tests of input files: places, temporary files, messages of refusals.
 #pragma once
 
 #include <unistd.h>

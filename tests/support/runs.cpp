@@ -116,7 +116,7 @@ struct WrongLabels {
 struct Leave {
   void operator()(ScanLines&) const { ::_exit(0); }
 };
-/// From then on the process can write nothing, as on a full disk.
+/// After this the process can write nothing, as on a full disk.
 struct FillDisk {
   void operator()(ScanLines&) const {
     const rlimit none{0, 0};
@@ -163,7 +163,7 @@ class ShiftAll final : public Aligner {
   }
 };
 
-/// One metre ahead, whatever the guess; no match for the scan of time 2.
+/// One metre ahead for every guess; no match for the scan of time 2.
 class OneAhead final : public ScanMatcher {
  public:
   using Params = NoParams;
@@ -190,8 +190,8 @@ class PoseMapper final : public Mapper {
   LineMap map_;
 };
 
-/// Beams without a line (fewer is better, one more is let pass), lines, and a row that is not defined; lines per frame
-/// as a table.
+/// Beams without a line (fewer is better, tolerance one), lines, and a row that is not defined; lines per frame as a
+/// table.
 class TestMetrics final : public metrics::MetricFamily {
  public:
   struct Params {
@@ -241,7 +241,7 @@ class NeedsAMap final : public metrics::MetricFamily {
   }
 };
 
-/// Says in its caption what it got of the trace.
+/// States in its caption the rows of the trace that it got.
 class Traced final : public render::Figure {
  public:
   using Params = NoParams;

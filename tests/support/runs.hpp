@@ -1,5 +1,5 @@
-// What the tests of runs share: folders that vanish, recordings without a simulator, tiny modules that behave and
-// misbehave (registered in run_support.cpp under names that begin with "test_").
+// Shared by the tests of runs: temporary folders, recordings without a simulator, and small modules that behave or
+// misbehave (registered in runs.cpp under names that begin with "test_").
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace scanbench::harness::testing {
 
-/// A new folder, removed with all that is in it.
+/// A new folder, removed with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -30,7 +30,7 @@ class TemporaryFolder {
 /// Random scans with every kind of reading (+inf, -inf, NaN, -0.0), random poses, and random truth unless it is a log.
 Recording random_recording(std::uint64_t seed, int frames, int beams, bool with_truth);
 
-/// Values of doubles as their bits: equal only if nothing was lost, NaN included.
+/// Values of doubles as their bits: equal only if no bit was lost, NaN included.
 std::vector<std::uint64_t> bits(const std::vector<double>& values);
 
 /// A pipeline of one slot.

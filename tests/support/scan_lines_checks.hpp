@@ -1,4 +1,4 @@
-// Checks what core/scan.hpp promises about a scan and the lines that any extractor finds in it.
+// Checks the promises of core/scan.hpp about a scan and the lines that any extractor finds in it.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Data set "Spiral" (Lakaemper 2009, figures 1-3), rebuilt: the paper prints no coordinates. An Archimedean spiral of
-// 30 segments, and copies of it slightly rotated and shifted against each other.
+// Data set "Spiral" (Lakaemper 2009, figures 1-3), a reconstruction, because the paper prints no coordinates. An
+// Archimedean spiral of 30 segments, and copies of it slightly rotated and shifted against each other.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Keeps what a module writes into its trace.
+// Records the stages and rows that a module writes into its trace.
 #pragma once
 
 #include <string>

@@ -7,7 +7,6 @@
 #include "algorithms/align/ffs/force_field.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -24,6 +23,7 @@ namespace {
 constexpr std::size_t kLanes = 8;
 using Floats [[gnu::vector_size(4 * kLanes)]] = float;
 using Ints [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
+using Words [[gnu::vector_size(4 * kLanes)]] = std::uint32_t;  ///< as Ints, where a sum may wrap around
 using Longs [[gnu::vector_size(4 * kLanes)]] = std::int64_t;
 
 /// Points in the order of the grid's cells, relative to its middle, with the sums of what acts on them.
@@ -54,6 +54,13 @@ struct Constants {
   return Ints{} + v;
 }
 
+/// std::bit_cast, always inlined: a call would pass wide vectors as the compiler's general target does, and the callers
+/// are compiled for others.
+template <class To, class From>
+[[gnu::always_inline]] inline To bits(const From& from) {
+  return __builtin_bit_cast(To, from);
+}
+
 [[gnu::always_inline]] inline Ints numbered() {
   Ints lanes{};
   for (std::size_t k = 0; k < kLanes; ++k) lanes[k] = static_cast<std::int32_t>(k);
@@ -67,11 +74,11 @@ struct Constants {
 }
 
 [[gnu::always_inline]] inline Floats where(Ints mask, Floats v) {
-  return std::bit_cast<Floats>(std::bit_cast<Ints>(v) & mask);
+  return bits<Floats>(bits<Ints>(v) & mask);
 }
 
 [[gnu::always_inline]] inline bool none(Ints mask) {
-  const Longs pairs = std::bit_cast<Longs>(mask);
+  const Longs pairs = bits<Longs>(mask);
   std::int64_t any = 0;
   for (std::size_t k = 0; k < kLanes / 2; ++k) any |= pairs[k];
   return any == 0;
@@ -101,12 +108,12 @@ struct Constants {
   p = p * f + all(0.2402265070F);
   p = p * f + all(0.6931471806F);
   p = p * f + all(1.0F);
-  return std::bit_cast<Floats>(std::bit_cast<Ints>(p) + (std::bit_cast<Ints>(rounded) << 23));
+  return bits<Floats>(bits<Words>(p) + (bits<Words>(rounded) << 23));
 }
 
 /// 1 / sqrt(v), relative error below 5e-6; finite for 0. A guess from the exponent and two Newton steps.
 [[gnu::always_inline]] inline Floats reciprocal_root(Floats v) {
-  Floats r = std::bit_cast<Floats>(all(std::int32_t{0x5f3759df}) - (std::bit_cast<Ints>(v) >> 1));
+  Floats r = bits<Floats>(all(std::int32_t{0x5f3759df}) - (bits<Ints>(v) >> 1));
   const Floats half = v * all(0.5F);
   r = r * (all(1.5F) - half * r * r);
   return r * (all(1.5F) - half * r * r);
@@ -129,8 +136,8 @@ struct Constants {
     const Ints limit = all(left);
     const Ints acts = (others != body) & (squared <= all(k.squared_cut)) & (lane < limit);
     if (none(acts)) continue;  // neighbours in memory are neighbours on a line: half of all blocks
-    const Ints magnitude = std::bit_cast<Ints>(c * load(p.c + j) + s * load(p.s + j)) & 0x7fffffff;  // |w w cos|
-    const Floats m = where(acts, std::bit_cast<Floats>(magnitude) * power_of_two(squared * all(k.exponent)));  // (2)
+    const Ints magnitude = bits<Ints>(c * load(p.c + j) + s * load(p.s + j)) & 0x7fffffff;            // |w w cos|
+    const Floats m = where(acts, bits<Floats>(magnitude) * power_of_two(squared * all(k.exponent)));  // (2)
     const Floats inverse = reciprocal_root(squared);
     const Floats spring = m * (inverse < all(k.stiffest) ? inverse : all(k.stiffest));
     const Floats gx = spring * dx, gy = spring * dy;  // (1)

@@ -1,3 +1,4 @@
+// Writes the trace rows of mean_shift.
 #include "algorithms/merge/mean_shift/trace.hpp"
 
 #include <algorithm>

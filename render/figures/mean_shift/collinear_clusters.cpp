@@ -1,5 +1,5 @@
-// Figure 3 of Lakaemper 2009: phase 2. One cluster of phase 1 with the kernel, its sub-clusters, all modes, and what
-// merging makes of them.
+// Figure 3 of Lakaemper 2009: phase 2. One cluster of phase 1 with the kernel, its sub-clusters, all modes, and the
+// merged lines.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -66,14 +66,14 @@ class CollinearClusters : public Figure {
     return {{"collinear_clusters",
              fmt::format(
                  "{}: phase 2. a) segments of one cluster of phase 1 with their centres and the kernel K2, long along "
-                 "the cluster's direction; b) its sub-clusters of collinear segments; c) modes of all {}; d) "
-                 "the {} that merging makes of them.",
+                 "the cluster's direction; b) its sub-clusters of collinear segments; c) modes of all {}; d) the {} "
+                 "merged from them.",
                  input.title, counted(collinear.clusters(), "sub-cluster"), counted(rows->map.size(), "line")),
              std::move(scene)}};
   }
 
  private:
-  /// Index from 0; -1: none.
+  /// The index of the shown cluster, from 0; -1: none.
   int shown_cluster(const MeanShiftRows& rows) const {
     if (params_.cluster > 0) return params_.cluster - 1;
     std::map<int, std::set<int>> parts;
@@ -106,7 +106,7 @@ class CollinearClusters : public Figure {
     if (const auto square = square_around(shown)) square->set_ranges(panel);
   }
 
-  /// Of the sub-cluster that has most of the members.
+  /// The kernel of the sub-cluster with most of the members.
   static std::optional<Ellipse> kernel_of(const MeanShiftRows& rows, const std::vector<std::size_t>& members) {
     std::map<int, int> count;
     for (const std::size_t k : members) ++count[rows.pieces[k].cluster2];

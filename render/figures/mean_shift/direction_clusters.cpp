@@ -19,7 +19,7 @@ class DirectionClusters : public Figure {
     static auto fields() {
       return std::tuple{field("pipeline", &Params::pipeline, kPipelineDoc),
                         field("zoom_m", &Params::zoom_m, at_least(0), "m",
-                              "side of the magnified square, which is where most clusters are; 0: a third of all")};
+                              "side of the magnified square around most clusters; 0: a third of the whole extent")};
     }
   };
   explicit DirectionClusters(const Params& params) : params_(params) {}
@@ -53,7 +53,7 @@ class DirectionClusters : public Figure {
                                                .stroke = Stroke{kBlue, 1.2, Dash::solid}});
     scene.panels = {std::move(all), std::move(part)};
     return {{"direction_clusters",
-             fmt::format("{}: the {} of phase 1; one colour returns only far away{}.", input.title,
+             fmt::format("{}: the {} of phase 1; clusters of the same colour are far apart{}.", input.title,
                          counted(clusters.clusters(), "cluster"), numbered ? ", equal numbers are one cluster" : ""),
              std::move(scene)}};
   }

@@ -57,7 +57,7 @@ class Projection : public Figure {
                 .box_aspect = 0.45};
     Panel plan{.title = "a) one sub-cluster and its line", .equal_aspect = false};
     plan.x.label = "along the line [m]", plan.y.label = "across [cm]";
-    Panel overlap{.title = "b) projections, and what they unite to", .equal_aspect = false};
+    Panel overlap{.title = "b) projections and their unions", .equal_aspect = false};
     overlap.x.label = "along the line [m]";
     overlap.y.label = "", overlap.y.grid = false;
 
@@ -160,7 +160,7 @@ class Projection : public Figure {
 const bool registered = Registry<Figure>::add<Projection>(
     {.name = "projection",
      .summary =
-         "the segments of one sub-cluster, their projections on its line, and the intervals that overlaps unite to",
+         "the segments of one sub-cluster, their projections on its line, and the unions of overlapping projections",
      .reference = "Lakaemper 2009, figure 4"});
 
 }  // namespace

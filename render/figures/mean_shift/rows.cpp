@@ -1,3 +1,4 @@
+// Reads the trace rows of mean_shift into the structs of its figures.
 #include "render/figures/mean_shift/rows.hpp"
 #include "render/figures/parts/clusters.hpp"
 #include "render/figures/parts/style.hpp"
@@ -16,7 +17,7 @@ T* element(std::vector<T>& all, int index) {
   return index >= 0 && index < std::ssize(all) ? &all[static_cast<std::size_t>(index)] : nullptr;
 }
 
-/// The same in a list that grows to hold it.
+/// The same in a list that grows to contain it.
 CollinearCluster* cluster_at(std::vector<CollinearCluster>& all, int index, std::size_t pieces) {
   if (index < 0 || static_cast<std::size_t>(index) >= pieces) return nullptr;  // every cluster has a piece
   all.resize(std::max(all.size(), static_cast<std::size_t>(index) + 1));
@@ -104,7 +105,7 @@ View3 joint_space_view(const MeanShiftRows& rows) {
     for (const Vec2& p : {piece.segment.a, piece.segment.b}) low = low.cwiseMin(p), high = high.cwiseMax(p);
   if (rows.pieces.empty()) low = Vec2(0, 0), high = Vec2(1, 1);
   const double margin = 0.04 * std::max((high - low).maxCoeff(), 0.5);
-  // The seam is named where it is: a point at the top is a neighbour of one on the floor.
+  // The label 180 = 0 names the seam: a point at the top is a neighbour of one on the floor.
   const Axis3 direction{
       "direction [deg]", 0.0, 180.0, {{0, "0"}, {45, "45"}, {90, "90"}, {135, "135"}, {180, "180 = 0"}}};
   return View3({Axis3{"x [m]", low.x() - margin, high.x() + margin, {}},

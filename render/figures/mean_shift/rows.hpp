@@ -1,5 +1,5 @@
-// The trace of the module mean_shift (docs/algorithms/mean_shift.md, "Trace rows"), as the figures of R. Lakaemper,
-// "Simultaneous Multi-Line-Segment Merging for Robot Mapping using Mean Shift Clustering", IROS 2009, need it.
+// The trace of the module mean_shift (docs/algorithms/mean_shift.md, "Trace rows"), for the figures of R. Lakaemper,
+// "Simultaneous Multi-Line-Segment Merging for Robot Mapping using Mean Shift Clustering", IROS 2009.
 #pragma once
 
 #include <array>
@@ -61,8 +61,8 @@ std::vector<std::string> keys_of_mean_shift() {
   return {key_of<mean_shift::CountsRow>(kMergeSlot), key_of<Rows>(kMergeSlot)...};
 }
 
-/// Of the pipeline with this name, of the first one that has such rows if it is empty. Nothing: none has. Rows that
-/// were not kept leave their parts empty.
+/// The rows of the pipeline with this name or, if it is empty, of the first one that has such rows; nullopt if none
+/// has. Parts whose rows were not kept are empty.
 std::optional<MeanShiftRows> find_mean_shift(const FigureInput& input, const std::string& pipeline);
 
 /// x, y and direction, around the pieces: the direction from 0 to 180 deg, which is 0 again.
@@ -72,6 +72,6 @@ Vec3 on_axes(const Vec3& point);
 
 /// The doc of the parameter that every such figure has.
 inline constexpr std::string_view kPipelineDoc =
-    "pipeline to show; empty: the first one that merges with mean_shift (nothing is drawn of one that did not finish)";
+    "pipeline to show; empty: the first one that merges with mean_shift (a pipeline that did not finish is not drawn)";
 
 }  // namespace scanbench::render

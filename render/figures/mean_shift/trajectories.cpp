@@ -18,8 +18,8 @@ const Stroke kPathStroke{kBlue, 0.5, Dash::solid};
 const Points kStartStyle{.color = kBlack, .size_pt = 1.7};
 const Points kModeStyle{.marker = Marker::diamond, .color = kVermillion, .size_pt = 4.0};
 
-/// Steps too small to see left out; at the seam of directions the path leaves through one side and comes in through
-/// the other.
+/// Leaves out steps that are too small to see, and cuts the path at the seam of directions, where it leaves at one side
+/// and enters at the other.
 std::vector<Vec3> on_paper(const std::vector<Vec3>& path, double resolution) {
   std::vector<Vec3> result;
   const double turn = kPi * resolution;
@@ -95,7 +95,7 @@ class Trajectories : public Figure {
     return {{"trajectories",
              fmt::format(
                  "{}: trajectories of {} to {} of the density in phase 1 (sigma {:.3g} m, 10 deg count as {:.3g} m). "
-                 "A trajectory that leaves through 180 deg comes in at 0.",
+                 "A trajectory that leaves at 180 deg continues at 0.",
                  input.title, rows->counted_pieces(), counted(modes.size(), "mode"), rows->sigma_m,
                  rows->h_rad_per_m > 0 ? radians(10.0) / rows->h_rad_per_m : 0.0),
              std::move(scene)}};

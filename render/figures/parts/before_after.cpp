@@ -1,3 +1,4 @@
+// Collects the lines given to a merger and its map.
 #include "render/figures/parts/before_after.hpp"
 #include "render/figures/parts/frames.hpp"
 #include "render/figures/parts/style.hpp"

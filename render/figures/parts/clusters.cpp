@@ -1,4 +1,4 @@
-// Colours that differ between neighbours, and the segments and numbers of clusters in them.
+// Chooses colours that differ between neighbours, and draws the segments and numbers of clusters in them.
 #include "render/figures/parts/clusters.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ std::size_t stride_for(std::size_t all, std::size_t most) {
   return std::max<std::size_t>(1, (all + most - 1) / most);
 }
 
-Color darkened(Color c) {  // of a text: a line's colour is too pale for thin strokes
+Color darkened(Color c) {  // for text, because a line's colour is too pale for thin strokes
   const auto dark = [](std::uint8_t v) { return static_cast<std::uint8_t>(0.72 * v); };
   return {dark(c.r), dark(c.g), dark(c.b)};
 }
@@ -74,7 +74,8 @@ bool ClusteredSegments::add_numbers(Panel& panel) const {
   const auto inside = [](const Axis& axis, double v) {
     return !axis.range || (v >= axis.range->first && v <= axis.range->second);
   };
-  // Beside the visible midpoint that is nearest to the mean of all: the mean itself may be off the segments.
+  // A number is beside the visible midpoint nearest to the mean of all, because the mean itself may be off the
+  // segments.
   std::vector<std::optional<Vec2>> beside(places_.size());
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const Vec2 m = segments_[i].midpoint();

@@ -9,8 +9,8 @@
 
 namespace scanbench::render {
 
-/// Colours for clusters at these places: of seven, each takes the one that is used farthest away. The same places give
-/// the same colours.
+/// Colours for clusters at these places: each takes that of seven colours whose nearest use is farthest away. The same
+/// places give the same colours.
 std::vector<Color> cluster_colors(std::span<const Vec2> places);
 
 /// Segments with the cluster of each, -1: none.
@@ -24,11 +24,11 @@ class ClusteredSegments {
   const std::vector<Color>& colors() const { return colors_; }
   const std::vector<Vec2>& places() const { return places_; }  ///< means of midpoints
 
-  /// The segments in the colours of their clusters, those of none in grey; evenly taken ones if there are more than
-  /// `most`.
+  /// Draws the segments in the colours of their clusters, those without a cluster in grey; an even selection if there
+  /// are more than `most`.
   void add_segments(double width_pt, std::size_t most, Panel& panel) const;
-  /// Numbers from 1 beside each cluster that has a midpoint inside the panel's range. False: there are too many
-  /// to read, none is written.
+  /// Numbers from 1 beside each cluster that has a midpoint inside the panel's range. Returns false and writes none if
+  /// there are too many to read.
   bool add_numbers(Panel& panel) const;
 
  private:
@@ -38,7 +38,7 @@ class ClusteredSegments {
   std::vector<Color> colors_;
 };
 
-/// At most `most` segments, evenly taken.
+/// An even selection of at most `most` segments.
 std::vector<Segment> thinned(std::span<const Segment> segments, std::size_t most);
 
 }  // namespace scanbench::render

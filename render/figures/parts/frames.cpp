@@ -1,4 +1,4 @@
-// Poses of a result, or of the recording, applied to its scans.
+// Places the scans of a recording by the poses of a result or of the recording.
 #include "render/figures/parts/frames.hpp"
 
 #include <algorithm>

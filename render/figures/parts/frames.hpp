@@ -13,7 +13,7 @@ namespace scanbench::render {
 /// The frame to show: `wanted`, -1 for the middle one, the last one if there are fewer. The recording has frames.
 std::size_t shown_frame(const Recording& recording, int wanted);
 
-/// Do the poses differ by more than rounding in files explains?
+/// True if the poses differ by more than the rounding of files.
 bool differ(std::span<const Pose2> a, std::span<const Pose2> b);
 
 enum class PoseSource { aligned, odometry, truth, recorded };
@@ -30,7 +30,7 @@ PlacedFrames place_frames(const Recording& recording, const PipelineResult* resu
 /// World points of the valid returns of one frame, sensor frame if the pose is the identity.
 std::vector<Vec2> frame_points(const Recording& recording, std::size_t frame, const Pose2& world_from_sensor);
 
-/// At most `budget` points, evenly taken from the valid returns of all frames.
+/// An even selection of at most `budget` points from the valid returns of all frames.
 std::vector<Vec2> all_points(const Recording& recording, std::span<const Pose2> world_from_sensor, std::size_t budget);
 
 /// True walls as seen from a frame (identity: world frame); empty without truth.

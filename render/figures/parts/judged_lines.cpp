@@ -1,4 +1,4 @@
-// Colours, dashes and markers of the verdicts, which differ for colour-blind readers and in grey print.
+// Draws lines by verdict, in colours, dashes and markers that differ for colour-blind readers and in grey print.
 #include "render/figures/parts/judged_lines.hpp"
 
 #include <string>
@@ -60,7 +60,8 @@ std::vector<Segment> JudgedLines::found() const {
 }
 
 void JudgedLines::draw(const Stroke& own, bool ends, Panel& panel) const {
-  // From what is usual to what is rare, so that nothing rare is hidden; the missed below all, where no line is.
+  // Draws usual verdicts before rare ones, so that nothing rare is hidden; missed lines are below all, where no found
+  // line is.
   for (const std::size_t kind : {kMissed, kUnjudged, std::size_t{0}, std::size_t{1}, std::size_t{2}, kOwn}) {
     if (lines_[kind].empty()) continue;
     const Look look = kind == kOwn ? Look{"", own.color, own.dash, 1.0, Marker::circle, true} : kLooks[kind];

@@ -8,16 +8,16 @@
 
 namespace scanbench::render {
 
-/// The lines that one pipeline found in one scan or in many, sorted by what the truth says of them.
+/// The lines that one pipeline found in one scan or in many, sorted by verdict.
 class JudgedLines {
  public:
   /// Adds the lines of a frame, and the true lines that were missed. `verdicts`: of all frames, may be empty.
   void add(const ScanLines& lines, const std::vector<ScanVerdict>& verdicts, std::size_t frame, const Pose2& pose);
 
-  /// All lines found; missed ones are none of them.
+  /// All found lines, without the missed ones.
   std::vector<Segment> found() const;
 
-  /// Colour and dash say the verdict; lines without one have `own`. `ends`: markers at the ends, of another shape for
+  /// Colour and dash show the verdict; lines without one have `own`. `ends`: markers at the ends, of another shape for
   /// each verdict.
   void draw(const Stroke& own, bool ends, Panel& panel) const;
 

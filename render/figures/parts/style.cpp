@@ -1,4 +1,4 @@
-// Path, legend and words that figures share.
+// Draws the path, legends and notes that figures share.
 #include "render/figures/parts/style.hpp"
 
 #include <algorithm>

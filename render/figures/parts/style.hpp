@@ -19,18 +19,19 @@ inline const Color kTruthUnderlay{205, 205, 205};  ///< true walls behind colour
 inline const Color kFaintPoints{175, 175, 175};
 inline constexpr double kPlaceSizePt = 3.0;
 
-/// How many segments or points all panels of one figure may show: an SVG of them stays below a megabyte.
+/// The most segments and points that all panels of one figure show, so that its SVG stays below a megabyte.
 inline constexpr std::size_t kSegmentBudget = 14000;
 inline constexpr std::size_t kPointBudget = 9000;
 
-/// The path of the sensor as a line, and its legend entry; dots where it was put down at each pose.
+/// The path of the sensor as a line, and its legend entry; dots if it was placed at each pose.
 void add_path(const FigureInput& input, std::span<const Pose2> poses, const Stroke& stroke, Panel& panel);
 LegendEntry path_legend(const FigureInput& input, const Stroke& stroke);
 
-/// How many methods a legend lists; more are named by the titles of their panels only.
+/// The most methods that a legend lists; more are named only by the titles of their panels.
 inline constexpr std::size_t kListedMethods = 4;
 
-/// Indices 0 .. n - 1 in groups of equal elements, in the order of their first ones: what looks alike is drawn once.
+/// Indices 0 .. n - 1 in groups of equal elements, in the order of their first ones, so that equal results are drawn
+/// once.
 template <class Equal>
 std::vector<std::vector<std::size_t>> groups_of_equal(std::size_t n, Equal equal) {
   std::vector<std::vector<std::size_t>> groups;
@@ -55,10 +56,10 @@ void add_method_legend(const std::vector<NamedResult>& results, const std::vecto
 /// A scene of small multiples for `panels` panels on a map: width, columns, one range, a scale bar.
 Scene small_multiples(std::size_t panels);
 
-/// An empty panel says why it is empty.
+/// Writes into an empty panel why it is empty.
 void add_note(const std::string& text, Panel& panel);
 
-/// Does a figure whose parameter `pipeline` is `wanted` (empty: any) show this one?
+/// True if a figure whose parameter `pipeline` is `wanted` (empty: any) shows this one.
 inline bool shows(std::string_view wanted, std::string_view pipeline) {
   return wanted.empty() || wanted == pipeline;
 }

@@ -1,4 +1,4 @@
-// Bounding boxes, with and without outliers, and crowded squares.
+// Computes bounding boxes, with and without outliers, and the most crowded square.
 #include "render/figures/parts/view_box.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct Interval {
   void take(double v) { low = std::min(low, v), high = std::max(high, v); }
 };
 
-constexpr std::size_t kFewValues = 20;  // of which none can be called stray
+constexpr std::size_t kFewValues = 20;  // too few to call one of them stray
 
 /// Shrinks the interval of sorted values at its lower end: at most two values or one in 500 are stray, if a gap of a
 /// twentieth of the bulk separates them from all others and from `must`.
@@ -39,7 +39,7 @@ Interval bulk_of(std::vector<double> v, const Interval& must) {
   for (double& x : mirrored) x = -x;
   const Interval rest{without_stray_low(v, must, bulk.length()),
                       -without_stray_low(mirrored, {-must.high, -must.low}, bulk.length())};
-  // Many outliers without a gap, as returns at maximum range leave: the middle 99 %.
+  // Many outliers without a gap, like returns at maximum range: the range is the middle 99 %.
   const double low = quantile(0.005), high = quantile(0.995), room = 0.1 * (high - low);
   if (v.size() < 200 || rest.length() <= 1.6 * (high - low) || !(high > low)) return rest;
   return {std::max(rest.low, std::min(must.low, low - room)), std::min(rest.high, std::max(must.high, high + room))};

@@ -9,7 +9,7 @@
 
 namespace scanbench::render {
 
-/// Sets ranges that hold all of `must_hold` and the bulk of `points`, with a margin: stray points far away from all
+/// Sets ranges that contain all of `must_hold` and the bulk of `points`, with a margin: stray points far away from all
 /// others do not shrink the rest. Without any finite point no ranges are set.
 void set_view(std::span<const Vec2> points, std::span<const Vec2> must_hold, Panel& panel);
 
@@ -26,10 +26,11 @@ struct Window {
   Polyline outline() const;
 };
 
-/// The smallest square that holds the segments, with a margin; none without finite ones.
+/// The smallest square that contains the segments, with a margin; none without finite ones.
 std::optional<Window> square_around(std::span<const Segment> segments);
 
-/// The one of this side that holds the most places around one of them, centred on those it holds; the first of equals.
+/// Of the squares of this side around one of the places, the one that contains the most, centred on these; the first of
+/// equals.
 std::optional<Window> fullest_window(std::span<const Vec2> places, double side);
 
 /// Larger side of the bounding box; 0 without finite ends.

@@ -154,7 +154,7 @@ TEST(PointToLine, AlignsNoisyScansBetterThanOneReadingMeasures) {
     const std::vector<Pose2> initial = perturbed(path(), seed);
     const Alignment result = align(scans, initial);
     EXPECT_EQ(result.status, Status::converged);
-    // Some 70 readings a wall: the mean of sigma = 2 cm is good to 2.4 mm, and three times that is rare.
+    // Some 70 readings per wall: the mean of sigma = 2 cm has an error of 2.4 mm, and three times that is rare.
     expect_poses(result.world_from_sensor, held_at_first(path(), initial), 0.008);
   }
 }
@@ -276,8 +276,8 @@ TEST(PointToLine, AScanWithoutReturnsKeepsItsStepFromTheOneBefore) {
 TEST(PointToLine, AScanWithoutLinesOfItsOwnIsRegisteredByItsPoints) {
   ScanSeries scans;
   for (std::size_t k = 0; k < path().size(); ++k) {
-    // So fine that the last point of a wall is within the margin of the corner: without a surface of its own, a point
-    // between the two would take the next wall for its own.
+    // The beams are so dense that the last point of a wall is within the margin of the corner: without its own surface,
+    // a point between the two would be assigned to the next wall.
     const OwnedScan scan = cast(ring_sensor(1440), room(), path()[k]);
     if (k == 3) {
       scans.add(scan, {.lines = {}, .labels = std::vector<int>(1440, -1)});
@@ -356,7 +356,7 @@ TEST(ObservableMotions, AreThoseThatTheMatrixDetermines) {
   using align::observable;
   EXPECT_EQ(observable(Eigen::Matrix3d::Zero()).rank(), 0);
   EXPECT_EQ(observable(Eigen::Matrix3d::Identity()).rank(), 3);
-  // Walls along x say nothing of x.
+  // Walls along x do not determine x.
   const align::Observable corridor = observable(Eigen::Vector3d(1e-4, 1.0, 0.5).asDiagonal());
   ASSERT_EQ(corridor.rank(), 2);
   EXPECT_NEAR(corridor.motions.row(0).norm(), 0.0, 1e-15);

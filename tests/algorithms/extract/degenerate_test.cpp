@@ -1,5 +1,5 @@
-// What each line extractor, with its defaults, answers where a scan hardly holds a line: the claims of
-// docs/algorithms/degenerate.md, one test a column. An extractor that is not in the table fails the first test.
+// The results of each line extractor, with its defaults, on scans with few or no lines: the claims of
+// docs/algorithms/degenerate.md, one test per column. An extractor that is not in the table fails the first test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,10 +27,10 @@ struct Answer {
   std::optional<int> lines_over_seam;  ///< of a wall that a full turn begins and ends on
 };
 
-// fewest_returns is the default of min_points, but for fuzzy_lines: 5 points in 4 clusters make one of two points.
-// Where its clusters end in a room depends on where they start: nothing is claimed. sef sees no corner of a closed
-// room, since ranges do not jump there, and kovesi's contours end at every noisy pair of neighbours that stand closer
-// than the noise.
+// fewest_returns is the default of min_points, but for fuzzy_lines: 5 points in 4 clusters make one of two points. Its
+// clusters in a room depend on their initialisation, so nothing is claimed. sef finds no corner of a closed room,
+// because ranges do not jump there, and kovesi's contours end at every noisy pair of neighbours that are closer
+// together than the noise.
 const std::map<std::string, Answer> kAnswers = {
     {"em", {5, false, 4, 1}},
     {"fuzzy_lines", {5, true, {}, {}}},
@@ -117,7 +117,7 @@ TEST_P(DegenerateScan, WhyABeamHasNoReturnDoesNotMatter) {
 }
 
 TEST_P(DegenerateScan, TenBeamsOfARoomAreLinesOnlyWhereTwoOrThreePointsMayBeOne) {
-  const ScanLines result = extract(square_room(10, 3));  // two or three beams a wall
+  const ScanLines result = extract(square_room(10, 3));  // two or three beams per wall
   if (expected().fewest_returns > 3 && GetParam() != "fuzzy_lines")
     EXPECT_TRUE(result.lines.empty());
   else

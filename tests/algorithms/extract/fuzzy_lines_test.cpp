@@ -1,4 +1,4 @@
-// Fuzzy clustering of lines, Borges & Aldon 2000, section 2.3: what equations (1) to (10) imply.
+// Fuzzy clustering of lines, Borges & Aldon 2000, section 2.3: the properties that equations (1) to (10) imply.
 #include "algorithms/extract/parts/fuzzy_clustering.hpp"
 
 #include <cmath>
@@ -120,7 +120,7 @@ TEST(FuzzyLines, StayFiniteWhenAllPointsCoincide) {
   for (const FuzzyLine& line : r.lines) {
     EXPECT_TRUE(line.normal.allFinite() && line.centre.allFinite() && std::isfinite(line.rho));
   }
-  EXPECT_EQ(r.lines[0].normal, initial[0].normal);  // no direction in the points: the angle stays
+  EXPECT_EQ(r.lines[0].normal, initial[0].normal);  // the points have no direction, so the angle stays
 }
 
 TEST(FuzzyLines, WithOnePrototypeAreTheOrthogonalLeastSquaresLine) {

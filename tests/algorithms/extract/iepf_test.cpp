@@ -1,4 +1,4 @@
-// IEPF against the textbook recursion, and what follows from the definition.
+// IEPF against the textbook recursion, and properties that follow from the definition.
 #include <algorithm>
 
 #include <gtest/gtest.h>

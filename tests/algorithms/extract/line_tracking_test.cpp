@@ -1,4 +1,4 @@
-// Line tracking against a refit at every step, and what follows from the definition.
+// Line tracking against a refit at every step, and properties that follow from the definition.
 #include <gtest/gtest.h>
 
 #include "tests/support/extraction.hpp"

@@ -1,5 +1,5 @@
-// The optimal extractor: exactness of its dynamic programme, the maximum-likelihood line and its covariance, and what
-// they give on scans.
+// The optimal extractor: exactness of its dynamic programme, the maximum-likelihood line and its covariance, and the
+// results on scans.
 #include <array>
 #include <cmath>
 #include <functional>
@@ -46,7 +46,7 @@ Points random_points(std::uint32_t seed, int n, double step_rad = 0.05) {
   return points;
 }
 
-// Half the weighted sum of squares left by least squares, by a solver that knows nothing of the programme's sums.
+// Half the weighted sum of squared residuals of least squares, by a solver that does not use the programme's sums.
 double misfit(const Points& points, int first, int last) {
   const int n = last - first + 1;
   if (n <= 2) return 0.0;
@@ -323,8 +323,8 @@ std::vector<double> room_scan(const SensorModel& s, std::uint32_t seed) {
 }
 
 TEST(OptimalModule, FindsEachWallOfARoomOnceAndTheBox) {
-  // Of the box only its near face is seen, from y = -1 to 0.5. Its shadow on the wall x = 5 goes from y = 0.2 - 1.2 *
-  // 4.9/1.9 = -2.9, beyond the corner, to 0.97: one piece of that wall is left.
+  // Only the near face of the box is visible, from y = -1 to 0.5. Its shadow on the wall x = 5 goes from y = 0.2 - 1.2
+  // * 4.9/1.9 = -2.9, beyond the corner, to 0.97, so one piece of that wall is visible.
   const auto module = Registry<LineExtractor>::make("optimal");
   for (const double sigma : {0.005, 0.02, 0.05})
     for (std::uint32_t seed = 0; seed < 10; ++seed) {
@@ -353,7 +353,7 @@ TEST(OptimalModule, FindsEachWallOfARoomOnceAndTheBox) {
     }
 }
 
-TEST(OptimalModule, PassesOverSpuriousReturnsOnlyIfTheSensorGivesThem) {
+TEST(OptimalModule, SkipsSpuriousReturnsOnlyIfTheSensorGivesThem) {
   SensorModel s = sensor(181, 0.01);
   s.geometry = ScanGeometry(radians(-45), radians(0.5), 181);
   std::vector<double> ranges;
@@ -383,7 +383,7 @@ TEST(OptimalModule, CrossesMissingBeamsAsFarAsTheSensorLosesThem) {
   EXPECT_EQ(module->extract({s, ranges}, silent).lines.size(), 1u);  // lost returns
 }
 
-TEST(OptimalModule, GivesAtMostAsManyLinesAsAsked) {
+TEST(OptimalModule, GivesAtMostAsManyLinesAsRequested) {
   const SensorModel s = sensor(451, 0.02);
   const std::vector<double> ranges = room_scan(s, 3);
   for (const std::int64_t k : {1, 3, 6}) {

@@ -1,5 +1,5 @@
 // Polylines of greatest likelihood: the search against all chains of a few points, the refinement against numerical
-// derivatives, and what both give on scans of polygons.
+// derivatives, and the results of both on scans of polygons.
 #include <array>
 #include <cmath>
 #include <functional>
@@ -274,7 +274,7 @@ TEST(PolylineModule, FindsHowManyVerticesThereAre) {
   }
 }
 
-TEST(PolylineModule, GivesAtMostAsManyVerticesAsAsked) {
+TEST(PolylineModule, GivesAtMostAsManyVerticesAsRequested) {
   SensorModel s = all_around(360, 0.02);
   s.geometry = ScanGeometry(-2.0, 0.01, 400);  // not closed
   const std::vector<double> ranges = scan_of(kPentagon, s, 1);

@@ -1,5 +1,5 @@
-// Extractors that promise the walls of a room: each visible wall once, in its place, also under noise and across the
-// seam of a full turn where they say so.
+// Extractors that promise the walls of a room: each visible wall once, in its place, also under noise and, if they
+// claim it, across the seam of a full turn.
 #include <algorithm>
 #include <map>
 
@@ -36,7 +36,7 @@ std::map<int, std::vector<std::size_t>> lines_of_walls(const OwnedScan& scan, co
     for (std::size_t i = 0; i < lines.labels.size(); ++i)
       if (lines.labels[i] == static_cast<int>(k)) ++votes[scan.ids[i]];
     const auto most = std::ranges::max_element(votes, {}, [](const auto& v) { return v.second; });
-    // A corner may lend up to four points or a tenth.
+    // Up to four points, or a tenth, may come from the next wall at a corner.
     EXPECT_GE(most->second, lines.lines[k].points - std::max(4.0, 0.1 * lines.lines[k].points))
         << "line " << k << " mixes walls";
     result[most->first].push_back(k);
@@ -89,7 +89,7 @@ TEST(Seam, IsClosedByThoseThatMergeOnAFullTurn) {
 
 TEST(Ransac, DependsOnItsSeedAlone) {
   const OwnedScan scan = testing::random_scan(4);
-  // One trial per line: with more the refinement makes nearly the same lines of any seed.
+  // One trial per line: with more trials the refinement gives nearly the same lines for every seed.
   const auto with = [&](std::int64_t seed) {
     return testing::extract("ransac", scan, {{"seed", ParamValue(seed)}, {"trials", ParamValue(std::int64_t{1})}});
   };

@@ -1,4 +1,4 @@
-// SEF: the count of jumps by brute force, and what follows from the definition.
+// SEF: the count of jumps by brute force, and properties that follow from the definition.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ TEST(Sef, RangesRoundedToFiveCentimetresMakeSixAndNineTheSameThreshold) {
   }
 }
 
-// A plane 1 m away, seen until the beam meets it at 12 degrees.
+// A plane 1 m away, seen until the beam hits it at 12 degrees.
 OwnedScan grazing_plane() {
   SensorModel sensor;
   sensor.geometry = ScanGeometry(0.0, radians(0.5), 157);
@@ -107,7 +107,7 @@ TEST(Sef, TheLinearThresholdGrowsWithTheSmallerRange) {
   EXPECT_EQ(beam_runs(lines), (std::vector<std::pair<int, int>>{{0, 0}, {1, 2}, {3, 5}}));
 }
 
-TEST(Sef, SinglePointsAreDroppedUnlessAskedFor) {
+TEST(Sef, SinglePointsAreDroppedUnlessRequested) {
   OwnedScan scan = testing::constant_scan(testing::fan_sensor(5, 0.1), 1.0);
   scan.ranges = {1.0, 1.0, 3.0, 1.0, 1.0};
   EXPECT_EQ(testing::extract("sef", scan).labels, (std::vector<int>{0, 0, -1, 1, 1}));

@@ -142,7 +142,9 @@ TEST_P(EveryInitialisation, CutsANoiseFreeCornerIntoItsTwoLegs) {
     for (const double sigma_max : {0.02, 0.05})
       wrong += smf(points, {.sigma_max_m = sigma_max, .initialisation = GetParam()}).size() != 2;
   }
-  EXPECT_LE(wrong, 2);  // of 200: the clusters are compact blobs, and the crumb they leave at a corner may stay one
+  EXPECT_LE(
+      wrong,
+      2);  // of 200: the clusters are compact, and the few points that they leave at a corner may remain a cluster
 }
 
 TEST(Smf, SeesARectangularRoomAsAboutOneLinePerWall) {
@@ -281,7 +283,7 @@ TEST(SmfModule, FindsNothingWhereNothingReturned) {
   EXPECT_TRUE(module->extract({none, {}}, silent).labels.empty());
 }
 
-TEST(SmfModule, DropsLinesWithFewerPointsThanAsked) {
+TEST(SmfModule, DropsLinesWithFewerPointsThanRequested) {
   const SensorModel s = sensor(30);
   std::vector<double> ranges(30, 2.0);
   for (std::size_t i = 12; i < 15; ++i) ranges[i] = 9.0;

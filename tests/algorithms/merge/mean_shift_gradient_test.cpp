@@ -1,5 +1,5 @@
-// Gradient check of both phases on the spiral (Lakaemper 2009, figure 2), by brute force in double from what the merger
-// writes into its trace: modes are modes of the density that the paper's kernels define, and every climb climbs.
+// Gradient check of both phases on the spiral (Lakaemper 2009, figure 2), by brute force in double from the merger's
+// trace: modes are modes of the density that the paper's kernels define, and the density never falls along a climb.
 #include <gtest/gtest.h>
 
 #include <cmath>

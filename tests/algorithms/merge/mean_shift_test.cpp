@@ -101,7 +101,7 @@ TEST(MeanShift, Phase2MergesAlongTheDirectionOfTheClusterAndNotAcrossIt) {
     const auto clusters_at = [&](const Vec2& offset, double factor) {
       ParamSet params = kStrict;
       params["kernel2_factor"] = factor;
-      params["epsilon_sigma"] = 100.0;  // phase 1 must not tell them apart
+      params["epsilon_sigma"] = 100.0;  // phase 1 must not separate them
       return clusters(merge({centred({3, 1}, direction), centred(Vec2(3, 1) + offset, direction)}, params).cluster2);
     };
     for (const double f : {1.0, 2.0}) {
@@ -174,7 +174,7 @@ TEST(MeanShift, TheOutputsOfOneSegmentCoverItForEveryLabelling) {
   }
 }
 
-// Exact modes of a wall seen often lie two to three sigma apart on a flat ridge: distance alone does not link them.
+// Exact modes of a wall seen often are two to three sigma apart on a flat ridge, so distance alone does not link them.
 TEST(MeanShift, AWallSeenOftenIsOneLineBecauseModesOfOneRidgeAreLinked) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     CounterRng rng(seed, RngStream::pose);
@@ -188,7 +188,7 @@ TEST(MeanShift, AWallSeenOftenIsOneLineBecauseModesOfOneRidgeAreLinked) {
   }
 }
 
-// A ridge that turns is not followed: a round column stays a polygon.
+// A ridge that bends is not followed, so a round column stays a polygon.
 TEST(MeanShift, ARoundColumnStaysRound) {
   for (const double radius : {0.5, 2.0}) {
     CounterRng rng(4, RngStream::pose);

@@ -1,4 +1,4 @@
-// Traces: what is written is what a listener gets, and rows come back as the structs that wrote them.
+// Traces: a listener gets what is written, and rows are read as the structs that wrote them.
 #include "core/trace/trace.hpp"
 
 #include <cmath>

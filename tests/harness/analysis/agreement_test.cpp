@@ -49,7 +49,7 @@ std::vector<std::string> texts(const ComparedColumn& column) {
   return result;
 }
 
-TEST(Orderings, AreThePairsThatThePaperTellsApart) {
+TEST(Orderings, AreThePairsWithDifferentPrintedValues) {
   // Line 1: SMF < LT < IEPF, and so have we. Line 2: LT = IEPF > SMF; our medians are 3, 2, 2.
   const auto column = column_of({{2, 3, 1}, {2, 2, 1}}, {{{2.5}, {4.0}, {1.5}}, {{3.0}, {2.0}, {2.0}}});
   EXPECT_THAT(texts(column),
@@ -149,7 +149,7 @@ class PublishedFile : public ::testing::Test {
   testing::TemporaryFolder folder_;
 };
 
-TEST_F(PublishedFile, StandsBesideOursByMetricSubjectMethodAndSeed) {
+TEST_F(PublishedFile, IsPairedWithOursByMetricSubjectMethodAndSeed) {
   const auto scenario = scenario_with_published(
       "metric,subject,method,value,unit,table\n"
       "eps,1,LT T=6cm,4.10,cm,2\n"

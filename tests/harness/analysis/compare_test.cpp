@@ -1,3 +1,4 @@
+// Comparison of two runs: pairs, verdicts, and rows that fail or are missing.
 #include "harness/analysis/compare.hpp"
 
 #include <gmock/gmock.h>
@@ -44,7 +45,7 @@ TEST(Compare, PairsBySeedAndJudgesByDirectionAndTolerance) {
   const fs::path b = run_with_skip(folder.path() / "b", 1);
   const Comparison worse = compare_runs(a, b);
   EXPECT_EQ(worse.exit_code(), 1);
-  EXPECT_EQ(worse.counts.at(Verdict::worse), 2);  // pipeline a, both seeds; b was not touched
+  EXPECT_EQ(worse.counts.at(Verdict::worse), 2);  // pipeline a, both seeds; b is unchanged
   for (const auto& row : worse.rows) {
     if (row.metric != "test_unlabelled") continue;
     EXPECT_EQ(row.difference, row.cell.pipeline == "a" ? 5.0 : 0.0);

@@ -1,4 +1,4 @@
-// The fuzzers' corpus through the readers: what a fuzzer once found stays found.
+// Reads the fuzzers' corpus, so that faults that a fuzzer once found do not return.
 #include <gtest/gtest.h>
 
 #include "fuzz/inputs.hpp"

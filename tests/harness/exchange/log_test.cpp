@@ -1,4 +1,4 @@
-// Log readers: what a line means, what is refused, and the logs that people have.
+// Log readers: the meaning of lines, refusals, and well-known logs.
 #include "harness/exchange/log.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SHA-256, and atomic replacement of files: full disks, killed writers, special files.
 #include "harness/files/atomic_file.hpp"
 
 #include <gmock/gmock.h>
@@ -45,7 +46,7 @@ TEST(AtomicFile, WithoutRoomTheOldFileStaysAndTheReasonIsNamed) {
   const testing::TemporaryFolder folder;
   const fs::path file = folder.path() / "f";
   write_file_atomically(file, "old");
-  WorkerPool pool;  // a child, so that the limit does not stay with the other tests
+  WorkerPool pool;  // a child, so that the limit does not affect the other tests
   pool.start(0,
              [&]() -> std::string {
                const rlimit limit{1000, 1000};

@@ -1,3 +1,4 @@
+// CSV files: quotes, exact numbers, and messages with file and line.
 #include "harness/files/csv.hpp"
 
 #include <gmock/gmock.h>

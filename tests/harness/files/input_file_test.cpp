@@ -1,4 +1,5 @@
-// What is no regular file, or is too large, is refused before it can block a run or fill the memory.
+// Paths that are no regular file, and files that are too large, are refused before they can block a run or fill the
+// memory.
 #include "harness/files/input_file.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// NPY files: bytes of the format, exact doubles, and refused files.
 #include "harness/files/npy.hpp"
 
 #include <gmock/gmock.h>

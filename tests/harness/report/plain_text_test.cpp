@@ -1,4 +1,4 @@
-// What modules and file names may contain, and what of it reaches a reader.
+// Characters from modules and file names, and those that reach a reader.
 #include "harness/report/plain_text.hpp"
 
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ TEST(PlainText, HasNoControlCharactersAndIsValidUtf8) {
                        "b"),
             "a?b");  // right-to-left override
   EXPECT_EQ(plain_text("\xff\xc3(\xc0\x80\xed\xa0\x80"), std::string(2, '?') + "(" + std::string(5, '?'));
-  EXPECT_EQ(plain_text("\xe2\x82"), std::string(2, '?'));  // cut short
+  EXPECT_EQ(plain_text("\xe2\x82"), std::string(2, '?'));  // truncated
 }
 
 TEST(PlainLine, IsBoundedAndCutBetweenCharacters) {

@@ -1,4 +1,4 @@
-// What a reader of the tables is told: marks, missing cells, common input, digits.
+// Result tables: marks, missing cells, common input, digits.
 #include "harness/report/results_table.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The three spellings of a table.
+// Tables as terminal text, Markdown and HTML.
 #include "harness/report/table.hpp"
 
 #include <gmock/gmock.h>

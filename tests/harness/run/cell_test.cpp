@@ -1,3 +1,4 @@
+// Files and address of a cell.
 #include "harness/store/cell_files.hpp"
 
 #include <gmock/gmock.h>
@@ -132,7 +133,7 @@ TEST(CellFiles, HaveTheNamesAndColumnsOfTheContract) {
   EXPECT_FALSE(load_result(alone.path()).has_map);
 }
 
-TEST(CellFiles, TellAnEmptyMapFromNone) {
+TEST(CellFiles, DistinguishAnEmptyMapFromNone) {
   const testing::TemporaryFolder folder;
   PipelineResult nothing_merged;
   nothing_merged.has_map = true;

@@ -1,3 +1,4 @@
+// Pipelines: contract of the lines, parameters, stages and their times.
 #include "harness/run/pipeline.hpp"
 
 #include <gmock/gmock.h>
@@ -35,7 +36,7 @@ PipelineRun run_slots(const std::vector<std::pair<std::string, std::string>>& sl
   return run_pipeline(pipeline, recording().observed, journal);
 }
 
-/// One line that keeps the contract but for one thing.
+/// A line that breaks the contract in one point.
 class FaultyLine final : public LineExtractor {
  public:
   struct Params {
@@ -226,7 +227,7 @@ TEST(Pipeline, JournalHasARowForEveryWriteWithItsSlotFrameAndStage) {
   EXPECT_EQ(rows.text(6, "slot"), "merge");
   EXPECT_EQ(rows.integer(6, "frame"), -1);
   EXPECT_EQ(rows.text(6, "values"), std::to_string(plain.map.lines[0].points));
-  EXPECT_EQ(run.result.map.lines[0].segment, plain.map.lines[0].segment);  // listening changes nothing
+  EXPECT_EQ(run.result.map.lines[0].segment, plain.map.lines[0].segment);  // a listener changes nothing
 }
 
 TEST(Pipeline, BeginsBehindExtractWhereLinesAreGiven) {

@@ -1,3 +1,4 @@
+// Runs: equal bytes for any number of jobs, resume, and failed cells.
 #include "harness/run/runner.hpp"
 
 #include <gmock/gmock.h>
@@ -19,6 +20,7 @@
 #include "harness/run/score.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
+#include "harness/store/run_file.hpp"
 #include "harness/store/run_lock.hpp"
 #include "harness/store/run_target.hpp"
 #include "tests/support/runs.hpp"
@@ -27,6 +29,7 @@ namespace scanbench::harness {
 namespace {
 
 namespace fs = std::filesystem;
+const RunFile kFigures("figures/*.png");  // its writer, the report, is not in this program
 using testing::cell_of;
 using ::testing::ElementsAre;
 using testing::extract_with;
@@ -122,7 +125,7 @@ TEST(Runner, ResumeRunsAgainWhatHasChangedOrIsDamagedAndNothingElse) {
   EXPECT_EQ(testing::artefacts(out), testing::artefacts(folder.path() / "fresh"));
 }
 
-/// A manifest as a run leaves it that is killed: without the list of files.
+/// The manifest of a killed run, which has no list of files.
 void forget_artefacts(const fs::path& run) {
   auto json = nlohmann::ordered_json::parse(read_file(run / "manifest.json"));
   ASSERT_FALSE(json.at("artefacts").empty());
@@ -159,7 +162,7 @@ TEST(Runner, ResumeRunsAgainACellWithADamagedFile) {
   for (const auto& [name, damages] : cases)
     for (std::size_t i = 0; i < damages.size(); ++i)
       for (const bool killed : {false, true}) {
-        if (killed && i > 0) continue;  // without hashes a file may be changed unnoticed, but none may be absent
+        if (killed && i > 0) continue;  // without hashes a changed file is not noticed, but a missing one is
         SCOPED_TRACE(name + ", damage " + std::to_string(i) + (killed ? ", killed" : ""));
         damages[i](cell / name);
         if (killed) forget_artefacts(out);
@@ -173,7 +176,7 @@ TEST(Runner, ResumeRunsAgainACellWithADamagedFile) {
   EXPECT_TRUE(cell_of(result, "s/merging/1").reused);
 }
 
-TEST(Runner, TurnsEveryKindOfTroubleIntoARow) {
+TEST(Runner, TurnsEveryKindOfFailureIntoARow) {
   const testing::TemporaryFolder folder;
   Scenario scenario =
       scenario_with("s", {extract_with("ok", "test_line"), extract_with("failed", "test_throw"),
@@ -257,7 +260,7 @@ TEST(Runner, BadInputLeavesNothingBehind) {
   }
   EXPECT_FALSE(fs::exists(out));
 
-  // One bad scenario among good ones costs its own cells only.
+  // One bad scenario among good ones loses only its own cells.
   bad.recording = [](const Scenario& s, std::uint64_t seed, int) -> Recording {
     if (s.name == "one") throw ConfigError("the path crosses wall w3");
     return testing::random_recording(seed, 5, 16, true);
@@ -362,7 +365,7 @@ TEST(Runner, AnErrorOfTheSystemMakesACellMissingAndKeepsTheOldRun) {
   EXPECT_EQ(testing::listing(folder.path()), before);
   EXPECT_EQ(testing::artefacts(out), bytes);
 
-  // Nothing is lost in a new folder: what has succeeded stays, and only the rest is run again.
+  // Nothing is lost in a new folder: finished cells stay, and only the rest is run again.
   const RunResult fresh = run_here(full, {.out = folder.path() / "new"});
   EXPECT_EQ(fresh.exit_code(), 4);
   EXPECT_FALSE(fresh.old_run_kept);
@@ -396,7 +399,7 @@ TEST(Runner, ASelectionKeepsTheOtherCellsOfAnEarlierRun) {
   EXPECT_FALSE(result.cells[0].reused);
   EXPECT_EQ(testing::artefacts(out), before);
 
-  // What belongs to other input can neither stay nor be dropped without a word.
+  // Cells of other input can neither stay nor be dropped without a message.
   scenarios[0].pipelines[1].slots[0].params["skip"] = std::int64_t{2};
   EXPECT_THROW(run_here(scenarios, {.out = out, .only = {"a"}}), ConfigError);
   EXPECT_THROW(run_here({scenario_with("t", {extract_with("a", "test_line")})}, {.out = out, .only = {"a"}}),

@@ -1,3 +1,4 @@
+// Scores of a run: choice of families, repetition, and interruption.
 #include "harness/run/score.hpp"
 
 #include <gmock/gmock.h>
@@ -60,7 +61,7 @@ TEST(Score, OfARunReadsFilesOnlyAndMayBeRepeatedWithOtherMetrics) {
   score_run(run, {scenario});
   EXPECT_EQ(read_file(run / "summary.csv"), summary_header());
   scenario.metrics = metrics;
-  EXPECT_EQ(stands(), 0);  // cells without metrics are not those of the scenario
+  EXPECT_EQ(stands(), 0);  // cells without metrics do not belong to the scenario
   scenario.metrics = {{"metrics", "test_metrics", {}}};
   // The labels decide, not what the run once computed.
   const fs::path cell = cell_path(run, {"s", "good", 1});
@@ -102,7 +103,7 @@ TEST(Score, ThatIsStoppedLeavesTheRunAsItWas) {
   Scenario scenario = testing::scenario_with("s", {testing::extract_with("good", "test_line")}, {1, 2, 3});
   testing::run_here({scenario}, {.out = run});
   const auto before = testing::artefacts(run);
-  scenario.metrics = {};  // other rows than those that stand there
+  scenario.metrics = {};  // other rows than those in the run
   struct Stopped {};
   std::vector<std::string> told;
   const auto stop = [&](double share, const std::string& cell) {

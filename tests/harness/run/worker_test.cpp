@@ -1,3 +1,4 @@
+// Worker processes: results, exceptions, crashes and timeouts.
 #include "harness/run/worker.hpp"
 
 #include <gmock/gmock.h>
@@ -36,7 +37,7 @@ WorkerOutcome outcome_of(const std::function<std::string()>& task, const WorkerL
   return finished.empty() ? WorkerOutcome{} : finished.front().outcome;
 }
 
-/// A named pipe that a task opens by its name, for it inherits no descriptor.
+/// A named pipe that a task opens by its name, because it inherits no descriptor.
 class Fifo {
  public:
   Fifo() : path_((folder_.path() / "fifo").string()) {
@@ -53,7 +54,7 @@ class Fifo {
     const int held = ::open(path(), O_WRONLY);
     if (::write(held, "x", 1) != 1) ::_exit(9);
   }
-  /// Waits until nobody holds it any more. False: nobody ever did.
+  /// Waits until no process has it open. False if none ever had.
   bool is_released() {
     const int reader = ::open(path(), O_RDONLY | O_NONBLOCK);
     ::close(descriptor_);
@@ -78,7 +79,7 @@ TEST(Worker, BringsBackWhatTheTaskReturnsHoweverLong) {
   EXPECT_GT(outcome.wall_seconds, 0.0);
 }
 
-TEST(Worker, TellsExceptionsApart) {
+TEST(Worker, DistinguishesExceptions) {
   const auto failed = outcome_of([]() -> std::string { throw std::runtime_error("reason"); });
   EXPECT_EQ(failed.status, CellStatus::failed);
   EXPECT_EQ(failed.message, "reason");
@@ -211,7 +212,7 @@ TEST(Worker, HoldsTheMemoryLimit) {
   };
   EXPECT_EQ(outcome_of([&] { return eat(300); }, {.memory_bytes = 200e6}).status, CellStatus::out_of_memory);
   EXPECT_EQ(outcome_of([&] { return eat(100); }, {.memory_bytes = 200e6}).status, CellStatus::ok);
-  // Where the exception meets a noexcept, the process ends by abort().
+  // An exception in a noexcept function ends the process by abort().
   const auto outcome = outcome_of(
       [&]() -> std::string {
         [&]() noexcept { eat(300); }();
@@ -221,7 +222,7 @@ TEST(Worker, HoldsTheMemoryLimit) {
   EXPECT_EQ(outcome.status, CellStatus::out_of_memory) << outcome.message;
 }
 
-TEST(Worker, TakesAKillBySomebodyElseForWantOfMemory) {
+TEST(Worker, TreatsAKillByAnotherProcessAsOutOfMemory) {
   EXPECT_EQ(outcome_of([]() -> std::string {
               ::raise(SIGKILL);
               return "";
@@ -230,7 +231,7 @@ TEST(Worker, TakesAKillBySomebodyElseForWantOfMemory) {
 }
 
 TEST(Worker, RunsSeveralAtOnce) {
-  // Each waits for a byte that the other one writes: one after the other, they would never end.
+  // Each waits for a byte that the other one writes, so they would never end one after the other.
   const Fifo a;
   const Fifo b;
   const auto task = [](const char* to, const char* from) -> std::string {

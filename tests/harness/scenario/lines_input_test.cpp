@@ -1,4 +1,4 @@
-// Lines in place of scans: files of lines, scenarios that begin with them, and whole runs.
+// Lines instead of scans: files of lines, scenarios that begin with them, and whole runs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,8 +42,8 @@ TEST(LineSet, RefusesWhatItCannotReadWithItsPlace) {
   EXPECT_THAT(refusal_of(head), HasSubstr("no line in 1 rows"));
   EXPECT_THAT(refusal_of("x1_m,y1_m,x2_m\n"), HasSubstr("mine.csv:1:1: no column y2_m"));
   EXPECT_THAT(refusal_of("x1_m,y1_m,x2_m,y2_m,x1_m\n"), HasSubstr("two columns are called 'x1_m'"));
-  EXPECT_THAT(refusal_of("x1_m,y1_m,x2_m,y2_m,colour\n"), HasSubstr("mine.csv:1:21: a column 'colour'"));
-  EXPECT_THAT(refusal_of("1,2,3,4\n"), HasSubstr("mine.csv:1:1: a column '1'; allowed in the first row: x1_m"));
+  EXPECT_THAT(refusal_of("x1_m,y1_m,x2_m,y2_m,colour\n"), HasSubstr("mine.csv:1:21: unknown column 'colour'"));
+  EXPECT_THAT(refusal_of("1,2,3,4\n"), HasSubstr("mine.csv:1:1: unknown column '1'; allowed in the first row: x1_m"));
   EXPECT_THAT(refusal_of(head + "0,1,2,3\n"), HasSubstr("mine.csv:2:1: a row of 4 fields; allowed: 5"));
   EXPECT_THAT(refusal_of(head + "0,1,2,three,4\n"), HasSubstr("mine.csv:2:7: x2_m is 'three'; allowed: a number"));
   EXPECT_THAT(refusal_of(head + "0,1,nan,3,4\n"), HasSubstr("mine.csv:2:5: y1_m is 'nan'"));

@@ -132,7 +132,7 @@ TEST(Scenario, OverridesReachEveryPartAndAreCheckedLikeTheFile) {
   EXPECT_THAT(refusal("limit.seconds=1"), HasSubstr("unknown key 'limit' in the scenario; did you mean 'limits'?"));
 }
 
-// The same content, wherever it was read.
+// The same content, independent of the folder it was read from.
 void expect_stable(const Scenario& scenario) {
   const std::string effective = effective_yaml(scenario);
   Scenario again;
@@ -283,7 +283,7 @@ TEST(Suite, KeepsThePathOfPublishedValuesAsWritten) {
   EXPECT_EQ(load_suite(file).scenarios[0].published_as_written, "paper.csv");
 }
 
-TEST(MakeRecording, SaysTheArithmeticBeforeItTakesTheMemory) {
+TEST(MakeRecording, StatesTheCalculationBeforeItTakesTheMemory) {
   const Scenario s = parse_scenario(
       kSmall, "x.yaml",
       {"trajectory.scans=1000000", "sensor.beams=2000", "sensor.angle_step_deg=0.1", "sensor.time_per_beam_s=0"});

@@ -1,4 +1,4 @@
-// World files: what they mean, and that the shipped ones are whole.
+// World files: their meaning, and the shipped ones.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

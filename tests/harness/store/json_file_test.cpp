@@ -1,3 +1,4 @@
+// JSON files of a run that are refused.
 #include "harness/store/json_file.hpp"
 
 #include <gmock/gmock.h>

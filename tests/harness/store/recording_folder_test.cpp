@@ -1,3 +1,4 @@
+// Folder of a recording: exact values, contract, hash and damage.
 #include "harness/store/recording_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/files/npy.hpp"
+#include "harness/store/run_file.hpp"
 #include "harness/store/run_folder.hpp"
 #include "sim/line_copies.hpp"
 #include "tests/support/runs.hpp"
@@ -96,7 +98,7 @@ TEST(RecordingFolder, HasTheFilesAndColumnsOfTheContract) {
   EXPECT_EQ(frames.text(0, "true_x_m") + frames.text(0, "true_y_m") + frames.text(0, "true_yaw_rad"), "");
 }
 
-TEST(RecordingFolder, GivesBackLinesThatStandInPlaceOfScans) {
+TEST(RecordingFolder, GivesBackLinesInsteadOfScans) {
   const testing::TemporaryFolder folder;
   const fs::path r = folder.path() / "r";
   sim::World world;
@@ -105,7 +107,7 @@ TEST(RecordingFolder, GivesBackLinesThatStandInPlaceOfScans) {
   save_recording(r, saved);
   EXPECT_THAT(testing::listing(r), ElementsAre("frames.csv", "lines.csv", "ranges.npy", "rotations.npy", "scan.json",
                                                "true_ranges.npy", "wall_ids.npy", "walls.csv"));
-  // Else a new run in the same folder would keep it beside scans, as a file of somebody else.
+  // Otherwise a new run in the same folder would keep it beside scans, as a file that no run writes.
   for (const auto& name : testing::listing(r)) EXPECT_TRUE(is_run_file(fs::path("recordings/s/1") / name)) << name;
   const Recording loaded = load_recording(r);
   EXPECT_EQ(recording_files(loaded), recording_files(saved));

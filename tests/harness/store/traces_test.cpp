@@ -1,3 +1,4 @@
+// Choice of trace rows, and their files.
 #include "harness/store/traces.hpp"
 
 #include <cmath>
@@ -40,7 +41,7 @@ struct EmptyRow {
   static constexpr auto columns() { return std::tuple<>{}; }
 };
 
-TEST(TraceChoice, WantsTheNamedRowsOfASlotAndTellsChoicesApart) {
+TEST(TraceChoice, WantsTheNamedRowsOfASlotAndDistinguishesChoices) {
   const TraceChoice none, all{.all = true}, some{.names = {"merge.mode", "merge.line"}};
   EXPECT_TRUE(none.nothing());
   EXPECT_FALSE(none.wants("merge"));

@@ -1,4 +1,4 @@
-// The gate in front of YAML, the typed reader behind it, overrides, and the canonical writer.
+// The YAML gate, the typed reader, overrides, and the canonical writer.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -117,7 +117,7 @@ TEST(YamlReader, SaysWhatWasFoundAndWhatIsAllowed) {
   EXPECT_EQ(read_refusal("abc", threshold), "1:4: p is 'abc'; allowed: a number > 0 m");
 }
 
-TEST(YamlReader, TellsTextFromNumbersByTheQuotes) {
+TEST(YamlReader, DistinguishesTextFromNumbersByTheQuotes) {
   const ParamSpec text = spec(ParamType::text);
   EXPECT_EQ(std::get<std::string>(read("\"12\"", text)), "12");
   EXPECT_EQ(std::get<std::string>(read("abc", text)), "abc");

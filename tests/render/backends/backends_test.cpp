@@ -1,3 +1,4 @@
+// PNG and vector files of one panel: size, pixels, and equal bytes.
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>

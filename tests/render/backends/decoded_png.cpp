@@ -1,3 +1,4 @@
+// Reads a PNG file with libpng.
 #include "decoded_png.hpp"
 
 #include <gtest/gtest.h>

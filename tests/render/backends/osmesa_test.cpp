@@ -1,4 +1,4 @@
-// A missing OSMesa is an error that says what to install.
+// A missing OSMesa is an error that names the package to install.
 #include "render/backends/osmesa.hpp"
 
 #include <gmock/gmock.h>

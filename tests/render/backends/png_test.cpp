@@ -1,4 +1,4 @@
-// The encoder loses no pixel, and says how large a pixel is.
+// The encoder keeps every pixel and writes the size of a pixel.
 #include "render/backends/png.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Oblique view: scale, parallels, depth and points.
 #include "render/charts/view3.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Recording of the tests of figures: walls, scans by brute force, and lines by wall.
 #include "abcdef.hpp"
 
 #include <array>

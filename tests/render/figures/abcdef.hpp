@@ -13,7 +13,7 @@ NamedPoints abcdef_waypoints();
 /// `frames` scans of 451 beams over 270 degrees, sigma 5 cm, along the path.
 Recording abcdef_recording(int frames);
 
-/// One line per run of beams on one wall, `jitter_m` off: what an extractor might say.
+/// One line per run of beams on one wall, `jitter_m` off: like the result of an extractor.
 PipelineResult lines_by_wall_id(const Recording& recording, double jitter_m, bool with_map);
 
 }  // namespace scanbench::render::test

@@ -128,7 +128,7 @@ TEST(ScanOverlay, ShowsTheRequestedFrameAndOnePanelPerPipelineInTheMethodsColour
   }
 }
 
-TEST(Environment, DrawsAWayOnlyWhereThereIsOneAndCirclesWhereTheyStand) {
+TEST(Environment, DrawsAPathOnlyIfThereIsOneAndCirclesAtTheirPlaces) {
   const Case c = simulated(9);
   for (const bool continuous : {true, false}) {
     FigureInput input = c.input({});

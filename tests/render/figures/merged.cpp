@@ -1,3 +1,4 @@
+// Runs a merger on lines or on the result of a pipeline, and collects its trace.
 #include "merged.hpp"
 
 #include <cmath>

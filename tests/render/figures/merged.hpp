@@ -16,7 +16,7 @@ struct Merged {
   TraceRows trace;
 };
 
-/// One frame in the world's origin that holds the lines, `points` behind them.
+/// One frame at the world's origin with the lines, and `points` for them.
 Merged merged_by_mean_shift(std::span<const MapLine> lines, std::span<const Vec2> points = {},
                             const ParamSet& params = {});
 

@@ -1,3 +1,4 @@
+// Layout of a panel: scales, axis labels, scale bar and clipped lines.
 #include "render/layout/layout.hpp"
 
 #include <gtest/gtest.h>
@@ -75,7 +76,7 @@ TEST(Layout, KeepsEveryTextOnTheCanvas) {
 }
 
 TEST(Layout, AnyExtentKeepsItsAxisLabelsAndHasTwoGridLinesEachWay) {
-  // Ticks decide how wide their labels are, labels how wide the boxes, boxes what ticks there are.
+  // Ticks determine the width of their labels, labels the width of the boxes, and boxes the ticks.
   CounterRng rng(11, RngStream::range);
   for (int i = 0; i < 4000; ++i) {
     const double width = std::pow(10.0, 3.0 * rng.uniform());

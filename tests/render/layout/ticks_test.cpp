@@ -1,3 +1,4 @@
+// Ticks of linear and logarithmic axes.
 #include "render/layout/ticks.hpp"
 
 #include <gtest/gtest.h>

@@ -79,7 +79,7 @@ TEST_P(LineGridTest, FindsTheNearestLineOfEachScanThatAPlainLoopFinds) {
   EXPECT_GT(found, 200);
 }
 
-TEST(LineGrid, PassesOverWhatIsNoLineOrTooFar) {
+TEST(LineGrid, SkipsWhatIsNoLineOrTooFar) {
   const PartnerRules rules{0.5, 0.2, 0.5};
   LineGrid grid(rules, 4.0);
   const double nan = std::nan("");

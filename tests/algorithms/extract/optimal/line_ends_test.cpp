@@ -1,4 +1,4 @@
-// Lines whose ends are uncertain: what follows from Bayes' rule when the readings are drawn as the model says.
+// Lines whose ends are uncertain: properties that follow from Bayes' rule if the readings are drawn from the model.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -72,12 +72,12 @@ TEST(LineEnds, ErrorsAreAsLargeAsTheWholeCovarianceSays) {
     plain += squared_error(*line) / trials;
   }
   EXPECT_NEAR(averaged, 2.0, 4 * 2.0 / std::sqrt(trials));
-  EXPECT_GT(plain, 2.5);  // the same readings taken for the wall's
+  EXPECT_GT(plain, 2.5);  // the same readings assigned to the wall
 }
 
 // Two walls, x = 2 m and x = 2.15 m, with a straight side between them in every other scan. The cut between the lines
-// stays where it is: the side takes i readings before it and j behind it, all pairs from 0 to 6 but (0, 0) being
-// equally probable. It begins and ends anywhere between two beams.
+// is fixed: the side takes i readings before it and j after it, all pairs from 0 to 6 but (0, 0) being equally
+// probable. It begins and ends anywhere between two beams.
 struct Step {
   std::vector<BeamReading> first, second;
   std::array<int, 2> foreign{};
@@ -107,7 +107,7 @@ Step step_with_a_side(std::uint32_t seed, double side_probability) {
   return out;
 }
 
-TEST(LineEnds, SideBetweenTwoLinesIsToldFromThem) {
+TEST(LineEnds, SideBetweenTwoLinesIsDistinguishedFromThem) {
   const int trials = 3000;
   double averaged = 0.0, plain = 0.0, sides = 0.0, true_sides = 0.0;
   for (std::uint32_t seed = 0; seed < trials; ++seed) {
@@ -121,11 +121,11 @@ TEST(LineEnds, SideBetweenTwoLinesIsToldFromThem) {
     sides += found.side[1] / trials;
     true_sides += step.side ? 1.0 / trials : 0.0;
   }
-  // The variance of a place between two beams stands for its distribution, and the next line's parameters are those of
-  // greatest likelihood: 2 is not exact.
+  // The variance of a place between two beams replaces its distribution, and the next line's parameters are those of
+  // greatest likelihood, so 2 is not exact.
   EXPECT_NEAR(averaged, 2.0, 0.15);
   EXPECT_GT(plain, 4.0);
-  // A probability of 1/2 before makes for the same after, on average: sd of a mean of 3000 below 0.01.
+  // A prior probability of 1/2 gives the same posterior probability on average; the sd of a mean of 3000 is below 0.01.
   EXPECT_NEAR(sides, true_sides, 0.03);
 }
 

@@ -18,7 +18,8 @@ using testing::fan_sensor;
 using testing::OwnedScan;
 using testing::with_noise;
 
-// A slanted wall all over the view of a 90-degree fan, nearest 1.5 m, met at up to 75 degrees from its normal.
+// A slanted wall across the whole view of a 90-degree fan, 1.5 m away at its nearest, hit at up to 75 degrees from its
+// normal.
 const Segment kWall{{3, -8}, {1, 8}};
 
 SensorModel sensor_of(double sigma_m, double sigma_relative, double quantum_m, double bearing_sigma_rad) {
@@ -89,7 +90,7 @@ TEST(TlsCovariance, IsAbsentWithoutStatedNoiseAndWhereTheNoiseHidesTheDirection)
   EXPECT_FALSE(of_run(0.01, 30, 29));
 }
 
-// Which extractors state covariances: those that admit points by the sensor's noise.
+// The extractors that state covariances: those that admit points by the sensor's noise.
 const std::vector<std::string> kSure = {"em", "hough", "incremental", "optimal", "ransac", "split_and_merge"};
 
 class SureExtractor : public ::testing::TestWithParam<std::string> {};

@@ -52,7 +52,7 @@ Vec3 brute_force_mode(const std::vector<Vec3>& points, Vec3 t, double period) {
   return t;
 }
 
-/// Blobs of standard deviation 0.35 with centres uniform in a box, as pieces of walls seen in many scans lie.
+/// Blobs of standard deviation 0.35 with centres uniform in a box, like pieces of walls in many scans.
 std::vector<Vec3> blobs(std::uint64_t seed, int centres, int per_centre, double side, double period) {
   CounterRng rng(seed, RngStream::resampling);
   std::vector<Vec3> points;
@@ -120,7 +120,7 @@ TEST(MeanShiftModes, HaveAGradientOfZeroInTheUntruncatedDensity) {
   }
 }
 
-// The kernel is cut at 4 standard deviations while climbing only. What remains of the cut are starts on a watershed.
+// The kernel is cut at 4 standard deviations while climbing only. The cut has an effect only for starts on a watershed.
 TEST(MeanShiftModes, AreWhereBruteForceEndsUpToStartsOnAWatershed) {
   int other = 0;
   int all = 0;
@@ -213,7 +213,7 @@ TEST(MeanShiftModes, AcrossTheSeamOfThePeriodicCoordinateAreAsElsewhere) {
   EXPECT_EQ(find_modes(far, {.period = kPeriod}).positions.size(), 2U);
 }
 
-// A row of equal Gaussians keeps a tiny mode at every member; its ends are drawn inwards.
+// A row of equal Gaussians has a small mode at every member; its ends move inwards.
 TEST(MeanShiftModes, OfARowAreOnePerMemberEvenOnTheFlattestRidge) {
   for (const double spacing : {1.7, 2.0}) {
     std::vector<Vec3> row;
