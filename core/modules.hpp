@@ -9,13 +9,11 @@
 
 #include "core/geometry/pose2.hpp"
 #include "core/line_map.hpp"
+#include "core/match.hpp"
 #include "core/scan.hpp"
 #include "core/trace/trace.hpp"
 
 namespace scanbench {
-
-enum class Status { converged, max_iterations, degenerate, no_match };
-std::string_view to_string(Status status);
 
 /// Finds the lines of one scan, in the sensor frame. Accepts any scan: without a valid beam there are no lines and all
 /// labels are -1.
@@ -54,14 +52,8 @@ struct Observation {
   const ScanLines& lines;
 };
 
-/// The pose of the current scan relative to the reference.
-struct Match {
-  Status status = Status::converged;
-  Pose2 reference_from_current;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw); zero: not estimated
-};
-
-/// Finds the motion between two scans, starting from a guess.
+/// Finds the pose of one scan in the frame of another, starting from a guess. Accepts any two scans: without returns,
+/// or with too little in common, the status is `no_match`.
 class ScanMatcher {
  public:
   static constexpr std::string_view kKind = "match";

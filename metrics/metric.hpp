@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/reference_poses.hpp"
 #include "core/result.hpp"
 #include "core/scan.hpp"
 #include "core/truth.hpp"
@@ -52,6 +53,7 @@ struct MetricInput {
   const ScanSet& observed;
   const Truth* truth;  ///< nullptr for recorded logs
   const PipelineResult& result;
+  const ReferencePoses* reference = nullptr;  ///< of a recorded log, if it has any
 };
 
 /// True if there is a truth for every beam of the observed scans and one entry of lines per frame.

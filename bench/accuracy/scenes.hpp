@@ -19,6 +19,7 @@ struct Scene {
   bool random_rooms = false;   ///< a new room for every 25 scans
   double least_returns = 0.9;  ///< share of directions that must hit a wall; distinguishes inside from outside
   int scans = 300;             ///< number of scans per seed
+  bool in_pairs = false;       ///< each random pose is followed by one up to 0.3 m and 10 degrees from it
 };
 
 /// All scenes. `optimal` was developed on seeds below 100.

@@ -59,6 +59,7 @@ bool EarlierCells::files_are_whole(const CellKey& key, const PipelineSpec& pipel
   const bool places = std::ranges::any_of(pipeline.slots, [](const auto& slot) { return slot.kind != "extract"; });
   for (const auto& [file, written] :
        {std::pair(&kTimingFile, true), std::pair(&kTraceFile, !trace.nothing()), std::pair(&kMergeFile, merge),
+        std::pair(&kPoseMatchesFile, has_slot(pipeline, "match")),
         std::pair(&kMapFile, merge || has_slot(pipeline, "map")), std::pair(&kPosesFile, places && frames > 0)})
     if (written && !fs::exists(folder / *file)) return false;
 

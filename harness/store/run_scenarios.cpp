@@ -1,6 +1,7 @@
 // scenario.yaml and effective.yaml (or a folder of each), benchmark.json, and copies of the input of a run.
 #include "harness/store/run_scenarios.hpp"
 
+#include <algorithm>
 #include <variant>
 
 #include <nlohmann/json.hpp>
@@ -58,8 +59,11 @@ StoredInputs store_inputs(const fs::path& run, const Scenario& scenario, const s
     sources["lines"] = copy_input(lines->file, folder / kLinesCopy, lines->file_name);
     stored.lines = prefix + kLinesCopy.name();
   }
-  if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
+  if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input)) {
     sources["log"] = source_json(recorded->log, sha256_of_file(recorded->log));
+    if (!recorded->relations.empty())
+      sources["relations"] = source_json(recorded->relations, sha256_of_file(recorded->relations));
+  }
   if (sources.empty()) return stored;
   make_folders(folder);
   write_file_atomically(folder / kSourcesFile, sources.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -73,8 +77,13 @@ void add_sources(const fs::path& run, Scenario& scenario) {
   with_json_of(file, [&](const Json& sources) {
     if (auto* lines = std::get_if<LinesInput>(&scenario.input); lines != nullptr && sources.contains("lines"))
       lines->file_name = sources.at("lines").at("file").get<std::string>();
-    if (auto* recorded = std::get_if<RecordedInput>(&scenario.input); recorded != nullptr && sources.contains("log"))
-      recorded->log_sha256 = sources.at("log").at("sha256").get<std::string>();
+    if (auto* recorded = std::get_if<RecordedInput>(&scenario.input); recorded != nullptr) {
+      const auto hash_of = [&](const char* key) {
+        return sources.contains(key) ? sources.at(key).at("sha256").get<std::string>() : std::string();
+      };
+      recorded->log_sha256 = hash_of("log");
+      recorded->relations_sha256 = hash_of("relations");
+    }
   });
 }
 
@@ -123,7 +132,10 @@ std::optional<BenchmarkSpec> load_benchmark(const fs::path& run) {
   if (!fs::exists(path)) return std::nullopt;
   const auto json = load_json_object(path);
   try {
-    return BenchmarkSpec{json.at("about"), json.at("baseline"), json.at("example")};
+    const BenchmarkSpec spec{json.at("about"), json.at("baseline"), json.at("example"), json.value("of", "extract")};
+    if (const auto slots = benchmark_slots(); std::ranges::find(slots, spec.of) == slots.end())
+      throw ConfigError(path.string() + ": no benchmark ranks modules of the kind " + spec.of);
+    return spec;
   } catch (const nlohmann::json::exception& error) {
     refuse_json(path, error);
   }
