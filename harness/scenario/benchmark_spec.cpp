@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/scenario/chain.hpp"
 #include "harness/yaml/reader.hpp"
 
 namespace scanbench::harness {
