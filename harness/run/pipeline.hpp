@@ -18,8 +18,8 @@ struct PipelineRun {
 /// `extract` runs on every frame, unless the scan set holds lines in place of scans: the chain then begins after it.
 /// `align` gets all scans and their odometry; `match` chains consecutive scans, each
 /// guess being the odometry between them (which is kept where the matcher says no_match); `map` gets scan after scan
-/// with its pose; `merge` gets the lines and the valid points placed in the world. Poses are those of `align` or
-/// `match`, else the odometry.
+/// with its pose; `merge` gets the lines and the valid points placed in the world. Poses are those of the last slot
+/// that estimates them (`map`, else `align` or `match`), else the odometry.
 ///
 /// Results come from a pass in which nobody listens to `extract`; its stage times from a second pass (microseconds a
 /// scan). The other slots are timed while they work: a second pass of them could take as long as the first. Stages of
