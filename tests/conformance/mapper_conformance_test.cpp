@@ -133,7 +133,8 @@ TEST_P(MapperConformance, TheSameScanTwiceAddsNoWalls) {
   for (int k = 0; k < 2; ++k) series.add_extracted(seen_from(stop(0), room(), 0), "iepf");
   const Mapped mapped = map(series, {stop(0), stop(0)});
   EXPECT_LE(mapped.maps[1].lines.size(), mapped.maps[0].lines.size());
-  EXPECT_NEAR((mapped.steps[1].world_from_sensor.translation() - stop(0).translation()).norm(), 0.0, 1e-6);
+  // Walls of the map are not the lines of the scan, but nearer to them than the noise of 1 cm.
+  EXPECT_NEAR((mapped.steps[1].world_from_sensor.translation() - stop(0).translation()).norm(), 0.0, 5e-3);
 }
 
 TEST_P(MapperConformance, AScanWithoutReturnsIsReportedAndLeavesTheMapAsItIs) {
