@@ -53,6 +53,7 @@ class Dse final : public Mapper {
     PredictionKind prediction = PredictionKind::odometry;
     double gate_m = 0.5;
     double min_share = 0.3;
+    double search_deg = 40.0;
     double min_length_m = 0.0;
     int min_members = 1;
     static auto fields();
@@ -62,9 +63,13 @@ class Dse final : public Mapper {
       : params_(p),
         merge_{.form = p.cost, .k = p.k, .max_gap_m = p.max_gap_m, .max_apart_m = p.max_apart_m},
         insertion_{.reach_m = p.vertex_reach_m, .apart_m = p.vertex_apart_m},
+        registration_{.wide_gate_m = p.gate_m,
+                      .narrow_gate_m = std::min(p.gate_m, 0.1),
+                      .least_share = p.min_share,
+                      .search_rad = radians(p.search_deg)},
         aligner_(p.alignment,
                  {.insertion = insertion_, .extent_m = 0.2, .angle_rad = radians(20.0), .same_side = p.same_side},
-                 {.wide_gate_m = p.gate_m, .narrow_gate_m = std::min(p.gate_m, 0.1), .least_share = p.min_share}),
+                 registration_),
         prediction_(p.prediction) {}
 
   Insertion insert(const Observation& observation, const Pose2& guess, Trace& trace) override;
@@ -82,6 +87,7 @@ class Dse final : public Mapper {
   Params params_;
   MergeRule merge_;
   InsertionRule insertion_;
+  RegistrationRule registration_;
   MapAligner aligner_;
   Prediction prediction_;
   Pose2 world_from_map_;
@@ -128,6 +134,8 @@ auto Dse::Params::fields() {
       field("gate_m", &Params::gate_m, above(0), "m", "farthest partner of an end point at first"),
       field("min_share", &Params::min_share, between(0, 1), "",
             "smallest share of a scan's length that must meet the map; below it there is no match"),
+      field("search_deg", &Params::search_deg, between(0, 180), "deg",
+            "where a scan fits badly, predictions turned so far are tried too, in steps of 10 deg"),
       field("min_length_m", &Params::min_length_m, at_least(0), "m", "shorter lines of a scan are not used"),
       field("min_members", &Params::min_members, between(1, 1e9), "",
             "lines made of fewer scan lines are kept for merging but are not shown in the map")};
@@ -171,7 +179,8 @@ Insertion Dse::insert(const Observation& observation, const Pose2& guess, Trace&
 
   InsertionRow row{.scan_lines = static_cast<int>(scan.size())};
   Registration found{.map_from_sensor = predicted};
-  if (map_.size() > 0) found = locate(observation, scan, predicted);
+  if (map_.size() > 0)
+    found = with_search([&](const Pose2& from) { return locate(observation, scan, from); }, predicted, registration_);
   std::vector<Stroke> placed = moved(found.map_from_sensor, scan);
   row.share = found.share;
   row.rms_m = found.rms_m;

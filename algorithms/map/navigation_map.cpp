@@ -34,6 +34,7 @@ class NavigationMap final : public Mapper {
     Correlation correlation = Correlation::segment_point;
     double gate_m = 0.5;
     double min_share = 0.3;
+    double search_deg = 40.0;
     double unite_angle_deg = 10.0;
     double unite_offset_m = 0.10;
     double unite_gap_m = 0.20;
@@ -50,6 +51,8 @@ class NavigationMap final : public Mapper {
           field("gate_m", &Params::gate_m, above(0), "m", "farthest partner at first; halved down to 0.1 m"),
           field("min_share", &Params::min_share, between(0, 1), "",
                 "smallest share of a scan that must have partners; below it there is no match"),
+          field("search_deg", &Params::search_deg, between(0, 180), "deg",
+                "where a scan fits badly, predictions turned so far are tried too, in steps of 10 deg"),
           field("unite_angle_deg", &Params::unite_angle_deg, between(0, 90), "deg",
                 "largest angle between segments that become one"),
           field("unite_offset_m", &Params::unite_offset_m, at_least(0), "m",
@@ -67,7 +70,10 @@ class NavigationMap final : public Mapper {
 
   explicit NavigationMap(const Params& p)
       : params_(p),
-        registration_{.wide_gate_m = p.gate_m, .narrow_gate_m = std::min(p.gate_m, 0.1), .least_share = p.min_share},
+        registration_{.wide_gate_m = p.gate_m,
+                      .narrow_gate_m = std::min(p.gate_m, 0.1),
+                      .least_share = p.min_share,
+                      .search_rad = radians(p.search_deg)},
         unite_{.angle_rad = radians(p.unite_angle_deg), .offset_m = p.unite_offset_m, .gap_m = p.unite_gap_m},
         prediction_(p.prediction),
         points_(kPointCellM) {}
@@ -115,7 +121,9 @@ Insertion NavigationMap::insert(const Observation& observation, const Pose2& gue
 
   Registration found{.map_from_sensor = predicted, .rank = 3, .share = 1.0};
   if (!walls_.empty() && params_.correlation != Correlation::none)
-    found = locate(scan, valid_points(observation.scan).points, predicted);
+    found = with_search(
+        [&, points = valid_points(observation.scan).points](const Pose2& from) { return locate(scan, points, from); },
+        predicted, registration_);
   std::string message = explained(found, registration_);
   const bool fits = found.status != Status::no_match;
   if (fits || walls_near(placed_at(predicted, scan), kNovelM).empty()) {

@@ -12,6 +12,8 @@
 namespace scanbench::mapping {
 namespace {
 
+constexpr double kSearchStep = radians(10.0);  // less than the angles up to which lines are partners
+
 double residual_of(const PointOnLine& pair, const Pose2& pose) {
   return pair.normal.dot(pose * pair.point) - pair.offset_m;
 }
@@ -69,6 +71,18 @@ Registration register_on_lines(const FindPairs& find_pairs, const Pose2& predict
     result.status = Status::max_iterations;
   }
   return result;
+}
+
+Registration with_search(const Locate& locate, const Pose2& predicted, const RegistrationRule& rule) {
+  Registration best = locate(predicted);
+  const int steps = static_cast<int>(rule.search_rad / kSearchStep + 1e-9);
+  for (int k = 1; k <= steps && best.share < rule.good_share; ++k)
+    for (const double side : {1.0, -1.0}) {
+      const Registration found = locate(predicted * Pose2(0, 0, side * k * kSearchStep));
+      if (found.status != Status::no_match && found.share > best.share) best = found;
+    }
+  if (best.status == Status::no_match) best.map_from_sensor = predicted;
+  return best;
 }
 
 std::string explained(const Registration& registration, const RegistrationRule& rule) {

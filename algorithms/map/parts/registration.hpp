@@ -25,6 +25,8 @@ struct RegistrationRule {
   double narrow_gate_m = 0.1;  ///< the gate does not become narrower
   double least_share = 0.3;    ///< of `total_weight` that must have partners at the end, else no_match
   int max_iterations = 30;
+  double search_rad = 0.0;  ///< farthest turn of the prediction that is tried where it fits badly; 0: none
+  double good_share = 0.7;  ///< what fits so well needs no search
 };
 
 struct Registration {
@@ -41,6 +43,14 @@ struct Registration {
 /// is `degenerate` if the pairs leave a motion open, along which the pose stays as predicted.
 Registration register_on_lines(const FindPairs& find_pairs, const Pose2& predicted, double total_weight, double lever_m,
                                const RegistrationRule& rule);
+
+/// Registers a scan from a predicted pose.
+using Locate = std::function<Registration(const Pose2& predicted)>;
+
+/// What `locate` finds from the prediction, and if less than good_share of the scan meets the map there, also from
+/// predictions turned about the sensor by multiples of 10 degrees up to search_rad to either side: wheels that slip
+/// lose headings first. The result is the one of the largest share, of equal ones that of the smallest turn.
+Registration with_search(const Locate& locate, const Pose2& predicted, const RegistrationRule& rule);
 
 /// "2 of 3 motions are determined", "31 % of the scan meets the map": what a status other than `converged` means.
 std::string explained(const Registration& registration, const RegistrationRule& rule);

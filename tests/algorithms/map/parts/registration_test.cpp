@@ -74,6 +74,43 @@ TEST(Registration, WithTooFewPartnersIsNoMatchAtThePredictedPose) {
   EXPECT_NE(explained(found, {}), "");
 }
 
+TEST(Search, FindsATurnThatIsTooLargeForTheGates) {
+  const Walls room(testing::box(-3, -2, 4, 2), {0.5, 0.3, 0.2});
+  const Pose2 slipped(0.5, 0.3, 0.2 - radians(27));
+  const RegistrationRule rule{.search_rad = radians(40)};
+  const Locate locate = [&](const Pose2& from) { return room.on(from, rule); };
+  const Registration found = with_search(locate, slipped, rule);
+  EXPECT_EQ(found.status, Status::converged);
+  EXPECT_NEAR(found.map_from_sensor.yaw(), 0.2, 1e-9);
+  EXPECT_LT(locate(slipped).share, found.share);
+}
+
+TEST(Search, IsNotMadeWhereThePredictionFitsWell) {
+  const Walls room(testing::box(-3, -2, 4, 2), {0, 0, 0});
+  int calls = 0;
+  const RegistrationRule rule{.search_rad = radians(40)};
+  with_search(
+      [&](const Pose2& from) {
+        ++calls;
+        return room.on(from, rule);
+      },
+      {0.05, 0, 0}, rule);
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(Search, ThatFindsNothingStaysAtThePrediction) {
+  int calls = 0;
+  const RegistrationRule rule{.search_rad = radians(40)};
+  const Registration found = with_search(
+      [&](const Pose2& from) {
+        ++calls;
+        return Registration{.status = Status::no_match, .map_from_sensor = from};
+      },
+      {1, 2, 0.5}, rule);
+  EXPECT_EQ(calls, 9);  // 0, 10, -10, .. -40 degrees
+  EXPECT_TRUE(found.map_from_sensor == Pose2(1, 2, 0.5));
+}
+
 TEST(Registration, OfNothingIsNoMatch) {
   const FindPairs nothing = [](const Pose2&, double) { return std::vector<PointOnLine>{}; };
   EXPECT_EQ(register_on_lines(nothing, {}, 0.0, 1.0, {}).status, Status::no_match);
