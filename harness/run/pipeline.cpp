@@ -189,8 +189,20 @@ class Chain {
 
   void map(const ModuleChoice& slot) {
     const auto mapper = Registry<Mapper>::make(slot.module, slot.params);
-    for (std::size_t k = 0; k < views_.size(); ++k)
-      listener_("map", static_cast<int>(k), [&](Trace& trace) { mapper->insert(observation(k), poses_[k], trace); });
+    std::vector<Pose2> placed;
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      Insertion inserted;
+      listener_("map", static_cast<int>(k),
+                [&](Trace& trace) { inserted = mapper->insert(observation(k), poses_[k], trace); });
+      note("map", inserted.status);
+      const std::string frame = "frame " + std::to_string(k);
+      if (inserted.status != Status::converged && !inserted.message.empty())
+        messages_.try_emplace("map", "first in " + frame + ": " + inserted.message);
+      check_pose(inserted.world_from_sensor, "map, " + frame);
+      if (inserted.lines < 0) throw InvalidResult("map, " + frame + ": " + std::to_string(inserted.lines) + " lines");
+      placed.push_back(inserted.world_from_sensor);
+    }
+    poses_ = std::move(placed);
     result_.map = mapper->map();
     result_.has_map = true;
     check_map(result_.map, "map");

@@ -19,8 +19,8 @@ struct PipelineRun {
 /// `align` gets all scans and their odometry; `match` chains consecutive scans, with the odometry between them as the
 /// guess (and as the result if the matcher returns no_match). Without odometry, if all scans have one odometry pose,
 /// the guess is the step before; the first one is no motion. `map` gets one scan after the other with its pose;
-/// `merge` gets the lines and the valid points placed in the world. Poses are those of `align` or `match`, else the
-/// odometry.
+/// `merge` gets the lines and the valid points placed in the world. Poses are those of the
+/// last slot that estimates them (`map`, else `align` or `match`), else the odometry.
 ///
 /// `extract` runs twice: results come from a pass without a listener, stage times [us per scan] from a second pass. The
 /// other slots are timed in the first pass, because a second one could take as long. Stages of `extract` keep their
