@@ -11,6 +11,7 @@
 #include "harness/files/hash.hpp"
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/store/json_file.hpp"
+#include "harness/store/manifest.hpp"
 #include "harness/store/run_file.hpp"
 
 namespace scanbench::harness {

@@ -181,8 +181,9 @@ class PoseMapper final : public Mapper {
  public:
   using Params = NoParams;
   explicit PoseMapper(const Params&) {}
-  void insert(const Observation&, const Pose2& guess, Trace&) override {
+  Insertion insert(const Observation&, const Pose2& guess, Trace&) override {
     map_.lines.push_back({.segment = guess * Segment{Vec2(0, 0), Vec2(1, 0)}});
+    return {.world_from_sensor = guess, .lines = static_cast<int>(map_.lines.size())};
   }
   LineMap map() const override { return map_; }
 
