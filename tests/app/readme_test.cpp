@@ -1,8 +1,10 @@
 // README's example of a scenario, run as it stands there. (Its example of a module is part of the conformance tests.)
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -96,23 +98,39 @@ TEST(Replay, ScansWhoseNumberOfBeamsChangesGiveTheWallsOfTheRoom) {
   const Folder folder;
   folder.write("turns.csv", turning_scanner());
   for (const std::string angles : {"resampled"}) {
-    folder.write("mine.yaml",
-                 "schema: 1\nrecording: {log: turns.csv, format: csv, first_angle_deg: -180, span_deg: 360, "
-                 "angles: " +
-                     angles +
-                     "}\npipelines:\n  - {name: sm, extract: {module: split_and_merge}}\n"
-                     "metrics: [siadat1997, map_points]\nfigures: [scan_overlay, lines_world]\n");
+    folder.write(
+        "mine.yaml",
+        "schema: 1\nrecording: {log: turns.csv, format: csv, first_angle_deg: -180, span_deg: 360, "
+        "angles: " +
+            angles +
+            "}\npipelines:\n  - {name: iepf, extract: {module: iepf, params: {threshold_m: 0.08, min_points: 6}}}\n"
+            "metrics: [siadat1997, map_points]\nfigures: [scan_overlay, lines_world]\n");
     const auto outcome = run({"run", "mine.yaml", "--out", angles}, {}, folder.path());
     ASSERT_EQ(outcome.code, 0) << outcome.err << outcome.out;
-    const std::string lines = read(folder / (angles + "/cells/mine/sm/1/lines.csv"));
-    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1 + 10 * 4) << lines;
+    // A reading is moved by at most half a degree, 2.5 cm: every line is on one of the four walls, which are 2 m away.
+    std::istringstream rows(read(folder / (angles + "/cells/mine/iepf/1/lines.csv")));
+    std::set<std::pair<int, int>> seen;  // frame and wall
+    std::string row;
+    std::getline(rows, row);
+    while (std::getline(rows, row)) {
+      std::replace(row.begin(), row.end(), ',', ' ');
+      std::istringstream fields(row);
+      int frame = 0, line = 0;
+      double x1 = 0, y1 = 0, x2 = 0, y2 = 0, rho = 0, alpha = 0;
+      fields >> frame >> line >> x1 >> y1 >> x2 >> y2 >> rho >> alpha;
+      const double quarter_turns = alpha / (3.14159265358979 / 2);
+      EXPECT_NEAR(rho, 2.0, 0.06) << row;
+      EXPECT_NEAR(quarter_turns, std::round(quarter_turns), 0.05) << row;
+      seen.emplace(frame, (static_cast<int>(std::round(quarter_turns)) + 4) % 4);
+    }
+    EXPECT_EQ(seen.size(), 10U * 4U);
     // The whole chain again from the files.
     EXPECT_EQ(run({"score", angles}, {}, folder.path()).code, 0);
     EXPECT_EQ(run({"export", angles, "--format", "carmen"}, {}, folder.path()).code, 0);
   }
   folder.write("same.yaml",
                "schema: 1\nrecording: {log: turns.csv, format: csv, first_angle_deg: -180, span_deg: 360}\n"
-               "pipelines:\n  - {name: sm, extract: {module: split_and_merge}}\n");
+               "pipelines:\n  - {name: iepf, extract: {module: iepf, params: {threshold_m: 0.08, min_points: 6}}}\n");
   const auto refused = run({"check", "same.yaml"}, {}, folder.path());
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.err, testing::HasSubstr("turns.csv:2:1: 356 ranges"));

@@ -19,7 +19,7 @@ Words completed(const std::string& line) {
   const Folder folder;
   folder.write("script", run({"completion"}).out);
   folder.write("a scenario.yaml", "");
-  const std::string command = "source script; COMP_WORDS=(" + line + "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); " +
+  const std::string command = "source ./script; COMP_WORDS=(" + line + "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); " +
                               "_scanbench; printf '%s\\n' \"${COMPREPLY[@]}\"";
   const auto outcome = Child({"/bin/bash", "-u", "-c", command}, {}, folder.path()).wait();
   EXPECT_EQ(outcome.code, 0) << outcome.err;
