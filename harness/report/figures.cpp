@@ -131,7 +131,8 @@ std::vector<FigureFile> load_figure_index(const fs::path& run) {
   } catch (const nlohmann::ordered_json::exception& error) {
     refuse_json(path, error);
   }
-  for (const auto& figure : figures) check_name("figure", figure.name);
+  for (const auto& figure : figures)
+    if (!figure.name.empty()) check_name("figure", figure.name);  // without one it is a note on what is not drawn
   return figures;
 }
 
