@@ -3,7 +3,6 @@
 //
 // Departures. Trimmed: the tenth of the pairs that is farthest apart is left out. Status and covariance come from the
 // lines through neighbouring returns: by distances between points every motion seems known, even along a corridor.
-// While the pose is far, only every fourth return takes part.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -98,18 +97,17 @@ class Icp final : public ScanMatcher {
               Trace& trace) const override {
     trace.stage(Stage::pre);
     const ReturnedPoints seen = returned_points(reference.scan), now = returned_points(current.scan);
-    const std::vector<LocalLine> lines = local_lines(seen), own_lines = local_lines(now);
+    const std::vector<LocalLine> lines = local_lines(seen);
     trace.stage(Stage::iterate);
     NearestReturn nearest(seen);
     std::vector<std::size_t> hints(now.size(), seen.size());
     Pose2 pose = guess;
     std::vector<Pair> pairs;
     bool settled = false;
-    std::size_t stride = stride_while_far(now, params_.max_iterations);
     double last_mean = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < params_.max_iterations && !settled; ++iteration) {
-      pairs = nearest_pairs(now, pose, params_.gate_m, nearest, hints, stride);
-      const double overlap = static_cast<double>(pairs.size() * stride) / static_cast<double>(now.size());
+      pairs = nearest_pairs(now, pose, params_.gate_m, nearest, hints);
+      const double overlap = static_cast<double>(pairs.size()) / static_cast<double>(now.size());
       if (pairs.empty() || !(overlap >= params_.min_overlap)) return no_match(guess);
       double squares = 0.0;
       for (Pair& pair : pairs) pair.residual = (pair.point - seen.points[pair.reference]).norm();
@@ -119,17 +117,13 @@ class Icp final : public ScanMatcher {
       const Motion step = motion_between(pose, next);
       pose = next;
       const double mean = squares / static_cast<double>(pairs.size());
-      const bool still = std::fabs(mean - last_mean) < kStillM2;
-      settled = still && stride == 1;
+      settled = std::fabs(mean - last_mean) < kStillM2;
       last_mean = mean;
-      if (still || 2 * iteration >= params_.max_iterations) stride = 1;
       trace.row(IterationRow{static_cast<int>(pairs.size()), step.x(), step.y(), step.z(), squares});
     }
     for (Pair& pair : pairs) pair.point = pose * now.points[pair.current];
-    const Eigen::Matrix3d by_pattern = pattern_covariance(pairs, seen, pose.translation());
-    keep_aligned(pairs, lines, own_lines, pose);
     Match result = conclusion(pair_information(pairs, now, lines, pose), pose, guess, lever_of(now), settled);
-    result.covariance += by_pattern;
+    result.covariance += pattern_covariance(pairs, seen, pose.translation());
     return result;
   }
 

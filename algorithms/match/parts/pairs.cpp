@@ -19,10 +19,10 @@ double variance_across(const ReturnedPoints& scan, std::size_t k, const Vec2& no
 }  // namespace
 
 std::vector<Pair> nearest_pairs(const ReturnedPoints& current, const Pose2& reference_from_current, double gate_m,
-                                NearestReturn& reference, std::vector<std::size_t>& hints, std::size_t stride) {
+                                NearestReturn& reference, std::vector<std::size_t>& hints) {
   std::vector<Pair> pairs;
-  pairs.reserve(current.size() / stride + 1);
-  for (std::size_t k = 0; k < current.size(); k += stride) {
+  pairs.reserve(current.size());
+  for (std::size_t k = 0; k < current.size(); ++k) {
     const Vec2 p = reference_from_current * current.points[k];
     const auto nearest = reference.find(p, gate_m, hints[k]);
     if (!nearest) continue;
@@ -30,10 +30,6 @@ std::vector<Pair> nearest_pairs(const ReturnedPoints& current, const Pose2& refe
     pairs.push_back({k, *nearest, p, 0.0});
   }
   return pairs;
-}
-
-std::size_t stride_while_far(const ReturnedPoints& current, int max_iterations) {
-  return current.size() >= 80 && max_iterations >= 4 ? 4 : 1;
 }
 
 void keep_aligned(std::vector<Pair>& pairs, const std::vector<LocalLine>& lines,

@@ -18,14 +18,10 @@ struct Pair {
   double residual = 0.0;      ///< distance that the matcher minimises [m]
 };
 
-/// The nearest return within `gate_m` of every current one, or of every `stride`-th. `hints`, one per current return,
-/// carry the partners from call to call; any values at first.
+/// The nearest return within `gate_m` of every current one. `hints`, one per current return, carry the partners from
+/// call to call; any values at first.
 std::vector<Pair> nearest_pairs(const ReturnedPoints& current, const Pose2& reference_from_current, double gate_m,
-                                NearestReturn& reference, std::vector<std::size_t>& hints, std::size_t stride = 1);
-
-/// The stride of nearest_pairs() that is enough while the pose is far: 4, or 1 for scans of fewer than 80 returns and
-/// for fewer than 4 iterations.
-std::size_t stride_while_far(const ReturnedPoints& current, int max_iterations);
+                                NearestReturn& reference, std::vector<std::size_t>& hints);
 
 /// Removes pairs without a local line at both ends and pairs whose lines differ by more than 20 degrees: their ends are
 /// on two sides of a corner.

@@ -50,9 +50,8 @@ Match register_points_on_lines(const ReturnedPoints& reference, const std::vecto
   bool settled = false, near = false;
   double last_size = 0.0;
   for (int iteration = 0; iteration < rules.max_iterations && !settled; ++iteration) {
-    const std::size_t stride = near ? 1 : stride_while_far(current, rules.max_iterations);
-    std::vector<Pair> pairs = nearest_pairs(current, pose, rules.gate_m, nearest, hints, stride);
-    const double overlap = static_cast<double>(pairs.size() * stride) / static_cast<double>(current.size());
+    std::vector<Pair> pairs = nearest_pairs(current, pose, rules.gate_m, nearest, hints);
+    const double overlap = static_cast<double>(pairs.size()) / static_cast<double>(current.size());
     if (current.size() == 0 || !(overlap >= rules.min_overlap)) return no_match(guess);
     keep_aligned(pairs, lines, current_lines, pose);
     for (Pair& pair : pairs) {
