@@ -16,6 +16,7 @@
 #include "app/results.hpp"
 #include "app/run.hpp"
 #include "app/shell_help.hpp"
+#include "app/show.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "harness/report/plain_text.hpp"
@@ -81,6 +82,7 @@ int run_program(int argc, char** argv) {
   app::add_results(context);
   app::add_new_module(context);
   app::add_shell_help(context);
+  app::add_show(context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

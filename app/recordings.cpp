@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <thread>
+#include <algorithm>
+#include <utility>
 
 #include "app/inputs.hpp"
 #include "app/progress.hpp"
@@ -96,18 +97,28 @@ int export_polygons(const Options& options) {
   return kGood;
 }
 
+/// The folders in a folder; names with fewer letters first, so that seed 10 comes after seed 9.
+std::vector<fs::path> folders_of(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_directory()) folders.push_back(entry.path());
+  std::ranges::sort(folders, {}, [](const fs::path& path) {
+    const std::string name = path.filename().string();
+    return std::pair(name.size(), name);
+  });
+  return folders;
+}
+
 int export_recordings(const Options& options) {
   const fs::path folder = fs::path(options.run) / "recordings";
   if (!fs::exists(folder)) throw ConfigError(options.run + ": not a run folder: it has no recordings/");
   const std::string ending = options.format == "carmen" ? ".log" : options.format == "csv" ? ".csv" : ".txt";
   const fs::path out = options.out.empty() ? fs::path(options.run) / "export" : fs::path(options.out);
   int written = 0;
-  for (const auto& scenario : fs::directory_iterator(folder)) {
-    if (!scenario.is_directory()) continue;
-    for (const auto& seed : fs::directory_iterator(scenario.path())) {
-      const Recording recording = harness::load_recording(seed.path());
-      const fs::path path =
-          out / (scenario.path().filename().string() + "_" + seed.path().filename().string() + ending);
+  for (const fs::path& scenario : folders_of(folder)) {
+    for (const fs::path& seed : folders_of(scenario)) {
+      const Recording recording = harness::load_recording(seed);
+      const fs::path path = out / (scenario.filename().string() + "_" + seed.filename().string() + ending);
       const std::string text = harness::export_text(recording, options.format);
       harness::make_folders(out);
       harness::write_file_atomically(path, text);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/drawing.hpp"
 #include "app/inputs.hpp"
 #include "app/progress.hpp"
 #include "core/error.hpp"
@@ -64,9 +65,12 @@ int figures(const fs::path& run, const std::vector<std::string>& files, bool pdf
   harness::refuse_linked_folders(run);
   const InterruptGuard guard;
   Progress progress(progress_style(quiet));
-  harness::draw_run_figures(run, scenarios, pdf,
-                            [&](double share, const std::string& what) { progress.update(share, "figure " + what); });
+  const std::string failure = draw_within_limits(run, scenarios, pdf, progress);
   progress.finish();
+  if (!failure.empty()) {
+    say("scanbench: " + failure + "\n");
+    return kCellsFailed;
+  }
   if (quiet) return kGood;
   const auto drawn = harness::load_figure_index(run);
   for (const auto& figure : drawn) {

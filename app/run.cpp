@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/drawing.hpp"
 #include "app/fault_notes.hpp"
 #include "app/forecast.hpp"
 #include "app/inputs.hpp"
@@ -72,13 +73,11 @@ void note_absent_figures(const harness::ReportInput& report) {
     if (figure.name.empty()) say(fmt::format("{}: note: {}\n", figure.scenario, figure.caption));
 }
 
-/// Draws the figures of a run, unless the user wants none, and writes its report.
-harness::ReportInput write_report(const harness::RunResult& result, const Options& options, Progress& progress) {
+/// Draws the figures of a run, unless the user wants none, and writes its report. `failure`: why they were not drawn.
+harness::ReportInput write_report(const harness::RunResult& result, const Options& options, Progress& progress,
+                                  std::string& failure) {
   const auto scenarios = harness::load_run_scenarios(result.out);
-  if (!options.no_figures)
-    harness::draw_run_figures(result.out, scenarios, false, [&](double share, const std::string& what) {
-      progress.update(0.95 + 0.05 * share, "figure " + what);
-    });
+  if (!options.no_figures) failure = draw_within_limits(result.out, scenarios, false, progress);
   auto report = harness::load_report_input(result.out, scenarios);
   harness::write_reports(result.out, report);
   return report;
@@ -92,6 +91,18 @@ std::string missing_text(const harness::RunResult& result) {
                      std::ranges::count_if(result.cells, is_missing), result.cells.size(),
                      harness::to_string(first->key), harness::plain_line(first->record.outcome.message),
                      result.old_run_kept ? "; the earlier run in " + result.out.string() + " is unchanged" : "");
+}
+
+/// How many cells did not end well, and why the first one did not; empty if all did.
+std::string failed_text(const harness::RunResult& result) {
+  const auto has_failed = [](const harness::CellResult& cell) {
+    return cell.done && cell.record.outcome.status != harness::CellStatus::ok;
+  };
+  const auto first = std::ranges::find_if(result.cells, has_failed);
+  if (first == result.cells.end()) return "";
+  return fmt::format("scanbench: {} of {} cells failed; {}: {}: {}\n", std::ranges::count_if(result.cells, has_failed),
+                     result.cells.size(), harness::to_string(first->key), to_string(first->record.outcome.status),
+                     harness::plain_line(first->record.outcome.message));
 }
 
 int run(const Options& options, const std::vector<std::string>& argv) {
@@ -120,10 +131,11 @@ int run(const Options& options, const std::vector<std::string>& argv) {
     progress.update(total > 0 ? 0.95 * static_cast<double>(now.done) / total : 0.0, now.what);
   };
   std::optional<harness::ReportInput> report;
+  std::string figure_failure;
   run_options.finish = [&](const harness::RunResult& result) {
     const InterruptGuard guard;
     try {
-      report = write_report(result, options, progress);
+      report = write_report(result, options, progress, figure_failure);
     } catch (const ConfigError& error) {
       if (result.exit_code() != kIncomplete) throw;  // else the report fails for the same reason
       say(fmt::format("scanbench: {}\n", error.what()));
@@ -138,6 +150,8 @@ int run(const Options& options, const std::vector<std::string>& argv) {
     return kInterrupted;
   }
   if (result.exit_code() == kIncomplete) say(missing_text(result));
+  if (options.quiet) say(failed_text(result));
+  if (!figure_failure.empty()) say("scanbench: " + figure_failure + "\n");
 
   if (!options.quiet && report) note_absent_figures(*report);
   if (options.json) {
@@ -146,7 +160,7 @@ int run(const Options& options, const std::vector<std::string>& argv) {
     print_tables(*report);
     fmt::print("{}\n", (result.out / harness::kReportPage).string());
   }
-  return result.exit_code();
+  return result.exit_code() == kGood && !figure_failure.empty() ? kCellsFailed : result.exit_code();
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "core/registry.hpp"
-#include "metrics/line_matching.hpp"
+#include "metrics/judged_scan.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::metrics {
@@ -34,26 +34,23 @@ std::int64_t on_small_pieces(std::span<const LineFeature> found, const LineMatch
   return std::ranges::count(with_pieces.outcome, Outcome::true_line);
 }
 
+constexpr const char* kScans = "scans";  // scans.csv
+
+// Root mean square distance of the returns from the lines that they support; NaN without any.
+double residual(const Scan& scan, const ScanLines& found) {
+  Mean squares;
+  for (int beam = 0; beam < scan.beams(); ++beam) {
+    const int line = found.labels[as_index(beam)];
+    if (line < 0 || !scan.valid(beam)) continue;
+    const double distance = found.lines[as_index(line)].line.signed_distance(scan.point(beam));
+    squares.add(distance * distance);
+  }
+  return squares.root();
+}
+
 class Segments : public MetricFamily {
  public:
-  struct Params {
-    int min_beams = 9;
-    double min_length_m = 0.5;
-    double max_angle_deg = 10.0;
-    double max_offset_m = 0.15;
-    double min_overlap = 0.5;
-    static auto fields() {
-      return std::tuple{
-          field("min_beams", &Params::min_beams, at_least(2), "", "fewest returns of a true line"),
-          field("min_length_m", &Params::min_length_m, at_least(0), "m",
-                "shortest true line; shorter found lines that match nothing are ignored"),
-          field("max_angle_deg", &Params::max_angle_deg, between(0, 90), "deg", "largest angle of a match"),
-          field("max_offset_m", &Params::max_offset_m, at_least(0), "m",
-                "largest distance of a match's midpoint from the true line"),
-          field("min_overlap", &Params::min_overlap, between(0, 1), "", "share of the shorter line that must overlap")};
-    }
-  };
-
+  using Params = SegmentRules;
   explicit Segments(const Params& params) : params_(params) {}
 
   std::vector<MetricDescription> describe() const override {
@@ -85,22 +82,16 @@ class Segments : public MetricFamily {
   std::vector<MetricRow> evaluate(const MetricInput& input) const override {
     SCANBENCH_ASSERT(applies(input));
     const Surfaces surfaces = join_walls(input.truth->walls);
-    const TrueLineRule which{.min_beams = params_.min_beams, .min_length_m = params_.min_length_m};
-    const MatchRule rule{.max_angle_rad = radians(params_.max_angle_deg),
-                         .max_offset_m = params_.max_offset_m,
-                         .min_overlap = params_.min_overlap,
-                         .min_length_m = params_.min_length_m};
     std::int64_t n_true = 0, n_false = 0, n_small = 0, n_split = 0, n_merged = 0, n_truth = 0;
     Mean offset2, angle2, iou;
     for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
-      const std::vector<TrueLine> truths = true_lines(input, f, surfaces, which);
       const std::vector<LineFeature>& found = input.result.lines[f].lines;
-      const LineMatching matching = match_lines(found, truths, rule);
+      const auto [truths, matching] = judge_scan(input, f, surfaces, params_);
       n_truth += std::ssize(truths);
       n_merged += std::ranges::count(matching.merged, true);
       n_false += std::ranges::count(matching.outcome, Outcome::false_line);
       n_split += std::ranges::count(matching.outcome, Outcome::split);
-      n_small += on_small_pieces(found, matching, true_lines(input, f, surfaces, kAnyPiece), rule);
+      n_small += on_small_pieces(found, matching, true_lines(input, f, surfaces, kAnyPiece), params_.match_rule());
       for (std::size_t k = 0; k < found.size(); ++k) {
         if (matching.outcome[k] != Outcome::true_line) continue;
         ++n_true;
@@ -133,6 +124,22 @@ class Segments : public MetricFamily {
     rows.add("n_merged", kAll, number(n_merged), n_found);
     return rows.take();
   }
+
+  std::vector<MetricTable> tables(const MetricInput& input) const override {
+    const Surfaces surfaces = join_walls(input.truth->walls);
+    MetricTable table{kScans, {"frame", "true", "false", "missed", "split", "merged", "f1", "residual_m"}, {}};
+    for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
+      const JudgedScan judged = judge_scan(input, f, surfaces, params_);
+      table.rows.push_back({number(f), number(judged.count(Outcome::true_line)),
+                            number(judged.count(Outcome::false_line)), number(judged.missed()),
+                            number(judged.count(Outcome::split)),
+                            number(std::ranges::count(judged.matching.merged, true)), judged.f1(),
+                            residual(input.observed.scan(f), input.result.lines[f])});
+    }
+    return {table};
+  }
+
+  std::vector<std::string> table_names() const override { return {kScans}; }
 
  private:
   Params params_;

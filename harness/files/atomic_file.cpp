@@ -2,6 +2,7 @@
 #include "harness/files/atomic_file.hpp"
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <utility>
@@ -57,6 +58,13 @@ int write_and_flush(const fs::path& path, std::string_view bytes, bool flush) {
   return file.close() == 0 ? 0 : errno;
 }
 
+/// A larger file is not ours: a recording is held in memory as well.
+std::uint64_t half_of_memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
+  return pages > 0 && page_bytes > 0 ? static_cast<std::uint64_t>(pages) / 2 * static_cast<std::uint64_t>(page_bytes)
+                                     : std::uint64_t{1} << 32;
+}
+
 void flush_folder(const fs::path& path) {
   const Descriptor folder(path.empty() ? fs::path(".") : path, O_RDONLY | O_DIRECTORY);
   if (!folder || ::fsync(folder.get()) != 0) refuse("write", path, errno);
@@ -70,6 +78,7 @@ fs::path temporary_beside(const fs::path& path) {
 
 std::string read_file(const fs::path& path) {
   InputFile file(path);
+  file.require_at_most(half_of_memory());
   std::string bytes;
   bytes.resize(file.size());
   std::size_t filled = 0;

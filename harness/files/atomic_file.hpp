@@ -8,7 +8,8 @@
 
 namespace scanbench::harness {
 
-/// The bytes of a regular file (input_file.hpp). Throws ConfigError with the file's name and the reason.
+/// The bytes of a regular file (input_file.hpp) of at most half the machine's memory. Throws ConfigError with the
+/// file's name and the reason.
 std::string read_file(const std::filesystem::path& path);
 
 /// Writes a complete file: after a failure (disk full, no permission) the target is unchanged and the temporary file is

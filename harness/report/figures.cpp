@@ -14,6 +14,7 @@
 #include "harness/scenario/simulation_input.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
+#include "harness/store/json_file.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/traces.hpp"
@@ -85,7 +86,8 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenar
     for (const sim::MovingBody& body : simulated.world.moving) input.body_paths.push_back(body.path);
   }
   for (const auto& loaded : results)
-    input.results.push_back({loaded.pipeline, &loaded.result, &loaded.trace, line_verdicts(recording, loaded.result)});
+    input.results.push_back({loaded.pipeline, &loaded.result, &loaded.trace,
+                             line_verdicts(recording, loaded.result, segment_rules(scenario.metrics))});
 
   std::vector<FigureFile> files;
   for (std::size_t i = 0; i < scenario.figures.size(); ++i) {
@@ -124,11 +126,12 @@ std::vector<FigureFile> load_figure_index(const fs::path& run) {
   if (!fs::exists(path)) return {};
   std::vector<FigureFile> figures;
   try {
-    for (const auto& entry : nlohmann::json::parse(read_file(path)))
+    for (const auto& entry : load_json(path))
       figures.push_back({entry.at("scenario"), entry.at("name"), entry.at("caption")});
-  } catch (const nlohmann::json::exception& error) {
-    throw ConfigError(path.string() + ": " + error.what());
+  } catch (const nlohmann::ordered_json::exception& error) {
+    refuse_json(path, error);
   }
+  for (const auto& figure : figures) check_name("figure", figure.name);
   return figures;
 }
 

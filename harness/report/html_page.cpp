@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -18,6 +20,10 @@
 
 namespace scanbench::harness {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestSvg = std::uintmax_t{8} << 20;  // a larger one is shown as PNG, which is smaller
 
 constexpr std::string_view kStyle = R"css(
 :root { --ink: #1b1f24; --faint: #667079; --rule: #d5dade; --paper: #fff; --tint: #f4f6f8; --accent: #0072b2; }
@@ -148,10 +154,12 @@ std::string markdown_status(const std::vector<CellLine>& cells) {
 
 std::string html_figure(const std::filesystem::path& run, const FigureFile& figure, const std::string& caption) {
   if (figure.name.empty()) return "<p class=\"faint\">" + caption + "</p>\n";
-  const std::string svg = read_file(run / "figures" / (figure.name + ".svg"));
+  const fs::path svg = run / "figures" / (figure.name + ".svg");
+  const bool is_svg = !fs::exists(svg) || fs::file_size(svg) <= kLargestSvg;
+  const std::string bytes = read_file(is_svg ? svg : run / "figures" / (figure.name + ".png"));
   return fmt::format(
-      "<figure><img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption>{2}</figcaption></figure>\n",
-      html_escaped(figure.caption), base64(svg), caption);
+      "<figure><img alt=\"{0}\" src=\"data:image/{1};base64,{2}\"><figcaption>{3}</figcaption></figure>\n",
+      html_escaped(figure.caption), is_svg ? "svg+xml" : "png", base64(bytes), caption);
 }
 
 std::string html_facts(const std::vector<std::pair<std::string, std::string>>& facts) {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "metrics/line_matching.hpp"
-#include "metrics/rows.hpp"
+#include "core/params.hpp"
+#include "metrics/judged_scan.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -24,21 +24,26 @@ render::LineVerdict verdict_of(metrics::Outcome outcome) {
 
 }  // namespace
 
-std::vector<render::ScanVerdict> line_verdicts(const Recording& recording, const PipelineResult& result) {
+std::vector<render::ScanVerdict> line_verdicts(const Recording& recording, const PipelineResult& result,
+                                               const metrics::SegmentRules& rules) {
   const metrics::MetricInput input{recording.observed, recording.truth ? &*recording.truth : nullptr, result};
   const std::size_t frames = recording.observed.frames.size();
   if (!metrics::has_beam_truth(input) || result.lines.size() != frames) return {};
   const metrics::Surfaces surfaces = metrics::join_walls(recording.truth->walls);
   std::vector<render::ScanVerdict> verdicts(frames);
   for (std::size_t f = 0; f < frames; ++f) {
-    const std::vector<metrics::TrueLine> truth = metrics::true_lines(input, f, surfaces, {});
-    const metrics::LineMatching matching = metrics::match_lines(result.lines[f].lines, truth, {});
+    const auto [truth, matching] = metrics::judge_scan(input, f, surfaces, rules);
     for (const metrics::Outcome outcome : matching.outcome) verdicts[f].lines.push_back(verdict_of(outcome));
     for (std::size_t t = 0; t < truth.size(); ++t)
       if (std::ranges::find(matching.truth, static_cast<int>(t)) == matching.truth.end())
         verdicts[f].missed.push_back(truth[t].segment);
   }
   return verdicts;
+}
+
+metrics::SegmentRules segment_rules(const std::vector<ModuleChoice>& families) {
+  const auto found = std::ranges::find(families, "segments", &ModuleChoice::module);
+  return found == families.end() ? metrics::SegmentRules{} : make_params<metrics::SegmentRules>(found->params);
 }
 
 }  // namespace scanbench::harness

@@ -5,12 +5,18 @@
 
 #include "core/recording.hpp"
 #include "core/result.hpp"
+#include "harness/scenario/scenario.hpp"
+#include "metrics/judged_scan.hpp"
 #include "render/figure.hpp"
 
 namespace scanbench::harness {
 
-/// The verdicts of each frame, by the rules of the metric family `segments` with its default parameters; empty without
-/// the truth of each beam.
-std::vector<render::ScanVerdict> line_verdicts(const Recording& recording, const PipelineResult& result);
+/// The verdicts of each frame, by the rules of the metric family `segments` with these parameters; empty without the
+/// truth of each beam.
+std::vector<render::ScanVerdict> line_verdicts(const Recording& recording, const PipelineResult& result,
+                                               const metrics::SegmentRules& rules = {});
+
+/// The parameters of `segments` in a scenario's list of metrics; the default ones if it is not in the list.
+metrics::SegmentRules segment_rules(const std::vector<ModuleChoice>& families);
 
 }  // namespace scanbench::harness

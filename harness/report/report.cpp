@@ -21,7 +21,7 @@ std::string input_text(const ReportInput& input, const Scenario& scenario) {
   }
   if (const auto* lines = std::get_if<LinesInput>(&scenario.input)) {
     if (!lines->file.empty())
-      return fmt::format("Lines of {}{}.", lines->file.filename().string(),
+      return fmt::format("Lines of {}{}.", lines->file_name,
                          lines->world ? ", with world " + lines->world->name + " as the truth"
                                       : ". There is no truth: metrics that need it are absent");
     return fmt::format("{} copies of the {} walls of world {}, {} seed{}.", lines->copies.copies,

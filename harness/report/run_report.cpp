@@ -16,7 +16,6 @@
 #include "harness/analysis/agreement_files.hpp"
 #include "harness/analysis/selection.hpp"
 #include "harness/files/atomic_file.hpp"
-#include "harness/files/hash.hpp"
 #include "harness/report/aligner_ranking.hpp"
 #include "harness/report/benchmark_figures.hpp"
 #include "harness/report/benchmark_report.hpp"
@@ -26,6 +25,7 @@
 #include "harness/report/scenario_tables.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/store/cell_files.hpp"
+#include "harness/store/json_file.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_files.hpp"
@@ -50,15 +50,12 @@ void write_agreement(const fs::path& run, const ReportInput& input) {
 
 /// "SHA-256 ...; 180 beams from -90 deg in steps of 1 deg, from first_angle_deg and step_deg".
 std::string source_of(const fs::path& run, const Scenario& scenario, const RecordedInput& recorded) {
+  std::string text = recorded.log_sha256.empty() ? "hash not known" : "SHA-256 " + recorded.log_sha256;
   std::error_code absent;
-  const bool readable = fs::is_regular_file(recorded.log, absent);
-  std::string text = readable ? "SHA-256 " + sha256_of_file(recorded.log) : "the log no longer exists";
   if (scenario.seeds.empty()) return text;
   const fs::path file = recording_path(run, scenario.name, scenario.seeds.front()) / kScanFile;
   if (!fs::is_regular_file(file, absent)) return text;
-  const auto json = nlohmann::json::parse(read_file(file), nullptr, false);
-  if (json.is_discarded() || !json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
-  try {
+  return with_json_of(file, [&](const nlohmann::ordered_json& json) {
     const bool given = std::ranges::any_of(std::array{"step_deg", "span_deg"}, [&](const char* key) {
       const auto param = recorded.params.find(key);
       return param != recorded.params.end() && to_text(param->second) != "0";
@@ -68,9 +65,7 @@ std::string source_of(const fs::path& run, const Scenario& scenario, const Recor
                               degrees(json.at("angle_step_rad").get<double>()),
                               given ? "from first_angle_deg and step_deg or span_deg"
                                     : "from the log or the rule of its format for this number of beams");
-  } catch (const nlohmann::json::exception& error) {
-    throw ConfigError(file.string() + ": " + error.what());
-  }
+  });
 }
 
 }  // namespace

@@ -9,25 +9,25 @@
 namespace scanbench::harness {
 namespace {
 
-/// Removes the path of a file from an input and returns it (empty if none). The file's bytes enter the address, not its
-/// path.
-std::filesystem::path take_file(SimulatedInput& input) {
+/// Removes the path of a file from an input and returns the hash of the file (empty if none). The file's bytes enter
+/// the address, not its path.
+std::string take_file(SimulatedInput& input) {
   input.caster = sim::CasterKind::exact;  // both casters give the same bytes
   return {};                              // the world itself is part of the text
 }
 
-std::filesystem::path take_file(RecordedInput& input) {
-  const std::filesystem::path log = input.log;
+std::string take_file(RecordedInput& input) {
+  const std::string hash = input.log_sha256.empty() ? sha256_of_file(input.log) : input.log_sha256;
   input.log = "/";
   input.log_as_written.clear();
-  return log;
+  return hash;
 }
 
-std::filesystem::path take_file(LinesInput& input) {
-  const std::filesystem::path file = input.file;
-  if (!file.empty()) input.file = "/";
+std::string take_file(LinesInput& input) {
+  const std::string hash = input.file.empty() ? "" : sha256_of_file(input.file);
+  if (!input.file.empty()) input.file = "/";
   input.file_as_written.clear();
-  return file;
+  return hash;
 }
 
 }  // namespace
@@ -35,10 +35,10 @@ std::filesystem::path take_file(LinesInput& input) {
 std::string input_address(const Scenario& scenario) {
   Scenario part;
   part.input = scenario.input;
-  const std::filesystem::path file = std::visit([](auto& input) { return take_file(input); }, part.input);
+  const std::string file = std::visit([](auto& input) { return take_file(input); }, part.input);
   Sha256 hash;
   hash.part("input", effective_yaml(part));
-  if (!file.empty()) hash.part("file", sha256_of_file(file));
+  if (!file.empty()) hash.part("file", file);
   return hash.hex();
 }
 

@@ -77,7 +77,7 @@ class Run {
     refuse_if_all_input_is_bad(interrupted);
     RunResult result = end(interrupted);
     pool_.reset();  // from here on the caller handles interrupts
-    if (!interrupted && !result.old_run_kept && options_.finish) options_.finish(result);
+    if (!interrupted && !result.old_run_kept) finish_run(result);
     return result;
   }
 
@@ -150,6 +150,20 @@ class Run {
     cell.summary = summary_lines(cell.result.key, found->metrics);
     cell.result.record = found->record;
     cell.result.done = cell.result.reused = true;
+  }
+
+  /// Figures and reports belong to the run: it is complete when they exist. Killed before, it is still running, as any
+  /// other run that was killed.
+  void finish_run(const RunResult& result) {
+    if (!options_.finish) return;
+    const bool is_complete = manifest_.state == "complete";
+    try {
+      options_.finish(result);
+    } catch (...) {
+      if (is_complete) set_run_state(result.out, "interrupted");
+      throw;
+    }
+    if (is_complete) set_run_state(result.out, manifest_.state);
   }
 
   /// Starts a cell whose recording exists, else the next recording. False if there is nothing to start now.
@@ -345,7 +359,8 @@ class Run {
       return result;
     }
     write_summary();
-    end_run(*target_, manifest_, interrupted ? "interrupted" : missing ? "incomplete" : "complete");
+    const std::string state = interrupted ? "interrupted" : missing ? "incomplete" : "complete";
+    end_run(*target_, manifest_, state, options_.finish && state == "complete");
     return result;
   }
 

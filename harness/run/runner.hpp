@@ -10,13 +10,14 @@
 #include "harness/run/run_options.hpp"
 #include "harness/scenario/effective.hpp"
 #include "harness/scenario/scenario.hpp"
+#include "harness/store/run_files.hpp"
 
 namespace scanbench::harness {
 
 /// Functions that a run calls and that tests replace.
 struct RunServices {
   std::function<Recording(const Scenario&, std::uint64_t seed, int threads)> recording;
-  std::function<std::string(const Scenario&)> effective_yaml;
+  EffectiveText effective_yaml;
 };
 
 /// Must be called while the process has one thread (it forks). Cells that fail are rows of the result, not exceptions.

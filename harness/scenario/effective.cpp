@@ -28,7 +28,7 @@ YamlNode choices_node(const std::vector<ModuleChoice>& choices) {
   return list;
 }
 
-void add_input(YamlNode& root, const SimulatedInput& input) {
+void add_input(YamlNode& root, const SimulatedInput& input, const StoredInputs&) {
   yaml_add(root, "world", to_yaml(input.world));
   YamlNode& sensor = yaml_add(root, "sensor", yaml_map());
   yaml_add(sensor, "preset", yaml_text(input.sensor_preset));
@@ -43,13 +43,14 @@ void add_input(YamlNode& root, const SimulatedInput& input) {
 }
 
 /// A path that begins with a variable is valid in any folder. Any other path is made absolute, because this text is
-/// read from the run folder.
-YamlNode path_node(const std::filesystem::path& path, const std::string& as_written) {
+/// read from the run folder, unless the file has a copy there.
+YamlNode path_node(const std::filesystem::path& path, const std::string& as_written, const std::string& stored = {}) {
+  if (!stored.empty()) return yaml_text(stored);
   const bool portable = as_written.starts_with("${");
   return yaml_text(portable ? as_written : std::filesystem::absolute(path).lexically_normal().string());
 }
 
-void add_input(YamlNode& root, const RecordedInput& input) {
+void add_input(YamlNode& root, const RecordedInput& input, const StoredInputs&) {
   YamlNode& recording = yaml_add(root, "recording", yaml_map());
   yaml_add(recording, "log", path_node(input.log, input.log_as_written));
   yaml_add(recording, "format", yaml_text(input.format));
@@ -60,23 +61,23 @@ void add_input(YamlNode& root, const RecordedInput& input) {
     yaml_add(sensor, spec.name, to_yaml(input.sensor_params.at(spec.name)));
 }
 
-void add_input(YamlNode& root, const LinesInput& input) {
+void add_input(YamlNode& root, const LinesInput& input, const StoredInputs& stored) {
   if (input.world) yaml_add(root, "world", to_yaml(*input.world));
   YamlNode& lines = yaml_add(root, "lines", yaml_map());
   if (input.file.empty())
     add_params(lines, input.params);
   else
-    yaml_add(lines, "file", path_node(input.file, input.file_as_written));
+    yaml_add(lines, "file", path_node(input.file, input.file_as_written, stored.lines));
 }
 
 }  // namespace
 
-std::string effective_yaml(const Scenario& scenario) {
+std::string effective_yaml(const Scenario& scenario, const StoredInputs& stored) {
   YamlNode root = yaml_map();
   yaml_add(root, "schema", yaml_plain("1"));
   yaml_add(root, "name", yaml_text(scenario.name));
   yaml_add(root, "about", yaml_text(scenario.about));
-  std::visit([&](const auto& input) { add_input(root, input); }, scenario.input);
+  std::visit([&](const auto& input) { add_input(root, input, stored); }, scenario.input);
   YamlNode& seeds = yaml_add(root, "seeds", yaml_sequence());
   for (const std::uint64_t seed : scenario.seeds) seeds.items.push_back(yaml_plain(std::to_string(seed)));
   YamlNode pipelines = yaml_sequence();
@@ -91,7 +92,7 @@ std::string effective_yaml(const Scenario& scenario) {
   yaml_add(root, "metrics", choices_node(scenario.metrics));
   yaml_add(root, "figures", choices_node(scenario.figures));
   if (!scenario.published_file.empty())
-    yaml_add(root, "published", path_node(scenario.published_file, scenario.published_as_written));
+    yaml_add(root, "published", path_node(scenario.published_file, scenario.published_as_written, stored.published));
   YamlNode& limits = yaml_add(root, "limits", yaml_map());
   yaml_add(limits, "seconds", yaml_number(scenario.limits.seconds));
   yaml_add(limits, "memory_mib", yaml_number(scenario.limits.memory_bytes / (1024.0 * 1024.0)));

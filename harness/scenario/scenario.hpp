@@ -56,6 +56,7 @@ struct SimulatedInput {
 struct RecordedInput {
   std::filesystem::path log;
   std::string log_as_written;  ///< in the scenario, with ${SCANBENCH_DATA}
+  std::string log_sha256;      ///< known without the log, of a scenario that a run folder holds; else empty
   std::string format;          ///< carmen, csv, dpslam
   ParamSet params;             ///< of the reader: no-return value, first angle, pose triple, ...; effective
   std::string sensor_preset;
@@ -68,6 +69,7 @@ struct LinesInput {
   std::optional<sim::World> world;           ///< the truth; present for copies
   std::filesystem::path file;                ///< empty: copies
   std::string file_as_written;               ///< in the scenario, with ${SCANBENCH_DATA}
+  std::string file_name;                     ///< without folders, as the user called it
   std::vector<std::vector<Segment>> frames;  ///< the lines of the file
   ParamSet params;                           ///< of the copies, in the units of the scenario; effective
   sim::LineCopies copies;

@@ -25,8 +25,8 @@ namespace {
 
 class ScenarioReader {
  public:
-  ScenarioReader(const YamlNode& root, Scenario& scenario)
-      : root_(root), map_(root, "the scenario"), scenario_(scenario) {}
+  ScenarioReader(const YamlNode& root, Scenario& scenario, bool is_recorded)
+      : root_(root), map_(root, "the scenario"), scenario_(scenario), is_recorded_(is_recorded) {}
 
   void read() {
     read_schema(map_);
@@ -172,9 +172,11 @@ class ScenarioReader {
     input.params = resolve(specs, map.params(specs));
     map.done();
     at_param(node, [&] { check_log_params(input.format, input.params); });
-    input.log = resolve_path(log, input.log_as_written, scenario_.path);
-    at_param(log,
-             [&] { InputFile(input.log).require_at_most(static_cast<std::uint64_t>(scenario_.limits.memory_bytes)); });
+    input.log = resolve_path(log, input.log_as_written, scenario_.path, is_recorded_);
+    if (!is_recorded_)
+      at_param(log, [&] {
+        InputFile(input.log).require_at_most(static_cast<std::uint64_t>(scenario_.limits.memory_bytes));
+      });
     if (const YamlNode* sensor = map_.find("sensor")) {
       read_sensor(*sensor, recorded_sensor_specs(), input.sensor_preset, input.sensor_params, input.sensor);
     } else {
@@ -193,6 +195,7 @@ class ScenarioReader {
       input.file_as_written = map.text("file", "a path");
       map.done();
       input.file = resolve_path(*file, input.file_as_written, scenario_.path);
+      input.file_name = input.file.filename().string();
       input.frames = load_line_set(input.file);
       refuse_many_seeds("a file of lines");
       if (const YamlNode* world = map_.find("world")) input.world = read_world_section(*world).world;
@@ -223,12 +226,11 @@ class ScenarioReader {
   const YamlNode& root_;
   YamlMap map_;
   Scenario& scenario_;
+  bool is_recorded_;  ///< the run folder holds what the log says
 };
 
-}  // namespace
-
-Scenario parse_scenario(std::string_view text, const std::filesystem::path& path,
-                        const std::vector<std::string>& sets) {
+Scenario parse(std::string_view text, const std::filesystem::path& path, const std::vector<std::string>& sets,
+               bool is_recorded) {
   Scenario scenario;
   scenario.path = path;
   scenario.text = text;
@@ -236,13 +238,24 @@ Scenario parse_scenario(std::string_view text, const std::filesystem::path& path
     // The larger limit applies, because a scenario may contain its world.
     YamlNode root = parse_yaml(text, kMaxWorldBytes);
     apply_sets(root, sets);
-    ScenarioReader(root, scenario).read();
+    ScenarioReader(root, scenario, is_recorded).read();
   });
   return scenario;
 }
 
+}  // namespace
+
+Scenario parse_scenario(std::string_view text, const std::filesystem::path& path,
+                        const std::vector<std::string>& sets) {
+  return parse(text, path, sets, false);
+}
+
 Scenario load_scenario(const std::filesystem::path& path, const std::vector<std::string>& sets) {
   return parse_scenario(read_text_file(path, kMaxWorldBytes), path, sets);
+}
+
+Scenario load_recorded_scenario(const std::filesystem::path& path) {
+  return parse(read_text_file(path, kMaxWorldBytes), path, {}, true);
 }
 
 }  // namespace scanbench::harness

@@ -46,4 +46,7 @@ Scenario load_scenario(const std::filesystem::path& path, const std::vector<std:
 Scenario parse_scenario(std::string_view text, const std::filesystem::path& path,
                         const std::vector<std::string>& sets = {});
 
+/// The scenario of a run folder, whose recordings exist: its log may be absent.
+Scenario load_recorded_scenario(const std::filesystem::path& path);
+
 }  // namespace scanbench::harness

@@ -147,12 +147,15 @@ void require_folder_name(const std::string& name, Mark mark, const std::string& 
                           quoted_excerpt(name)));
 }
 
-std::filesystem::path resolve_path(const YamlNode& node, const std::string& text, const std::filesystem::path& file) {
+std::filesystem::path resolve_path(const YamlNode& node, const std::string& text, const std::filesystem::path& file,
+                                   bool may_be_absent) {
   constexpr std::string_view kVariable = "${SCANBENCH_DATA}";
   std::string expanded = text;
   if (const std::size_t at = expanded.find(kVariable); at != std::string::npos) {
     const char* value = std::getenv("SCANBENCH_DATA");
-    if (value == nullptr || *value == '\0')
+    const bool is_set = value != nullptr && *value != '\0';
+    if (!is_set && may_be_absent) return text;
+    if (!is_set)
       throw PlacedError(node.mark,
                         "${SCANBENCH_DATA} is not set; set that environment variable to the folder that holds the "
                         "data sets, or write the path out");
@@ -165,7 +168,8 @@ std::filesystem::path resolve_path(const YamlNode& node, const std::string& text
   const bool from_command_line = node.mark.line == 0;
   std::filesystem::path result = path.is_absolute() || from_command_line ? path : file.parent_path() / path;
   std::error_code error;
-  if (!std::filesystem::exists(result, error)) throw PlacedError(node.mark, "no such file: " + result.string());
+  if (!may_be_absent && !std::filesystem::exists(result, error))
+    throw PlacedError(node.mark, "no such file: " + result.string());
   return result;
 }
 

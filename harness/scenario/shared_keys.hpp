@@ -25,8 +25,10 @@ std::vector<ModuleChoice> read_choices(const YamlNode& node, const std::string& 
 void require_folder_name(const std::string& name, Mark mark, const std::string& what);
 
 /// A path with ${SCANBENCH_DATA} replaced, relative to the folder of `file`, or to the working directory if it came
-/// from a `--set`. Throws PlacedError if the variable is not set or the file does not exist.
-std::filesystem::path resolve_path(const YamlNode& node, const std::string& text, const std::filesystem::path& file);
+/// from a `--set`. Throws PlacedError if the variable is not set or the file does not exist; with `may_be_absent` the
+/// variable may then remain in the path.
+std::filesystem::path resolve_path(const YamlNode& node, const std::string& text, const std::filesystem::path& file,
+                                   bool may_be_absent = false);
 
 /// Runs `work`. Its ParamErrors get the place of the parameter in `map`, its other ConfigErrors the place of the map.
 template <class Work>

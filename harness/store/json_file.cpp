@@ -19,7 +19,7 @@ constexpr int kDeepest = 32;  // files of a run have four levels; copying a valu
 
 }  // namespace
 
-Json load_json_object(const fs::path& file) {
+Json load_json(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (fs::exists(status) && !fs::is_regular_file(status)) throw ConfigError(file.string() + ": not a regular file");
@@ -32,6 +32,12 @@ Json load_json_object(const fs::path& file) {
     return true;
   };
   Json json = Json::parse(read_file(file), check_depth, false);
+  if (json.is_discarded()) throw ConfigError(file.string() + ": not JSON");
+  return json;
+}
+
+Json load_json_object(const fs::path& file) {
+  Json json = load_json(file);
   if (!json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
   return json;
 }

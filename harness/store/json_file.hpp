@@ -7,8 +7,11 @@
 
 namespace scanbench::harness {
 
-/// Loads the object in a file. Throws ConfigError with the file's name unless it is a regular file of at most 256 MiB
-/// that contains a JSON object nested at most 32 levels deep.
+/// Loads what a file holds. Throws ConfigError with the file's name unless it is a regular file of at most 256 MiB that
+/// contains JSON nested at most 32 levels deep.
+nlohmann::ordered_json load_json(const std::filesystem::path& file);
+
+/// Loads an object; throws for any other JSON value too.
 nlohmann::ordered_json load_json_object(const std::filesystem::path& file);
 
 [[noreturn]] void refuse_json(const std::filesystem::path& file, const nlohmann::ordered_json::exception& error);

@@ -52,7 +52,7 @@ Json artefacts(const fs::path& run) {
   return list;
 }
 
-Json load_json(const fs::path& run) {
+Json manifest_json(const fs::path& run) {
   const fs::path file = run / kManifestFile;
   std::error_code absent;
   if (!fs::exists(file, absent)) throw ConfigError(run.string() + ": not the folder of a run: it has no manifest.json");
@@ -108,7 +108,7 @@ void write_manifest(const fs::path& run, const Manifest& manifest) {
 }
 
 Manifest load_manifest(const fs::path& run) {
-  const Json json = load_json(run);
+  const Json json = manifest_json(run);
   try {
     Manifest manifest{json.at("state"), json.at("start"), json.at("end"), json.at("argv"), json.at("scenarios"), {}};
     for (const auto& scenario : manifest.scenarios) check_name("scenario", scenario);
@@ -124,7 +124,7 @@ Manifest load_manifest(const fs::path& run) {
 }
 
 std::map<std::string, std::string> listed_hashes(const fs::path& run) {
-  const Json json = load_json(run);
+  const Json json = manifest_json(run);
   try {
     std::map<std::string, std::string> hashes;
     for (const auto& file : json.at("artefacts")) hashes.emplace(file.at("path"), file.at("sha256"));
@@ -135,8 +135,14 @@ std::map<std::string, std::string> listed_hashes(const fs::path& run) {
 }
 
 void refresh_manifest(const fs::path& run) {
-  Json json = load_json(run);
+  Json json = manifest_json(run);
   json["artefacts"] = artefacts(run);
+  write_json(run, json);
+}
+
+void set_run_state(const fs::path& run, const std::string& state) {
+  Json json = manifest_json(run);
+  json["state"] = state;
   write_json(run, json);
 }
 
@@ -149,7 +155,7 @@ std::string version_text() {
 }
 
 std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& run) try {
-  const Json json = load_json(run);
+  const Json json = manifest_json(run);
   std::string command;
   for (const auto& word : json.value("argv", Json::array()))
     command += (command.empty() ? "" : " ") + word.get<std::string>();

@@ -16,7 +16,7 @@ inline const RunFile kManifestFile("manifest.json");
 
 /// The part of manifest.json that differs between runs. The file also has version, commit, compiler, libraries and CPU.
 struct Manifest {
-  std::string state;  ///< running, complete, interrupted
+  std::string state;  ///< running, complete, incomplete, interrupted
   std::string start;  ///< UTC, ISO 8601
   std::string end;    ///< empty while running
   std::vector<std::string> argv;
@@ -35,6 +35,9 @@ Manifest load_manifest(const std::filesystem::path& run);
 std::map<std::string, std::string> listed_hashes(const std::filesystem::path& run);
 /// Updates the list of files, after figures or reports were added to a run.
 void refresh_manifest(const std::filesystem::path& run);
+
+/// Changes the state and nothing else.
+void set_run_state(const std::filesystem::path& run, const std::string& state);
 
 /// "scanbench 0.1.0 (commit, compiler, build type)".
 std::string version_text();

@@ -1,10 +1,13 @@
-// manifest.json, scenario.yaml, effective.yaml (or a folder of each) and benchmark.json of a run.
+// manifest.json, scenario.yaml, effective.yaml (or a folder of each), benchmark.json of a run, and copies of its input.
 #include "harness/store/run_files.hpp"
+
+#include <variant>
 
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/hash.hpp"
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/store/json_file.hpp"
 #include "harness/store/run_file.hpp"
@@ -18,17 +21,77 @@ const RunFile kEffectiveFile("effective.yaml");
 const RunFile kScenarioFiles[] = {RunFile("scenarios/*.yaml"), RunFile("effective/*.yaml")};
 const RunFile kBenchmarkFile("benchmark.json");
 
+const RunFile kPublishedCopy("inputs/*/published.csv");
+const RunFile kLinesCopy("inputs/*/lines.csv");
+const RunFile kSourcesFile("inputs/*/sources.json");
+
+using Json = nlohmann::ordered_json;
+
+fs::path inputs_path(const fs::path& run, const std::string& scenario) {
+  return run / "inputs" / scenario;
+}
+
+Json source_json(const fs::path& file, const std::string& sha256) {
+  return {{"file", file.filename().string()}, {"sha256", sha256}};
+}
+
+/// Copies a file; returns its entry in sources.json.
+Json copy_input(const fs::path& from, const fs::path& to, const std::string& name) {
+  const std::string bytes = read_file(from);
+  make_folders(to.parent_path());
+  write_file_atomically(to, bytes);
+  return {{"file", name}, {"sha256", sha256_hex(bytes)}};
+}
+
+/// `up` leads from the folder of the effective scenario to the run folder.
+StoredInputs store_inputs(const fs::path& run, const Scenario& scenario, const std::string& up) {
+  const fs::path folder = inputs_path(run, scenario.name);
+  const std::string prefix = up + "inputs/" + scenario.name + "/";
+  StoredInputs stored;
+  Json sources = Json::object();
+  if (!scenario.published_file.empty()) {
+    sources["published"] =
+        copy_input(scenario.published_file, folder / kPublishedCopy, scenario.published_file.filename().string());
+    stored.published = prefix + kPublishedCopy.name();
+  }
+  if (const auto* lines = std::get_if<LinesInput>(&scenario.input); lines != nullptr && !lines->file.empty()) {
+    sources["lines"] = copy_input(lines->file, folder / kLinesCopy, lines->file_name);
+    stored.lines = prefix + kLinesCopy.name();
+  }
+  if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
+    sources["log"] = source_json(recorded->log, sha256_of_file(recorded->log));
+  if (sources.empty()) return stored;
+  make_folders(folder);
+  write_file_atomically(folder / kSourcesFile, sources.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return stored;
+}
+
+/// Adds what sources.json says of files that are elsewhere.
+void add_sources(const fs::path& run, Scenario& scenario) {
+  const fs::path file = inputs_path(run, scenario.name) / kSourcesFile;
+  if (!fs::exists(file)) return;
+  with_json_of(file, [&](const Json& sources) {
+    if (auto* lines = std::get_if<LinesInput>(&scenario.input); lines != nullptr && sources.contains("lines"))
+      lines->file_name = sources.at("lines").at("file").get<std::string>();
+    if (auto* recorded = std::get_if<RecordedInput>(&scenario.input); recorded != nullptr && sources.contains("log"))
+      recorded->log_sha256 = sources.at("log").at("sha256").get<std::string>();
+  });
+}
+
 void write_scenarios(const fs::path& run, const RunStart& start) {
   if (start.scenarios.size() == 1) {
-    write_file_atomically(run / kScenarioFile, start.scenarios.front().text);
-    write_file_atomically(run / kEffectiveFile, start.effective_yaml(start.scenarios.front()));
+    const Scenario& scenario = start.scenarios.front();
+    const StoredInputs stored = store_inputs(run, scenario, "");
+    write_file_atomically(run / kScenarioFile, scenario.text);
+    write_file_atomically(run / kEffectiveFile, start.effective_yaml(scenario, stored));
     return;
   }
   make_folders(run / "scenarios");
   make_folders(run / "effective");
   for (const auto& scenario : start.scenarios) {
+    const StoredInputs stored = store_inputs(run, scenario, "../");
     write_file_atomically(run / "scenarios" / (scenario.name + ".yaml"), scenario.text);
-    write_file_atomically(run / "effective" / (scenario.name + ".yaml"), start.effective_yaml(scenario));
+    write_file_atomically(run / "effective" / (scenario.name + ".yaml"), start.effective_yaml(scenario, stored));
   }
 }
 
@@ -48,10 +111,11 @@ Manifest start_run(const RunTarget& target, const RunStart& start) {
   return manifest;
 }
 
-void end_run(RunTarget& target, Manifest& manifest, const std::string& state) {
+void end_run(RunTarget& target, Manifest& manifest, const std::string& state, bool reports_follow) {
   manifest.state = state;
   manifest.end = utc_now();
   write_manifest(target.path(), manifest);
+  if (reports_follow) set_run_state(target.path(), "running");
   target.finish();
 }
 
@@ -61,8 +125,9 @@ std::vector<Scenario> load_run_scenarios(const fs::path& run) {
   for (const auto& name : manifest.scenarios) {
     const fs::path alone = run / kEffectiveFile;
     const bool many = manifest.scenarios.size() > 1 || !fs::exists(alone);
-    scenarios.push_back(load_scenario(many ? run / "effective" / (name + ".yaml") : alone));
+    scenarios.push_back(load_recorded_scenario(many ? run / "effective" / (name + ".yaml") : alone));
     scenarios.back().name = name;
+    add_sources(run, scenarios.back());
   }
   return scenarios;
 }

@@ -34,7 +34,7 @@ void refuse_linked_folders(const fs::path& run) {
     if (fs::is_symlink(path) && fs::is_directory(path))
       throw ConfigError(path.string() + " is a symbolic link; the folders of a run must be folders of its own");
   };
-  for (const char* name : {"cells", "effective", "figures", "published", "recordings", "scenarios"}) {
+  for (const char* name : {"cells", "effective", "figures", "inputs", "published", "recordings", "scenarios"}) {
     refuse_link(run / name);
     std::error_code absent;
     for (const auto& entry : fs::recursive_directory_iterator(run / name, absent)) refuse_link(entry.path());

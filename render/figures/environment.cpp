@@ -63,7 +63,7 @@ class Environment : public Figure {
       const std::size_t frame = shown_frame(recording, params_.frame);
       seen = frame_points(recording, frame, placed.world_from_sensor[frame]);
       add_scan(seen, placed.world_from_sensor[frame], panel, scene);
-      caption += fmt::format(", and the returns of scan {} with the pose of the sensor", frame + 1);
+      caption += fmt::format(", and the returns of scan {} with the pose of the sensor", frame);
     }
     add_waypoints(input.waypoints, panel, scene);
     if (has_walls) set_view(seen, world_of(input, placed), panel);

@@ -47,8 +47,8 @@ class MergeDetail : public Figure {
     const auto window = fullest_window(places, side);
 
     Scene scene{.width_in = kDoubleColumnIn, .columns = 2, .share_axes = true, .scale_bar = true};
-    scene.title = fmt::format("{}: {}, scan {} of {}", input.title, both.named->pipeline, frame + 1,
-                              input.recording.observed.frames.size());
+    scene.title = fmt::format("{}: {}, scan {} of 0 to {}", input.title, both.named->pipeline, frame,
+                              input.recording.observed.frames.size() - 1);
     Points scan{.points = points, .color = kBlack, .size_pt = 1.4};
     scene.panels = {panel("a) points of one scan", window, {}, kGivenStroke, points.empty() ? "no points" : ""),
                     panel("b) lines found in it", window, found, kGivenStroke, found.empty() ? "no lines" : ""),
@@ -65,7 +65,7 @@ class MergeDetail : public Figure {
         {"merge_detail",
          fmt::format("{}: a detail of {:.3g} m: points of scan {}, lines found in it, lines of all scans in the same "
                      "place, and the merged lines.",
-                     input.title, side, frame + 1),
+                     input.title, side, frame),
          std::move(scene)}};
   }
 

@@ -72,14 +72,14 @@ class ScanOverlay : public Figure {
     if (shown.size() == 2) scene.columns = groups.size() <= 2 ? 2 : 4;  // the two scans of a pipeline side by side
     const std::size_t frames = input.recording.observed.frames.size();
     scene.title = shown.size() == 2 ? input.title + ": the median and the worst scan"
-                                    : fmt::format("{}: scan {} of {}", input.title, shown[0].frame + 1, frames);
+                                    : fmt::format("{}: scan {} of 0 to {}", input.title, shown[0].frame, frames - 1);
     for (const auto& group : groups)
       for (const ShownScan& scan : shown) scene.panels.push_back(panel_of(input, group, scan));
     add_legend_entries(input, groups, scene);
-    std::string which = fmt::format("scan {}", shown[0].frame + 1);
+    std::string which = fmt::format("scan {}", shown[0].frame);
     if (shown.size() == 2)
       which = fmt::format("the median scan ({}) and the worst one ({}), by the share of right lines over all pipelines",
-                          shown[0].frame + 1, shown[1].frame + 1);
+                          shown[0].frame, shown[1].frame);
     return {
         {"scan_overlay",
          fmt::format("{}: the points of {}, and the lines that each pipeline found, sensor frame.", input.title, which),
@@ -111,7 +111,7 @@ class ScanOverlay : public Figure {
     const std::vector<Vec2> points = frame_points(recording, scan.frame, Pose2());
     const JudgedLines lines = lines_of(named, scan.frame);
     Panel panel{.tell_outside = "point"};
-    const std::string which = scan.rank.empty() ? "" : fmt::format(", {} scan {}", scan.rank, scan.frame + 1);
+    const std::string which = scan.rank.empty() ? "" : fmt::format(", {} scan {}", scan.rank, scan.frame);
     panel.title = fmt::format("{}{}: {}", names_of(input.results, group), which, counted(lines.found().size(), "line"));
     if (has_truth(recording, scan.frame))
       panel.items.emplace_back(

@@ -73,6 +73,19 @@ TEST_F(BadLuck, NothingWritesIntoAFolderThatAnotherProcessHasLocked) {
   EXPECT_EQ(here({"score", "run", "-q"}).code, 0);
 }
 
+TEST_F(BadLuck, FiguresThatTakeTooLongAreLeftOutOfTheReport) {
+  ASSERT_EQ(here({"run", "room.yaml", "--out", "run", "-q"}).code, 0);
+  std::string text = read(folder_ / "run/effective.yaml");
+  const std::string limit = "seconds: 600";
+  ASSERT_NE(text.find(limit), std::string::npos) << text;
+  folder_.write("run/effective.yaml", text.replace(text.find(limit), limit.size(), "seconds: 1e-9"));
+  const auto outcome = here({"figures", "run"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("the figures were not drawn: timeout"));
+  EXPECT_EQ(here({"report", "run"}).code, 0);
+  EXPECT_THAT(read(folder_ / "run/report.html"), Not(HasSubstr("<img")));
+}
+
 TEST_F(BadLuck, NothingIsWrittenThroughALinkOutOfTheRun) {
   ASSERT_EQ(here({"run", "room.yaml", "--out", "run", "-q"}).code, 0);
   fs::rename(folder_ / "run/figures", folder_ / "elsewhere");

@@ -146,6 +146,23 @@ TEST_F(Verbs, AnExportedLogReadsBackToTheSameRangesAndLines) {
   EXPECT_EQ(rows, 5);
 }
 
+TEST_F(Verbs, ExportListsSeedsInTheirOrder) {
+  ASSERT_EQ(here({"simulate", "room.yaml", "--out", "many", "-q", "--seed", "10,9,1,2"}).code, 0);
+  const auto outcome = here({"export", "many", "--format", "tum"});
+  ASSERT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out,
+            "many/export/room_1.txt\nmany/export/room_2.txt\nmany/export/room_9.txt\nmany/export/room_10.txt\n");
+}
+
+TEST_F(Verbs, QuietRunsStillSayThatCellsFailed) {
+  folder_.write("slow.yaml", room() + "limits: {seconds: 0.001}\n");
+  const auto outcome = here({"run", "slow.yaml", "--out", "slow", "-q", "--no-figures"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("1 of 1 cells failed"), HasSubstr("room/iepf/1")));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
 TEST_F(Verbs, FiguresSaysWhenThereIsNothingToDraw) {
   folder_.write("plain.yaml", room_with("figures: [environment]\n", ""));
   ASSERT_EQ(here({"run", "plain.yaml", "--out", "plain", "-q"}).code, 0);

@@ -76,6 +76,36 @@ TEST(Segments, CountsOneOfEachKind) {
   expect_value(rows, "overlap", "all", (0.6 + 1.0) / 2, 2);
 }
 
+TEST(Segments, TheTableOfScansCountsEachScanForItself) {
+  MadeUpRun run = room_from_the_middle();
+  cast_frame(run, {});
+  cast_frame(run, {});
+  const auto south = beams_of(run, 0);
+  // Scan 0: nothing found. Scan 1: the south wall, 3 cm off, and a line through the room. Scan 2: all of them.
+  const Vec2 up(0, 0.03);
+  std::vector<int> beams;
+  for (const int beam : south)
+    if (beam < 360) beams.push_back(beam);
+  add_line(run, 1, line_between(true_point(run, beams.front()) + up, true_point(run, beams.back()) + up), beams);
+  add_line(run, 1, line_between({-1, 0}, {1, 0.5}), {});
+  find_all_lines(run, 2);
+  const auto tables = Registry<metrics::MetricFamily>::make("segments")->tables(run.input());
+  ASSERT_EQ(tables.size(), 1U);
+  EXPECT_EQ(tables[0].name, "scans");
+  EXPECT_EQ(tables[0].columns,
+            (std::vector<std::string>{"frame", "true", "false", "missed", "split", "merged", "f1", "residual_m"}));
+  ASSERT_EQ(tables[0].rows.size(), 3U);
+  const auto begins_with = [&](std::size_t row, std::vector<double> counts) {
+    EXPECT_EQ(std::vector(tables[0].rows[row].begin(), tables[0].rows[row].begin() + 7), counts);
+  };
+  begins_with(0, {0, 0, 0, 4, 0, 0, 0});
+  EXPECT_TRUE(std::isnan(tables[0].rows[0][7]));  // no return supports a line
+  begins_with(1, {1, 1, 1, 3, 0, 0, 2.0 * 1 / (2 + 4)});
+  EXPECT_NEAR(tables[0].rows[1][7], 0.03, 1e-12);
+  begins_with(2, {2, 4, 0, 0, 0, 0, 1});
+  EXPECT_NEAR(tables[0].rows[2][7], 0, 1e-12);
+}
+
 TEST(Segments, CorrectLinesOnPiecesTooSmallToCountAreFalseAndCountedAsSmall) {
   // A wall, and 0.45 m of another one, 1 m apart in depth.
   MadeUpRun run = make_run(ScanGeometry(radians(10), radians(0.5), 320),

@@ -340,7 +340,7 @@ Scenario scenario_with(const std::string& name, std::vector<PipelineSpec> pipeli
 
 RunServices services() {
   return {.recording = [](const Scenario&, std::uint64_t seed, int) { return random_recording(seed, 5, 16, true); },
-          .effective_yaml = [](const Scenario& s) { return s.text + "effective: true\n"; }};
+          .effective_yaml = [](const Scenario& s, const StoredInputs&) { return s.text + "effective: true\n"; }};
 }
 
 RunResult run_here(const std::vector<Scenario>& scenarios, const RunOptions& options) {

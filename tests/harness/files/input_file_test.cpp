@@ -36,6 +36,8 @@ TEST(InputFile, ATooLargeFileIsRefusedByItsSizeAlone) {
   fs::resize_file(sparse, std::uintmax_t{20} << 30);
   EXPECT_THAT(config_refusal([&] { read_text_file(sparse, 1 << 20); }),
               HasSubstr("sparse.log: larger than 1 MiB (20 GiB)"));
+  fs::resize_file(sparse, std::uintmax_t{1} << 42);
+  EXPECT_THAT(config_refusal([&] { read_file(sparse); }), HasSubstr("sparse.log: larger than "));
 }
 
 TEST(InputFile, AGzipBombIsRefusedWithItsName) {

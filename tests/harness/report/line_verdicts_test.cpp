@@ -54,6 +54,17 @@ TEST(LineVerdicts, AreRightSplitFalseAndMissed) {
   EXPECT_NEAR(verdicts[0].missed[0].b.y(), 3.0, 1e-9);
 }
 
+TEST(LineVerdicts, FollowTheRulesOfTheScenario) {
+  const Recording recording = two_walls();
+  PipelineResult result;
+  result.lines.resize(1);
+  result.lines[0].lines = {line({{2.1, -2}, {2.1, 2}})};  // 10 cm behind the wall
+  using enum render::LineVerdict;
+  EXPECT_EQ(line_verdicts(recording, result)[0].lines, std::vector{right});
+  const auto strict = segment_rules({{"metrics", "segments", {{"max_offset_m", 0.05}}}});
+  EXPECT_EQ(line_verdicts(recording, result, strict)[0].lines, std::vector{false_line});
+}
+
 TEST(LineVerdicts, AreNoneWithoutTruth) {
   Recording recording = two_walls();
   recording.truth.reset();

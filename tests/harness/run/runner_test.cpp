@@ -463,6 +463,21 @@ TEST(Runner, HoldsItsLockUntilReportsAreWritten) {
   EXPECT_EQ(refused, 2);
 }
 
+TEST(Runner, IsCompleteWhenItsReportsAreWrittenAndNotBefore) {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  const auto state = [&] { return nlohmann::json::parse(read_file(out / "manifest.json")).at("state"); };
+  const std::vector<Scenario> scenarios{scenario_with("s", {extract_with("a", "test_line")})};
+  for (const bool replaces : {false, true}) {
+    SCOPED_TRACE(replaces);
+    run_here(scenarios, {.out = out, .finish = [&](const RunResult&) { EXPECT_EQ(state(), "running"); }});
+    EXPECT_EQ(state(), "complete");
+  }
+  EXPECT_THROW(run_here(scenarios, {.out = out, .finish = [](const RunResult&) { throw std::runtime_error("stop"); }}),
+               std::runtime_error);
+  EXPECT_EQ(state(), "interrupted");
+}
+
 TEST(Runner, TwoRunsInOneFolderAtATimeAreRefused) {
   const testing::TemporaryFolder folder;
   const fs::path out = folder.path() / "r";

@@ -10,6 +10,7 @@
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
+#include "harness/store/run_files.hpp"
 #include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {
@@ -34,6 +35,14 @@ TEST(JsonFile, RefusesWhatIsNoObjectOfReasonableDepthAndNamesTheFile) {
   for (const std::string& bad :
        {std::string(), std::string("[]"), std::string("{\"a\": "), std::string("\xff"), nested(100000)})
     EXPECT_THAT(refusal(bad), HasSubstr("x.json: ")) << bad.substr(0, 20);
+}
+
+TEST(RunFiles, OfBenchmarksAreCheckedLikeAllOthers) {
+  const TemporaryFolder folder;
+  for (const std::string& bad : {std::string("[]"), std::string(R"({"about": 1})"), nested(100000)}) {
+    folder.write("benchmark.json", bad);
+    EXPECT_THAT(config_refusal([&] { load_benchmark(folder.path()); }), HasSubstr("benchmark.json: "));
+  }
 }
 
 TEST(JsonFile, RefusesWhatIsNoRegularFile) {

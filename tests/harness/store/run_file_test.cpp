@@ -16,7 +16,8 @@ TEST(RunFile, IsNamedByItsLastPart) {
 
 TEST(RunFile, IsKnownWhereItsWriterPutsIt) {
   for (const char* path : {"manifest.json", "summary.csv", "effective.yaml", "scenarios/a b.yaml", "benchmark.json",
-                           "cells/s/p/1/status.json", "cells/s.x/p=1/20/lines.csv", "recordings/s/1/scan.json"})
+                           "cells/s/p/1/status.json", "cells/s.x/p=1/20/lines.csv", "recordings/s/1/scan.json",
+                           "inputs/s/published.csv", "inputs/s/sources.json"})
     EXPECT_TRUE(is_run_file(path)) << path;
 }
 

@@ -1,0 +1,19 @@
+// Figures of a run, drawn in a child process.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/progress.hpp"
+#include "harness/scenario/scenario.hpp"
+
+namespace scanbench::app {
+
+/// Draws the figures of a run with the limits of its scenarios on time and memory: results of a million lines must not
+/// take all memory of the machine. Returns why they were not drawn; the run then has no figures. Empty if they were.
+/// Throws ConfigError for wrong input and what the system refuses, and Interrupted.
+std::string draw_within_limits(const std::filesystem::path& run, const std::vector<harness::Scenario>& scenarios,
+                               bool pdf, Progress& progress);
+
+}  // namespace scanbench::app

@@ -1,0 +1,145 @@
+// Chooses the cell and the scan, and draws it as the figure scan_overlay does.
+#include "harness/report/shown_scan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/names.hpp"
+#include "core/registry.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/files/csv.hpp"
+#include "harness/files/text_file.hpp"
+#include "harness/report/line_verdicts.hpp"
+#include "harness/store/cell_files.hpp"
+#include "harness/store/cell_status.hpp"
+#include "harness/store/recording_folder.hpp"
+#include "harness/store/run_files.hpp"
+#include "harness/store/run_folder.hpp"
+#include "render/backends/cairo.hpp"
+#include "render/backends/gl.hpp"
+#include "render/figure.hpp"
+
+namespace scanbench::harness {
+namespace fs = std::filesystem;
+namespace {
+
+/// The element of this name; the only element if the name is empty.
+template <class T>
+const T& choose(const std::vector<T>& all, const std::string& name, const std::string& option, const std::string& of) {
+  std::vector<std::string> known;
+  for (const T& one : all) known.push_back(one.name);
+  const auto found = std::ranges::find(all, name, &T::name);
+  if (found != all.end()) return *found;
+  if (name.empty() && all.size() == 1) return all.front();
+  if (name.empty())
+    throw ConfigError(
+        fmt::format("{} has {} {}s; --{} must name one of them: {}", of, all.size(), option, option, join(known)));
+  throw ConfigError(fmt::format("{} has no {} '{}'{}", of, option, name, known_names(name, known)));
+}
+
+/// The rows of a cell's scans.csv.
+class ScanRows {
+ public:
+  explicit ScanRows(fs::path cell) : file_(std::move(cell) / "scans.csv") {
+    if (!fs::exists(file_)) return;
+    table_.emplace(read_file(file_), file_,
+                   std::vector<std::string>{"frame", "true", "false", "missed", "split", "f1", "residual_m"});
+  }
+
+  /// Lowest F1; of several the one with most false, missed and split lines; of several the first.
+  std::size_t worst_frame() const {
+    if (!table_)
+      throw ConfigError(file_.string() + ": no such file, so the worst scan is not known; the metric family " +
+                        "`segments` writes it for recordings with a truth; or give the number of a scan: --frame N");
+    std::optional<std::size_t> worst;
+    for (std::size_t row = 0; row < table_->rows(); ++row) {
+      const double f1 = table_->number(row, "f1");
+      if (std::isnan(f1)) continue;
+      if (!worst || f1 < table_->number(*worst, "f1") ||
+          (f1 == table_->number(*worst, "f1") && faults(row) > faults(*worst)))
+        worst = row;
+    }
+    if (!worst) throw ConfigError(file_.string() + ": no scan has an F1: none shows a true line, and none was found");
+    return static_cast<std::size_t>(std::max(0, table_->index(*worst, "frame")));
+  }
+
+  std::string text(std::size_t frame) const {
+    for (std::size_t row = 0; table_ && row < table_->rows(); ++row)
+      if (table_->text(row, "frame") == std::to_string(frame))
+        return fmt::format("{} true, {} false, {} missed, {} split; F1 {}, residual {} m", table_->text(row, "true"),
+                           table_->text(row, "false"), table_->text(row, "missed"), table_->text(row, "split"),
+                           rounded(row, "f1"), rounded(row, "residual_m"));
+    return "";
+  }
+
+ private:
+  double faults(std::size_t row) const {
+    return table_->number(row, "false") + table_->number(row, "missed") + table_->number(row, "split");
+  }
+  std::string rounded(std::size_t row, const char* column) const {
+    const double value = table_->number(row, column);
+    return std::isnan(value) ? "undefined" : fmt::format("{:.3g}", value);
+  }
+
+  fs::path file_;
+  std::optional<CsvTable> table_;
+};
+
+std::size_t frame_number(const std::string& text, std::size_t frames) {
+  std::size_t frame = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), frame);
+  if (frames == 0) throw ConfigError("the recording has no scans");
+  if (text.empty() || error != std::errc() || stop != text.data() + text.size() || frame >= frames)
+    throw ConfigError(
+        fmt::format("--frame: there is no scan {}; allowed: 0 to {}, or worst", quoted_excerpt(text), frames - 1));
+  return frame;
+}
+
+}  // namespace
+
+ShownScan show_scan(const fs::path& run, const ScanChoice& choice) {
+  const std::vector<Scenario> scenarios = load_run_scenarios(run);
+  const Scenario& scenario = choose(scenarios, choice.scenario, "scenario", run.string());
+  const PipelineSpec& pipeline = choose(scenario.pipelines, choice.pipeline, "pipeline", scenario.name);
+  const CellKey key{scenario.name, pipeline.name, choice.seed.value_or(scenario.seeds.front())};
+  const fs::path cell = cell_path(run, key);
+  if (!fs::exists(cell / "status.json"))
+    throw ConfigError(run.string() + ": the cell " + to_string(key) + " is missing");
+  if (const auto& outcome = load_status(cell).outcome; outcome.status != CellStatus::ok)
+    throw ConfigError(run.string() + ": the cell " + to_string(key) + " has no lines: it is " +
+                      std::string(to_string(outcome.status)));
+
+  const Recording recording = load_recording(recording_path(run, key.scenario, key.seed));
+  const PipelineResult result = load_result(cell);
+  const ScanRows rows(cell);
+  const std::string wanted = choice.frame == "worst" ? std::to_string(rows.worst_frame()) : choice.frame;
+  const std::size_t frame = frame_number(wanted, recording.observed.frames.size());
+
+  render::FigureInput input{.title = scenario.name, .recording = recording, .waypoints = {}, .results = {}};
+  input.results.push_back(
+      {pipeline.name, &result, nullptr, line_verdicts(recording, result, segment_rules(scenario.metrics))});
+  auto drawn =
+      Registry<render::Figure>::make("scan_overlay", {{"frame", static_cast<std::int64_t>(frame)}})->draw(input);
+  if (drawn.empty()) throw ConfigError("there is nothing to draw of " + to_string(key));
+  ShownScan shown{
+      .name = fmt::format("{}_{}_{}_scan_{}", key.scenario, key.pipeline, key.seed, frame),
+      .text = fmt::format("{}, scan {} of 0 to {}", to_string(key), frame, recording.observed.frames.size() - 1),
+      .scene = std::move(drawn.front().scene)};
+  if (const std::string counts = rows.text(frame); !counts.empty()) shown.text += ": " + counts;
+  return shown;
+}
+
+std::string picture_bytes(const render::Scene& scene, const fs::path& path) {
+  const std::string ending = path.extension().string();
+  if (ending == ".png") return render::to_png(scene);
+  if (ending == ".svg") return render::to_svg(scene);
+  if (ending == ".pdf") return render::to_pdf(scene);
+  throw ConfigError(path.string() + ": a picture's name ends in .png, .svg or .pdf");
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,47 @@
+// The lines of one scan beside its true lines, by the rules that a user can set: what `segments` counts and figures
+// show.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/params.hpp"
+#include "metrics/line_matching.hpp"
+
+namespace scanbench::metrics {
+
+/// The parameters of the family `segments`.
+struct SegmentRules {
+  int min_beams = 9;
+  double min_length_m = 0.5;
+  double max_angle_deg = 10.0;
+  double max_offset_m = 0.15;
+  double min_overlap = 0.5;
+  static auto fields() {
+    return std::tuple{
+        field("min_beams", &SegmentRules::min_beams, at_least(2), "", "fewest returns of a true line"),
+        field("min_length_m", &SegmentRules::min_length_m, at_least(0), "m",
+              "shortest true line; shorter found lines that match nothing are ignored"),
+        field("max_angle_deg", &SegmentRules::max_angle_deg, between(0, 90), "deg", "largest angle of a match"),
+        field("max_offset_m", &SegmentRules::max_offset_m, at_least(0), "m",
+              "largest distance of a match's midpoint from the true line"),
+        field("min_overlap", &SegmentRules::min_overlap, between(0, 1), "",
+              "share of the shorter line that must overlap")};
+  }
+  MatchRule match_rule() const;
+};
+
+struct JudgedScan {
+  std::vector<TrueLine> truths;
+  LineMatching matching;
+
+  std::int64_t count(Outcome outcome) const;
+  std::int64_t missed() const;  ///< true lines without a match
+  /// 2 true / (lines found + true lines), ignored ones left out; NaN if there is neither.
+  double f1() const;
+};
+
+/// The input must satisfy has_beam_truth().
+JudgedScan judge_scan(const MetricInput& input, std::size_t frame, const Surfaces& surfaces, const SegmentRules& rules);
+
+}  // namespace scanbench::metrics
