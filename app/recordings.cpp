@@ -16,7 +16,7 @@
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
-#include "harness/store/run_files.hpp"
+#include "harness/store/run_start.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_target.hpp"
 

@@ -17,7 +17,7 @@
 #include "harness/run/runner.hpp"
 #include "harness/run/score.hpp"
 #include "harness/store/manifest.hpp"
-#include "harness/store/run_files.hpp"
+#include "harness/store/run_scenarios.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_lock.hpp"
 

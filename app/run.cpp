@@ -24,7 +24,7 @@
 #include "harness/run/runner.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/store/cell_status.hpp"
-#include "harness/store/run_files.hpp"
+#include "harness/store/run_scenarios.hpp"
 
 namespace scanbench::app {
 namespace {

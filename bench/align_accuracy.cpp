@@ -1,9 +1,10 @@
-// How far aligners bring scans back to their true poses, paired over seeds, and how far off they may start.
+// Measures how accurately aligners restore the true poses of scans, paired over seeds, and on how many seeds they
+// succeed.
 //
 //   align_accuracy SCENARIO.yaml [SEEDS [FIRST]] [--set key=value]...
 //
-// prints one row per pipeline of the scenario: mean errors after the common motion is removed, seeds with all scans
-// placed, seeds that ended worse than they began, and the paired ratio and difference to the first pipeline.
+// prints one row per pipeline of the scenario: mean errors after the common motion is removed, the number of seeds with
+// all scans placed, the number of seeds whose error grew, and the paired ratio and difference to the first pipeline.
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -25,7 +26,7 @@
 namespace scanbench::accuracy {
 namespace {
 
-/// Metric of the subject "all", a value per seed.
+/// Values of a metric with the subject "all", one per seed.
 using Scores = std::map<std::string, std::vector<double>>;
 
 std::string interval_text(const std::vector<double>& values, int digits) {
@@ -60,7 +61,7 @@ Scores scores_of(const harness::Scenario& scenario, const harness::PipelineSpec&
 
 int run(const std::vector<std::string>& args) {
   if (args.empty()) throw ConfigError("usage: align_accuracy SCENARIO.yaml [SEEDS [FIRST]] [--set key=value]...");
-  std::vector<int> numbers;  // how many seeds, and the first
+  std::vector<int> numbers;  // number of seeds, and the first seed
   std::vector<std::string> sets;
   for (std::size_t k = 1; k < args.size(); ++k) {
     if (args[k] == "--set" && k + 1 < args.size()) {

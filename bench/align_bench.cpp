@@ -1,5 +1,6 @@
-// Force field simulation: one iteration's forces against the plain double loop and against a nanoflann k-d tree cut at
-// the same four standard deviations, and whole alignments of 60 scans of some 200 resampled points, 100 iterations.
+// Time of force field simulation. The forces of one iteration are compared with the plain double loop and with a
+// nanoflann k-d tree, cut at the same four standard deviations. Whole alignments of 60 scans of about 200 resampled
+// points take 100 iterations.
 //
 // The maps: 60 scans of an arena of 12 m x 8.4 m with panels, from random places, each pose wrong by some centimetres;
 // and 400 scans of 361 points of an office floor of 60 m x 36 m, for one iteration alone.
@@ -65,7 +66,7 @@ const Scans& scans() {
   return made;
 }
 
-constexpr double kResampleM = 0.04;  // some 200 points a scan
+constexpr double kResampleM = 0.04;  // about 200 points per scan
 
 FieldPoints field_points() {
   FieldPoints points;
@@ -198,7 +199,7 @@ struct Cloud {
   }
 };
 
-/// Forces through a k-d tree, built anew, cut at four standard deviations, in double precision.
+/// Forces from a new k-d tree, cut at four standard deviations, in double precision.
 void tree_forces(const FieldPoints& points, double sigma, std::vector<Vec2>& forces) {
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 2, std::size_t>;
   const Cloud cloud{points.at};

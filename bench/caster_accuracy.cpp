@@ -1,5 +1,5 @@
-// The fast caster against the reference over ten million rays: a Markdown table on standard output. The same comparison
-// with a million rays is tests/sim/caster_agreement_test.cpp.
+// Compares the fast caster with the reference over ten million rays and prints a Markdown table.
+// tests/sim/caster_agreement_test.cpp makes the same comparison with a million rays.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace {
 struct Counts {
   std::size_t rays = 0;
   std::size_t hits = 0;
-  std::size_t other_surface = 0;  ///< within 1e-9 m: a tie
+  std::size_t other_surface = 0;  ///< within 1e-9 m: counts as a tie
   std::size_t wrong = 0;
   double largest_tie_m = 0.0;
 };

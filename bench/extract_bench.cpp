@@ -1,6 +1,6 @@
-// Line extraction: microseconds per 451-beam scan, every registered extractor, 200 poses in a 15-wall world, noise of 1
-// and 5 cm. For comparison the textbook IEPF runs on the same scans (recursion, copies, polar distances with
-// trigonometry).
+// Time of line extraction in microseconds per 451-beam scan, for every registered extractor, on 200 poses in a 15-wall
+// world with noise of 1 and 5 cm. For comparison, a textbook IEPF (recursion, copies, polar distances with
+// trigonometry) runs on the same scans.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -25,12 +25,12 @@ std::vector<Segment> walls() {
   };
   chain({{0, 0}, {12, 0}, {12, 5}, {8, 5}, {8, 9}, {0, 9}}, true);  // an L-shaped room
   chain({{3, 2}, {4, 2}, {4, 3}, {3, 3}}, true);                    // a box
-  chain({{2, 6}, {3.2, 6.4}, {2.8, 7.4}, {1.6, 7}}, true);          // a rotated one
+  chain({{2, 6}, {3.2, 6.4}, {2.8, 7.4}, {1.6, 7}}, true);          // a rotated box
   result.push_back({{9, 2}, {10.5, 2.6}});                          // a panel
   return result;
 }
 
-/// Scans with 270 degrees and 0.6 degree steps, brute force against every wall.
+/// Scans over 270 degrees in steps of 0.6 degrees, cast by brute force against every wall.
 const ScanSet& scans(int sigma_cm) {
   static const auto make = [](double sigma_m) {
     ScanSet set;

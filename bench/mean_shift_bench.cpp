@@ -1,9 +1,11 @@
-// Gaussian mean shift of all points to their modes: the project's engine compared with the plain double loop and with a
-// nanoflann k-d tree cut at four standard deviations (Lakaemper 2009, section III, brute force and k-d tree).
+// Time of the Gaussian mean shift of all points to their modes. The project's engine is compared with the plain double
+// loop and with a nanoflann k-d tree cut at four standard deviations (Lakaemper 2009, section III, brute force and k-d
+// tree).
 //
-// Points as pieces of walls of a hallway seen in many scans: clusters of standard deviation 0.35 in every dimension,
-// about 50 points to a cluster, centres uniform at constant density, direction periodic with 18 standard deviations.
-// Lengths in standard deviations of the kernel. A climb ends when its shift is below 1e-4.
+// The points are like pieces of the walls of a hallway seen in many scans. They form clusters with a standard deviation
+// of 0.35 in every dimension and about 50 points each. The centres are uniform at constant density; the direction is
+// periodic with 18 standard deviations. Lengths are in standard deviations of the kernel. A climb ends when its shift
+// is below 1e-4.
 #include <benchmark/benchmark.h>
 
 #include <sys/resource.h>
@@ -134,7 +136,8 @@ void nanoflann_cut_4(benchmark::State& state) {
   }
 }
 
-/// The whole module on a map of corridors: walls of 1 to 4 m, seen about 20 times each, area growing with their number.
+/// The whole module on a map of corridors: walls of 1 to 4 m, each seen about 20 times, with an area in proportion to
+/// their number.
 void merge_module(benchmark::State& state) {
   CounterRng rng(23, RngStream::pose);
   const int n = static_cast<int>(state.range(0));
@@ -168,7 +171,7 @@ void merge_module(benchmark::State& state) {
 BENCHMARK(brute_force_double)->Arg(1654)->Unit(benchmark::kMillisecond);
 BENCHMARK(nanoflann_cut_4)->Arg(1654)->Arg(100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(ours)->Args({1654, 1})->Args({1654, 0})->Args({100000, 1})->Args({100000, 0})->Unit(benchmark::kMillisecond);
-// Cost against the number of points at constant density.
+// Time against the number of points at constant density.
 BENCHMARK(ours)
     ->Name("ours_exponent")
     ->ArgsProduct({{2000, 4000, 8000, 16000, 32000, 64000, 128000}, {1}})

@@ -1,10 +1,10 @@
-// The accuracy of an extractor on simulated rooms and that of an oracle that knows which beams see which wall: the
-// difference is the cost of not knowing. Prints the table of docs/algorithms/optimal.md.
+// Compares the accuracy of an extractor on simulated rooms with that of an oracle that knows which beams see which
+// wall. The difference is the cost of not knowing. Prints the table of docs/algorithms/optimal.md.
 //
 //   optimal_accuracy [--seeds FIRST COUNT] [--sigma CM] [--scene PART_OF_NAME] [--extractor NAME] [--why]
 //
-// Uses the metrics `segments` and `efficiency` with their defaults: a run of beams on one wall is a true line from
-// 9 returns and 0.5 m. The second F1 ignores correct lines on smaller pieces. --why classifies all wrong lines. Seeds
+// Uses the metrics `segments` and `efficiency` with their defaults: a run of beams on one wall is a true line from 9
+// returns and 0.5 m on. The second F1 ignores correct lines on smaller pieces. --why classifies all wrong lines. Seeds
 // below 100 are for development.
 #include <cmath>
 #include <cstdio>
@@ -53,7 +53,7 @@ ScanLines oracle_lines(const MetricInput& input, std::size_t frame, const metric
   return out;
 }
 
-// Counts false and missed lines by their cause.
+// Counts false and missed lines by their causes.
 class Reasons {
  public:
   void add(const MetricInput& input, std::size_t f, const metrics::Surfaces& surfaces) {
@@ -78,7 +78,7 @@ class Reasons {
   static std::string of_false(const ScanLines& found, int k, const std::vector<metrics::TrueLine>& pieces,
                               const metrics::Surfaces& surfaces) {
     const LineFeature& line = found.lines[as_index(k)];
-    // Returns of the line on each piece.
+    // Number of returns of the line on each piece.
     int most = 0, coplanar = 0;
     const metrics::TrueLine* main = nullptr;
     const auto support = [&](const metrics::TrueLine& p) {
@@ -124,8 +124,8 @@ class Reasons {
                                                                : "taken by a line of another wall") +
            size;
   }
-  // The gain in log-likelihood (nats) if the readings on the true line get a line of their own: a cut that gains less
-  // than the code length of its place cannot be found in the readings.
+  // The gain in log-likelihood (nats) if the readings on the true line get a line of their own. A cut that gains less
+  // than the code length of its place cannot be found from the readings.
   static double gain_of_a_cut(const Scan& scan, const ScanLines& found, int which, const metrics::TrueLine& t) {
     std::vector<extract::BeamReading> all, on, off;
     for (int i = 0; i < scan.beams(); ++i) {

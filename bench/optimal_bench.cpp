@@ -1,4 +1,4 @@
-// The time of the optimal extractor on one scan of 451 and of 10 000 beams, 1 and 5 cm noise.
+// Time of the optimal extractor on one scan of 451 and of 10 000 beams, with noise of 1 and 5 cm.
 #include <benchmark/benchmark.h>
 
 #include "bench/room.hpp"

@@ -1,6 +1,6 @@
 // Fits polylines with given numbers of vertices to the scans of Schaefer, Buescher, Luft & Burgard, IROS 2018, and
-// prints the results beside those that the authors published: root mean square radius residual of the explained
-// returns, mean over scans, and the share of returns explained. Needs ${SCANBENCH_DATA}/ple-bench-a.
+// prints the results beside those that the authors published: the root mean square residual along the beam of the
+// explained returns (mean over scans) and the share of returns explained. Needs ${SCANBENCH_DATA}/ple-bench-a.
 //
 //   polyline_accuracy [sim|real] [SCANS]
 #include <cmath>
@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxBytes = 64 << 20;
-constexpr double kSigma = 0.03;  // of the authors
+constexpr double kSigma = 0.03;  // standard deviation that the authors use
 constexpr int kBudgets[] = {10, 20, 30, 40, 50};
 
 struct BenchScan {
@@ -123,7 +123,7 @@ void print_table(const fs::path& folder, const std::string& set, std::size_t mos
   for (const int v : kBudgets) fmt::print(" {} |", v);
   fmt::print("\n|---|---|---|---|---|---|\n");
   print_row(scans, kSigma, real);
-  // With a larger stated sigma fewer returns count as clutter: the shares are then those of the published methods.
+  // With a larger stated sigma fewer returns count as clutter. The shares are then comparable to the published ones.
   if (real)
     for (const double sigma_m : {0.06, 0.1}) print_row(scans, sigma_m, true);
   const fs::path file = folder / "published_results.csv";

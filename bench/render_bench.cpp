@@ -1,4 +1,4 @@
-// The time of drawing a figure in one thread. The first PNG of a process includes the OpenGL context.
+// Time of drawing a figure in one thread. The first PNG of a process includes the creation of the OpenGL context.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ Lines segments(int count, std::uint32_t stream, Color color) {
   return lines;
 }
 
-/// `panels` panels with 1654 segments each, about what 200 scans of 15 walls give.
+/// `panels` panels with 1654 segments each, about as many as 200 scans of 15 walls give.
 Scene segments_scene(std::int64_t panels) {
   Scene scene{.width_in = panels > 1 ? kDoubleColumnIn : kSingleColumnIn, .title = "segments", .share_axes = true};
   for (std::int64_t p = 0; p < panels; ++p)

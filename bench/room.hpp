@@ -1,5 +1,5 @@
-// The room that the benchmarks of single extractors scan: 12 m x 9 m with two boxes, seen over 270 degrees from 0.5 m
-// to 2.5 m of its left wall, rotated at random, with Gaussian noise along the beam.
+// The room that the benchmarks of single extractors scan. It is 12 m x 9 m with two boxes. Scans cover 270 degrees,
+// from positions 0.5 m to 2.5 m from the left wall with random headings, with Gaussian noise along the beam.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace scanbench::bench {
 
-/// Range from `origin` to the nearest wall along d.
+/// Range from `origin` to the nearest wall in direction d.
 inline double range_in_room(const Vec2& origin, const Vec2& d) {
   static constexpr double kBoxes[][4] = {{0, 0, 12, 9}, {3, 2, 4, 3.5}, {8, 5, 10, 6}};
   double best = kInf;
@@ -25,7 +25,7 @@ inline double range_in_room(const Vec2& origin, const Vec2& d) {
   return best;
 }
 
-/// `count` scans of the room, each from its own pose.
+/// `count` scans of the room, each from a different pose.
 inline ScanSet room_scans(int beams, double sigma_m, std::uint32_t count) {
   ScanSet set;
   set.sensor.geometry = ScanGeometry(radians(-135), radians(270.0 / (beams - 1)), beams);

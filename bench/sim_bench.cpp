@@ -1,10 +1,10 @@
-// Casting and simulating against the named alternatives: a Markdown table on standard output.
+// Compares casting and simulating with named alternatives and prints a Markdown table.
 //
 //   sim_bench [rounds] [SUBJECT]     default: 11 rounds of all subjects; SUBJECT: only those whose name begins so
 //
-// Every round visits all methods of a world in rotated order. Times are CPU times of the thread; the factor is the
-// alternative's time over the method's in the same round, its median and 10th to 90th percentile. A scan has 451 beams
-// over 270 deg, 30 m; each world is scanned from 200 poses.
+// Every round runs all methods of a world in rotated order. Times are CPU times of the thread. The factor is the time
+// of the alternative divided by the time of the method in the same round; the table has its median and its 10th to 90th
+// percentile. A scan has 451 beams over 270 deg and a range of 30 m. Each world is scanned from 200 poses.
 #include <time.h>
 
 #include <algorithm>
@@ -77,7 +77,7 @@ World rooms(int side) {
   return world;
 }
 
-// A cave: one closed outline of short walls about the origin, all of them visible from the middle.
+// A cave: one closed outline of short walls around the origin, all of them visible from the centre.
 World outline(int corners) {
   World world;
   world.name = "outline, " + std::to_string(corners) + " walls";
@@ -210,7 +210,7 @@ void measure(const std::string& subject, std::vector<Method> methods, int rounds
   std::fflush(stdout);
 }
 
-// `every`: the alternative casts from each so many-th pose, where it is slow.
+// `every`: the alternative casts only from every so many-th pose where it is slow.
 void measure_casting(const World& world, const std::vector<Pose2>& poses, std::size_t every, int rounds) {
   const SensorModel sensor = make_sensor("ladar_2d30", {});
   const auto beams = static_cast<std::size_t>(sensor.geometry.beams());
@@ -246,7 +246,8 @@ void measure_casting(const World& world, const std::vector<Pose2>& poses, std::s
           rounds);
 }
 
-// What simulate() did before scans were swept: one ray through Box2D's tree, then one reading, and so on.
+// The former implementation of simulate(), before scans were swept: one ray through the tree of Box2D, then one
+// reading, and so on.
 std::size_t simulate_one_by_one(const SimulationInput& input) {
   validate(input.world);
   check_clear(input.world, input.trajectory, input.sensor.range_max_m);

@@ -1,4 +1,4 @@
-// The time of SMF on one 451-beam scan, 1 and 5 cm noise.
+// Time of SMF on one 451-beam scan with noise of 1 and 5 cm.
 #include <benchmark/benchmark.h>
 
 #include "bench/room.hpp"

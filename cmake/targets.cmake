@@ -1,17 +1,17 @@
-# One target per folder, the same flags for all of them.
+# One target per folder, with the same flags for all targets.
 set(SCANBENCH_WARNINGS -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
 
 function(scanbench_flags target)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
-  # No contraction of a*b+c: recordings are equal to the byte on any x86-64.
+  # No contraction of a*b+c, so that recordings are the same bytes on any x86-64.
   target_compile_options(${target} PRIVATE ${SCANBENCH_WARNINGS} -ffp-contract=off)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-    # g++ 12 warns of overlapping copies inside std::string's own operator+ when it optimises (GCC bug 105651).
+    # g++ 12 warns of overlapping copies inside std::string's own operator+ in optimised builds (GCC bug 105651).
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-Wno-restrict>)
   endif()
   if(SCANBENCH_SANITIZE)
     if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-      # Instrumented code confuses this warning; the release build keeps it.
+      # Instrumented code triggers this warning falsely; the release build keeps it.
       target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
     endif()
     target_compile_options(${target} PRIVATE -fsanitize=${SCANBENCH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
@@ -19,8 +19,8 @@ function(scanbench_flags target)
   endif()
 endfunction()
 
-# The headers that nearly every file reads, parsed once a target. No file may count on it: each includes what it uses, and
-# -DSCANBENCH_PRECOMPILE=OFF builds without.
+# Precompiles the headers that nearly every file includes, once per target. No file may rely on this: each includes what
+# it uses, and -DSCANBENCH_PRECOMPILE=OFF builds without precompiled headers.
 # scanbench_precompile(target [more headers...] | target REUSE other)
 function(scanbench_precompile target)
   cmake_parse_arguments(arg "" "REUSE" "" ${ARGN})
@@ -32,15 +32,15 @@ function(scanbench_precompile target)
                                 <string> <vector> <Eigen/Dense> ${arg_UNPARSED_ARGUMENTS})
     endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-      # The same false alarm under two more names; the build without precompiled headers keeps both warnings.
+      # The same false warning under two more names. The build without precompiled headers keeps both.
       target_compile_options(${target} PRIVATE "$<$<CONFIG:Release,RelWithDebInfo>:-Wno-stringop-overflow;-Wno-array-bounds>")
     endif()
   endif()
 endfunction()
 
-# scanbench_library(name [OBJECT] [FOLDER folder] [REUSE other | PRECOMPILE header...]): target scanbench_<name> from all files of the folder,
-# which has that name unless it is given. It reuses the headers that another target
-# has precompiled, or precompiles more than the usual ones.
+# scanbench_library(name [OBJECT] [FOLDER folder] [REUSE other | PRECOMPILE header...]): target scanbench_<name> from
+# all files of the folder. The folder is `name` unless FOLDER is given. The target reuses the precompiled headers of
+# another target, or precompiles additional ones.
 function(scanbench_library name)
   cmake_parse_arguments(arg "OBJECT" "FOLDER;REUSE" "PRECOMPILE" ${ARGN})
   if(NOT arg_FOLDER)
@@ -63,8 +63,8 @@ function(scanbench_library name)
   endif()
 endfunction()
 
-# scanbench_executable(name FOLDER folder | SOURCES file...): links every module. Files that register themselves must arrive
-# whole: algorithms as objects, metrics, render and sim as whole archives.
+# scanbench_executable(name FOLDER folder | SOURCES file...): links every module. Files that register themselves must be
+# linked completely, so algorithms are linked as objects, and metrics, render and sim as whole archives.
 function(scanbench_executable name)
   cmake_parse_arguments(arg "" "FOLDER" "SOURCES" ${ARGN})
   if(arg_FOLDER)
@@ -72,7 +72,7 @@ function(scanbench_executable name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   scanbench_flags(${name})
-  # From the top down, so that no whole archive has to appear a second time.
+  # Ordered from the top layer down, so that no whole archive must be listed twice.
   target_link_libraries(${name} PRIVATE scanbench_algorithms scanbench_report scanbench_analysis scanbench_run scanbench_store
                                         scanbench_scenario scanbench_exchange scanbench_yaml scanbench_files
                                         scanbench_sim scanbench_metrics scanbench_render scanbench_core)
@@ -80,8 +80,9 @@ function(scanbench_executable name)
     "WHOLE_ARCHIVE,scanbench_sim,scanbench_metrics,scanbench_render")
 endfunction()
 
-# scanbench_kernels(target folder): compiles folder/*_kernels.cpp, which the target has for any x86-64, a second time for
-# AVX2, in the namespace v3 instead of baseline. The program chooses at run time. FMA stays off: both give equal bytes.
+# scanbench_kernels(target folder): compiles folder/*_kernels.cpp, which the target contains for any x86-64, a second
+# time for AVX2, in the namespace v3 instead of baseline. The program selects one at run time. FMA stays off, so that
+# both give the same bytes.
 function(scanbench_kernels target folder)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*_kernels.cpp)
   add_library(${target}_v3 OBJECT ${sources})
@@ -89,6 +90,6 @@ function(scanbench_kernels target folder)
   target_compile_definitions(${target}_v3 PRIVATE SCANBENCH_ISA=v3)
   target_compile_options(${target}_v3 PRIVATE -mavx2)
   target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_v3>)
-  # Precompiled headers bring inline functions, of which the linker would keep one build.
+  # Precompiled headers contain inline functions, of which the linker would keep only one build.
   set_source_files_properties(${sources} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 endfunction()

@@ -1,5 +1,5 @@
-# The version header: commit, and for a tree that differs from its commit "-dirty-" with a hash of the code, so that
-# two such programs can be distinguished. Without Git: "unknown-" with that hash.
+# Writes the version header. The commit of a tree with local changes gets "-dirty-" and a hash of the code, so that two
+# such programs can be distinguished. Without Git it is "unknown-" with that hash.
 set(code core sim algorithms metrics render harness app cmake CMakeLists.txt)
 execute_process(COMMAND git -C ${SOURCE_DIR} rev-parse HEAD OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE
                 ERROR_QUIET RESULT_VARIABLE failed)

@@ -9,13 +9,11 @@
 
 #include "core/geometry/pose2.hpp"
 #include "core/line_map.hpp"
+#include "core/match.hpp"
 #include "core/scan.hpp"
 #include "core/trace/trace.hpp"
 
 namespace scanbench {
-
-enum class Status { converged, max_iterations, degenerate, no_match };
-std::string_view to_string(Status status);
 
 /// Finds the lines of one scan, in the sensor frame. Accepts any scan: without a valid beam there are no lines and all
 /// labels are -1.
@@ -54,14 +52,8 @@ struct Observation {
   const ScanLines& lines;
 };
 
-/// The pose of the current scan relative to the reference.
-struct Match {
-  Status status = Status::converged;
-  Pose2 reference_from_current;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, yaw); zero: not estimated
-};
-
-/// Finds the motion between two scans, starting from a guess.
+/// Finds the pose of one scan in the frame of another, starting from a guess. Accepts any two scans: without returns,
+/// or with too little in common, the status is `no_match`.
 class ScanMatcher {
  public:
   static constexpr std::string_view kKind = "match";
@@ -85,12 +77,25 @@ class Aligner {
   virtual Alignment align(std::span<const Observation> scans, std::span<const Pose2> initial, Trace& trace) const = 0;
 };
 
-/// Builds a map scan by scan: the only kind with state.
+/// What became of a scan that was inserted into a map.
+struct Insertion {
+  /// `converged`: the scan is in the map. `degenerate`: it is, and its pose is as guessed along some motion.
+  /// `max_iterations`: it is, at a pose that still moved. `no_match`: it does not fit the map, or has no lines; the
+  /// message says whether it was inserted all the same.
+  Status status = Status::converged;
+  Pose2 world_from_sensor;  ///< where the scan was placed; of a mapper that corrects no poses the guess
+  int lines = 0;            ///< of the map with this scan
+  std::string message{};    ///< what a status other than `converged` means here; may be empty
+};
+
+/// Builds a map scan by scan: the only kind with state. A map is ready after every scan.
 class Mapper {
  public:
   static constexpr std::string_view kKind = "map";
   virtual ~Mapper() = default;
-  virtual void insert(const Observation& observation, const Pose2& guess, Trace& trace) = 0;
+  /// `guess` is the scan's pose by odometry or by the slot before. Guesses that drift are as good as exact ones for a
+  /// mapper that corrects poses: it uses the motion between them.
+  virtual Insertion insert(const Observation& observation, const Pose2& guess, Trace& trace) = 0;
   virtual LineMap map() const = 0;
 };
 

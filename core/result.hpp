@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/line_map.hpp"
+#include "core/match.hpp"
 #include "core/scan.hpp"
 #include "core/trace/stage_time.hpp"
 
@@ -18,9 +19,17 @@ struct MergeLabel {
   int map_line = -1;
 };
 
+/// One match of two frames, as a `match` slot made it.
+struct FrameMatch {
+  int frame = -1;
+  int reference = -1;  ///< frame that it was matched with
+  Match match;
+};
+
 struct PipelineResult {
   std::vector<ScanLines> lines;          ///< per frame, sensor frame
   std::vector<Pose2> world_from_sensor;  ///< estimated, per frame; empty if no slot estimates or uses poses
+  std::vector<FrameMatch> matches;       ///< in the order of their frames; empty if no slot matches
   bool has_map = false;                  ///< a slot makes a map, which may be empty
   LineMap map;                           ///< empty if no slot makes one
   std::vector<MergeLabel> merge_labels;

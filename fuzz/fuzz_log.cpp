@@ -1,4 +1,4 @@
-// libFuzzer target: the readers of recorded logs.
+// libFuzzer target for the readers of recorded logs.
 #include <cstdint>
 
 #include "fuzz/inputs.hpp"

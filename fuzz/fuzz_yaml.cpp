@@ -1,4 +1,4 @@
-// libFuzzer target: the readers of scenarios, worlds and suites.
+// libFuzzer target for the readers of scenarios, worlds and suites.
 #include <cstdint>
 
 #include "fuzz/inputs.hpp"

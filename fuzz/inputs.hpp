@@ -1,4 +1,4 @@
-// Runs one input through every reader of users' files, for the fuzzers and the test of their corpus.
+// Runs one input through every reader of users' files. Used by the fuzzers and by the test of their corpus.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace scanbench::fuzz {
 
-/// Runs `work` and accepts a ConfigError, which refuses the input; any other exception is a fault.
+/// Runs `work` and accepts a ConfigError, by which a reader refuses the input. Any other exception is a fault.
 template <class Work>
 void allow_refusal(Work&& work) {
   try {
@@ -26,8 +26,8 @@ void allow_refusal(Work&& work) {
   }
 }
 
-/// Reads the bytes as a scenario, as a world of either format and as a suite. The effective form of a scenario that
-/// loads must load too and give the same effective form.
+/// Reads the bytes as a scenario, as a world of either format and as a suite. If a scenario loads, its effective form
+/// must load too and have the same effective form.
 inline void run_yaml(std::string_view bytes) {
   allow_refusal([&] { harness::parse_world(bytes, "fuzz.yaml"); });
   allow_refusal([&] { harness::parse_vector_map(bytes, "fuzz.txt"); });
@@ -39,7 +39,8 @@ inline void run_yaml(std::string_view bytes) {
   if (again != effective) throw InternalError("the effective scenario is not stable");
 }
 
-/// Reads a log after a first byte that selects format and options. What is read must be exported and read back.
+/// Reads a log from the bytes after the first, which selects format and options. A log that can be read must survive
+/// export and reading.
 inline void run_log(std::string_view bytes) {
   if (bytes.empty()) return;
   using Text = std::string;

@@ -1,5 +1,5 @@
-// The lines of one scan beside its true lines, by the rules that a user can set: what `segments` counts and figures
-// show.
+// Compares the lines found in one scan with its true lines, by the parameters of the metric family `segments`. Figures
+// show the same verdicts.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ struct JudgedScan {
 
   std::int64_t count(Outcome outcome) const;
   std::int64_t missed() const;  ///< true lines without a match
-  /// 2 true / (lines found + true lines), ignored ones left out; NaN if there is neither.
+  /// 2 matches / (found lines + true lines), without ignored found lines; NaN if there are neither.
   double f1() const;
 };
 

@@ -6,26 +6,32 @@
 
 namespace scanbench::metrics {
 
+std::optional<Eigen::Matrix2d> beam_information(const SensorModel& sensor, int beam, const PolarLine& line) {
+  const Vec2 normal = line.normal();
+  const Vec2& direction = sensor.geometry.direction(beam);
+  const double c = normal.dot(direction);                 // cos(phi - alpha)
+  const double s = perpendicular(normal).dot(direction);  // sin(phi - alpha)
+  if (!(c > 0))
+    return Eigen::Matrix2d(Eigen::Matrix2d::Zero());  // a wall through the sensor: no beam says how far it is
+  const double range = line.rho / c;
+  const double sigma = sensor.noise.range_sigma(range);
+  // A beam that points elsewhere by d reads another range by dr/dphi d.
+  const double swing = range * (s / c) * sensor.noise.bearing_sigma_rad;
+  const double variance = sigma * sigma + swing * swing;
+  if (!(variance > 0)) return std::nullopt;
+  const Eigen::Vector2d gradient(1.0 / c, -line.rho * s / (c * c));
+  return Eigen::Matrix2d(gradient * gradient.transpose() / variance);
+}
+
 std::optional<Eigen::Matrix2d> line_bound(const Scan& scan, const TrueLine& truth) {
   const PolarLine line = line_through(truth.segment.a, truth.segment.b);
-  const Vec2 normal = line.normal();
-  const Vec2 along = perpendicular(normal);
-  const SensorNoise& noise = scan.sensor.noise;
+  const Vec2 along = perpendicular(line.normal());
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   for (int i = truth.first_beam; i <= truth.last_beam; ++i) {
     if (!scan.valid(i)) continue;
-    const Vec2& beam = scan.sensor.geometry.direction(i);
-    const double c = normal.dot(beam);  // cos(phi - alpha)
-    const double s = along.dot(beam);   // sin(phi - alpha)
-    if (!(c > 0)) continue;             // a wall through the sensor: its readings do not depend on its distance
-    const double range = line.rho / c;
-    const double sigma = noise.range_sigma(range);
-    // A beam whose direction is wrong by d reads a range that is wrong by dr/dphi d.
-    const double swing = range * (s / c) * noise.bearing_sigma_rad;
-    const double variance = sigma * sigma + swing * swing;
-    if (!(variance > 0)) return std::nullopt;
-    const Eigen::Vector2d gradient(1.0 / c, -line.rho * s / (c * c));
-    information += gradient * gradient.transpose() / variance;
+    const auto of_beam = beam_information(scan.sensor, i, line);
+    if (!of_beam) return std::nullopt;
+    information += *of_beam;
   }
   const double determinant = information.determinant();
   if (!(determinant > 1e-12 * information(0, 0) * information(1, 1))) return std::nullopt;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/reference_poses.hpp"
 #include "core/result.hpp"
 #include "core/scan.hpp"
 #include "core/truth.hpp"
@@ -25,8 +26,8 @@ struct MetricRow {
 };
 
 /// Which values of a metric are good. `target`: those near one value, MetricDescription::target, on either side.
-/// `neither`: no value is better than another one, because the metric describes the input, or because a method that
-/// finds less or does worse can have a lower or a higher value.
+/// `neither`: no value is better than another one, because the metric describes the input, or because both
+/// a low and a high value can come from a bad method.
 enum class Direction { lower_is_better, higher_is_better, target, neither };
 
 /// What a metric means, for tables, docs and `compare`.
@@ -52,6 +53,7 @@ struct MetricInput {
   const ScanSet& observed;
   const Truth* truth;  ///< nullptr for recorded logs
   const PipelineResult& result;
+  const ReferencePoses* reference = nullptr;  ///< of a recorded log, if it has any
 };
 
 /// True if there is a truth for every beam of the observed scans and one entry of lines per frame.

@@ -1,9 +1,11 @@
-// timing: the thread CPU time of extraction, from the stages of a second, timed pass over the scans.
+// timing: the thread CPU time of extraction and of matching, from the stages of a second, timed pass over the scans.
 //
 // The median over the scans is robust: a machine that is busy with other work lengthens a few of them. A reading of the
 // clock ends each stage; it takes a fraction of a microsecond, which is part of the time.
 #include <algorithm>
 #include <map>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/median.hpp"
@@ -13,10 +15,10 @@
 namespace scanbench::metrics {
 namespace {
 
-std::vector<double> seconds_per_scan(const std::vector<StageTime>& times) {
+std::vector<double> seconds_per_scan(const std::vector<StageTime>& times, std::string_view slot) {
   std::map<int, double> per_frame;
   for (const StageTime& t : times)
-    if (t.frame >= 0 && t.of_extraction()) per_frame[t.frame] += t.seconds;
+    if (t.frame >= 0 && t.slot == slot) per_frame[t.frame] += t.seconds;
   std::vector<double> seconds;
   for (const auto& [frame, s] : per_frame) seconds.push_back(s);
   return seconds;
@@ -28,22 +30,27 @@ class Timing : public MetricFamily {
   explicit Timing(const Params&) {}
 
   std::vector<MetricDescription> describe() const override {
-    return {{"t_scan", "us", Direction::lower_is_better, 0.0, "median CPU time of extraction per scan", true}};
+    return {{"t_scan", "us", Direction::lower_is_better, 0.0, "median CPU time of extraction per scan", true},
+            {"t_match", "us", Direction::lower_is_better, 0.0, "median CPU time of matching per scan", true}};
   }
 
-  bool applies(const MetricInput& input) const override { return !seconds_per_scan(input.result.times).empty(); }
+  bool applies(const MetricInput& input) const override {
+    return !seconds_per_scan(input.result.times, "extract").empty();
+  }
 
   std::vector<MetricRow> evaluate(const MetricInput& input) const override {
-    const std::vector<double> seconds = seconds_per_scan(input.result.times);
+    const std::vector<double> seconds = seconds_per_scan(input.result.times, "extract");
     Rows rows(describe());
     rows.add("t_scan", kAll, 1e6 * median(seconds), std::ssize(seconds));
+    if (const std::vector<double> matching = seconds_per_scan(input.result.times, "match"); !matching.empty())
+      rows.add("t_match", kAll, 1e6 * median(matching), std::ssize(matching));
     return rows.take();
   }
 };
 
 const bool registered =
     Registry<MetricFamily>::add<Timing>({.name = "timing",
-                                         .summary = "CPU time of extraction per scan; needs no truth",
+                                         .summary = "CPU time of extraction and of matching per scan; needs no truth",
                                          .reference = "docs/formats.md, timing.csv"});
 
 }  // namespace

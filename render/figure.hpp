@@ -54,7 +54,7 @@ struct FigureInput {
   NamedPoints waypoints;  ///< may be empty
   std::vector<Circle> circles{};
   std::vector<std::vector<Vec2>> body_paths{};  ///< of bodies that move through the world
-  /// True if the sensor moves from each pose to the next; false if it was placed at each of them.
+  /// True if the sensor moves from each pose to the next; false if it is placed at each of them.
   bool continuous = true;
   std::vector<NamedResult> results;          ///< in the scenario's order
   std::vector<MeasuredPipeline> measured{};  ///< in the scenario's order

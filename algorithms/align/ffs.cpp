@@ -1,7 +1,7 @@
-// Force field simulation (FFS): all scans drawn together by the forces between their points. Lakaemper, "Augmenting
-// sparse laser scans with virtual scans to improve the performance of alignment algorithms", 2010, section 3, after
-// Lakaemper, Adluru, Latecki & Madhavan, Journal of Field Robotics 2007. docs/algorithms/ffs.md has the derivations,
-// the departures and the answers for difficult input.
+// Force field simulation (FFS): aligns all scans by the forces between their points. Lakaemper, "Augmenting sparse
+// laser scans with virtual scans to improve the performance of alignment algorithms", 2010, section 3, after Lakaemper,
+// Adluru, Latecki & Madhavan, Journal of Field Robotics 2007. docs/algorithms/ffs.md has the derivations, the
+// departures from the text and the results for difficult input.
 #include "algorithms/align/ffs/simulation.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"

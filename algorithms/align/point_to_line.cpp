@@ -1,10 +1,10 @@
-// Multi-scan point-to-line ICP: the points of every scan on the lines of all others. The registration of one scan is
-// the segment-point method of Siadat et al. 1997, section 7, with every scan in the place of the map.
-// docs/algorithms/point_to_line.md tells what is minimised and why it departs from the text.
+// Multi-scan point-to-line ICP: registers the points of every scan on the lines of all other scans. The registration of
+// one scan is the segment-point method of Siadat et al. 1997, section 7; here every scan takes the place of the map.
+// docs/algorithms/point_to_line.md has the objective and the departures from the text.
 //
-// Answers for difficult input: no scan or one is converged where it is. A scan without partners (no returns, or no
-// lines near them) keeps its odometry step from the scan before it, and makes the status degenerate; if no scan has
-// any, the poses come back as they were, no_match.
+// Results for difficult input: no scan or a single scan is converged, with its pose unchanged. A scan without partners
+// (no returns, or no lines near them) keeps its odometry step from the scan before it, and the status is degenerate. If
+// no scan has partners, the poses are those given and the status is no_match.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@
 namespace scanbench {
 namespace {
 
-/// A step of all poses together.
+/// Trace row of a step of all poses together.
 struct RoundRow {
   static constexpr std::string_view kName = "round";
   int round = 0;
@@ -90,11 +90,11 @@ class PointToLine final : public Aligner {
 
   align::OdometryError odometry_;
   align::Gates gates_;
-  align::PartnerRules rules_;  ///< with the widest gate
+  align::PartnerRules rules_;  ///< the gate is the widest one
   int max_rounds_;
 };
 
-/// Poses in the frame of the first scan, each registered against the lines of the scans before it.
+/// Poses in the frame of the first scan. Each scan is registered on the lines of the scans before it.
 std::vector<Pose2> PointToLine::one_after_the_other(std::span<const align::ScanShape> scans,
                                                     std::span<const Pose2> initial, double longest_m) const {
   std::vector<Pose2> poses(scans.size());

@@ -1,8 +1,9 @@
-// Simultaneous ICP: all pairs of scans, each point with the nearest point of every other scan, all poses solved
-// together. The network of pairwise relations of Lu & Milios, "Globally consistent range scan alignment for environment
-// mapping", Autonomous Robots 4, 1997, with the closest points themselves in place of the relations, as Borrmann et al.
-// solve it (Robotics and Autonomous Systems 56, 2008). The competitor that Lakaemper 2010, section 3, names: hard
-// correspondences where force field simulation has soft ones. It works on the same resampled points.
+// Simultaneous ICP: pairs each point with the nearest point of every other scan and solves for all poses together. It
+// uses the network of pairwise relations of Lu & Milios, "Globally consistent range scan alignment for environment
+// mapping", Autonomous Robots 4, 1997, with the closest points in place of the relations, as Borrmann et al. solve it
+// (Robotics and Autonomous Systems 56, 2008). Lakaemper 2010, section 3, names it as the competitor of force field
+// simulation: it has hard correspondences, force field simulation has soft ones. Both work on the same resampled
+// points.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,7 +21,7 @@
 namespace scanbench {
 namespace {
 
-/// Trace: one round of pairing and solving.
+/// Trace row of one round of pairing and solving.
 struct RoundRow {
   static constexpr std::string_view kName = "round";
   int round = 0;
@@ -78,7 +79,7 @@ class SimultaneousIcp final : public Aligner {
   Params params_;
 };
 
-/// All points placed in the world.
+/// All points, placed in the world.
 struct Cloud {
   std::vector<Vec2> at;
   std::vector<Vec2> along;
@@ -143,7 +144,7 @@ Round solve_round(const std::vector<Body>& bodies, const std::vector<double>& le
     ++round.pairs;
   });
   equations.finish(current);
-  round.groups = equations.groups(2 * kFewestShared);  // two residuals a pair
+  round.groups = equations.groups(2 * kFewestShared);  // two residuals per pair
   const std::vector<Eigen::Vector3d> motions = equations.solve(round.lowest_rank);
   for (std::size_t k = 1; k < poses.size(); ++k) {
     const align::Move move = align::move_by(motions[k], levers[k], poses[k]);

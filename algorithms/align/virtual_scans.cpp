@@ -1,6 +1,7 @@
-// Virtual scans: force field simulation with hypotheses about lines and rectangles of the map as one more scan, made
-// anew in every iteration. Lakaemper, "Augmenting sparse laser scans with virtual scans to improve the performance of
-// alignment algorithms", 2010, sections 4 and 5. docs/algorithms/virtual_scans.md has the rules and what they cost.
+// Virtual scans: force field simulation with an additional scan that contains hypotheses about lines and rectangles of
+// the map, detected anew in every iteration. Lakaemper, "Augmenting sparse laser scans with virtual scans to improve
+// the performance of alignment algorithms", 2010, sections 4 and 5. docs/algorithms/virtual_scans.md has the rules and
+// their cost.
 #include "algorithms/align/ffs/hypotheses.hpp"
 #include "algorithms/align/ffs/simulation.hpp"
 #include "core/modules.hpp"

@@ -1,7 +1,7 @@
-// em: expectation maximisation over segments whose number is not known. Memberships and weighted least squares
-// alternate; segments are split where they do not fit, deleted where nothing supports them, and merged where one line
-// fits both. In the spirit of the extended EM of Latecki & Lakaemper, "Polygonal approximation of laser range data
-// based on perceptual grouping and EM", ICRA 2006; the schedule and the tests below are our own.
+// em: expectation maximisation over segments whose number is unknown. Computing memberships and fitting weighted least
+// squares alternate. Segments are split where they do not fit, deleted where no points support them, and merged where
+// one line fits both. The method follows the idea of the extended EM of Latecki & Lakaemper, "Polygonal approximation
+// of laser range data based on perceptual grouping and EM", ICRA 2006. The schedule and the tests below are our own.
 //
 // The order of the beams is used for the first segments only, so a wall across the seam of a full turn is one wall.
 #include <algorithm>
@@ -22,18 +22,18 @@ namespace {
 
 using namespace extract;
 
-constexpr std::size_t kMinPoints = 4;  // of a segment while EM runs
-constexpr std::size_t kWindow = 8;     // points over which a misfit is averaged
+constexpr std::size_t kMinPoints = 4;  // smallest number of points of a segment while EM runs
+constexpr std::size_t kWindow = 8;     // number of points over which a misfit is averaged
 const double kCosMergeAngle = portable::sincos(radians(5.0)).cos;
 
-// A segment: a line and the interval of it that its own points cover.
+// A segment: a line and the interval of it that the points of the segment cover.
 struct Component {
   LineFit line;
-  PointMoments moments;  // of its own points
+  PointMoments moments;  // moments of its own points
   Vec2 along{0, 1};
   double low = 0.0;
   double high = 0.0;
-  std::vector<int> own;  // points with a membership above one half, by their place along the line
+  std::vector<int> own;  // points with a membership above one half, in order along the line
 
   double distance2(const Vec2& p) const {
     const double t = along.x() * p.x() + along.y() * p.y();
@@ -144,8 +144,8 @@ class Em final : public LineExtractor {
 
   std::vector<Component> first_segments(const ScanPoints& points) const {
     std::vector<Component> components;
-    // Splitting chords at start_m also separates surfaces at range jumps. Breakpoints are not used: in a dense scan
-    // they would make a segment of every outlier.
+    // Splitting chords at start_m also separates surfaces at range jumps. Breakpoints are not used, because in a dense
+    // scan they would make a segment of every outlier.
     std::vector<PointRun> pending = runs_between_gaps(points, {});
     while (!pending.empty()) {
       const PointRun run = pending.back();
@@ -231,7 +231,7 @@ class Em final : public LineExtractor {
     for (std::size_t k = 1; k < c.own.size(); ++k)
       if (c.along.dot(point(k) - point(k - 1)) > params_.split_gap_m) return k;
     if (c.own.size() < 2 * kMinPoints) return 0;
-    double sum = 0.0;  // of |residual| / s over the kWindow points up to k
+    double sum = 0.0;  // sum of |residual| / s over the kWindow points up to k
     const auto misfit = [&](std::size_t k) {
       return std::fabs(c.line.normal.dot(point(k)) - c.line.offset) / s[as_index(c.own[k])];
     };

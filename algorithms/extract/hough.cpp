@@ -120,7 +120,8 @@ class Hough final : public LineExtractor {
     Accumulator votes(params_.angles, params_.step_m, reach);
     for (const Vec2& p : points.points) votes.vote(p, 1);
 
-    // The true line may be off the centre of its cell: by half a step, and by half an angle times the range.
+    // The true line may differ from the centre of its cell by half a distance step, and by half an angle step times the
+    // range.
     std::vector<double> wide(tolerance.begin(), tolerance.end());
     for (std::size_t i = 0; i < wide.size(); ++i)
       wide[i] += votes.step_m() + points.points[i].norm() * kPi / (2 * params_.angles);
@@ -140,7 +141,8 @@ class Hough final : public LineExtractor {
       if (!support.empty())
         support = refined_support(points.points, tolerance, group, std::move(support), params_.max_gap_m);
       const bool enough = support.size() >= needed;
-      // The votes of a peak without enough support are removed too; otherwise it would be found again for ever.
+      // The votes of a peak without enough support are also removed; otherwise the search would find it again in every
+      // round.
       for (const int i : enough ? support : rough) {
         group[as_index(i)] = enough ? lines : kVotesRemoved;
         votes.vote(points.points[as_index(i)], -1);

@@ -3,6 +3,9 @@
 //
 // Both halves contain the break point (p' and p'' of Borges & Aldon): both chords and both fitted lines use it. It is
 // in the support of the second half only, so that supports partition the points.
+//
+// In the papers a line may bridge any gap, and two points make a line (max_gap_m: 0, min_points: 2). On recorded scans
+// that draws fans of lines through free space, so the defaults are stricter.
 #include "algorithms/extract/parts/breakpoints.hpp"
 #include "algorithms/extract/parts/chord.hpp"
 #include "core/index.hpp"
@@ -22,9 +25,9 @@ class Iepf final : public LineExtractor {
     double threshold_per_m = 0.01;
     Fit fit = Fit::tls;  // both papers refit by least squares after the grouping
     bool share_breaks = true;
-    int min_points = 2;
+    int min_points = 5;
     double min_length_m = 0.0;
-    double max_gap_m = 0.0;
+    double max_gap_m = 0.5;
     int max_missing_beams = -1;
 
     static auto fields() {

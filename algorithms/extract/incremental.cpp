@@ -1,5 +1,5 @@
-// incremental: a point is added to the current line if the line refitted with it is still straight within the sensor's
-// noise; otherwise the point starts the next line. Nguyen et al., Autonomous Robots 23, 2007, the algorithm
+// incremental: adds a point to the current line if the line refitted with it is still straight within the noise of the
+// sensor. Otherwise the point starts the next line. Nguyen et al., Autonomous Robots 23, 2007, the algorithm
 // "Incremental". Collinear neighbours are merged, as in the paper.
 //
 // A line is straight if the new point is within `sigmas` standard deviations of the refitted line and, from 5 points

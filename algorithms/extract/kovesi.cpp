@@ -1,7 +1,7 @@
-// kovesi: Kovesi's lineseg on the contours of a scan. From each break the longest straight piece is taken: its end
-// moves back to the point farthest from the chord until all points are near the chord. P. Kovesi, MATLAB and Octave
-// functions for computer vision, lineseg and maxlinedev; used on scans by Lakaemper 2009, section V. Contours end at
-// adaptive breakpoints (Borges & Aldon 2004). Each piece is refitted by total least squares.
+// kovesi: Kovesi's lineseg on the contours of a scan. It takes the longest straight piece from each break on. The end
+// of a piece moves back to the point farthest from the chord until all points are near the chord. P. Kovesi, MATLAB and
+// Octave functions for computer vision, lineseg and maxlinedev; used on scans by Lakaemper 2009, section V. Contours
+// end at adaptive breakpoints (Borges & Aldon 2004). Each piece is refitted by total least squares.
 #include "algorithms/extract/parts/breakpoints.hpp"
 #include "algorithms/extract/parts/chord.hpp"
 #include "core/modules.hpp"
@@ -38,7 +38,7 @@ class Kovesi final : public LineExtractor {
       int first = contour.first;
       while (first < contour.last) {
         int last = contour.last;
-        // Terminates: the farthest point is inside the piece, and two points are straight.
+        // This ends, because the farthest point is inside the piece and two points are always straight.
         while (last - first >= 2) {
           const Farthest far = farthest_from_chord(points.points, {first, last});
           if (!far.exceeds(params_.tolerance_m)) break;

@@ -1,7 +1,7 @@
-// line_regression: a line is fitted to every window of neighbouring points. Where the lines of adjacent windows agree
-// within their uncertainty, the points are on one line. Arras & Siegwart 1997, "Feature extraction and scene
-// interpretation for map-based navigation and map building", section 2; Nguyen et al., Autonomous Robots 23, 2007, the
-// algorithm "Line-Regression". Collinear neighbours are merged.
+// line_regression: fits a line to every window of neighbouring points. Where the lines of adjacent windows agree within
+// their uncertainty, the points are on one line. Arras & Siegwart 1997, "Feature extraction and scene interpretation
+// for map-based navigation and map building", section 2; Nguyen et al., Autonomous Robots 23, 2007, the algorithm
+// "Line-Regression". Collinear neighbours are merged.
 #include <tuple>
 
 #include "algorithms/extract/parts/contour_extractor.hpp"
@@ -45,10 +45,10 @@ class LineRegression final : public ContourExtractor {
         sigmas_(p.sigmas) {}
 
  private:
-  // Squared Mahalanobis distance of the lines of two windows, in (offset at the point between them, angle). The line
-  // through n points with noise s has the variance s^2 / n of its offset at the centroid and s^2 / (sum of squares
-  // along the line) of its angle; the two are uncorrelated at the centroid. The errors of the two windows count as
-  // independent.
+  // Squared Mahalanobis distance of the lines of two windows, in (offset at the point between them, angle). For n
+  // points with noise s, the offset of the line at the centroid has the variance s^2 / n and its angle has the variance
+  // s^2 / (sum of squares along the line). The two are uncorrelated at the centroid. The errors of the two windows are
+  // treated as independent.
   static double disagreement(const LineFit& left, const PointMoments& a, const LineFit& right, const PointMoments& b,
                              const Vec2& between, double sigma) {
     Vec2 n = right.normal;
@@ -62,7 +62,7 @@ class LineRegression final : public ContourExtractor {
       const double t = along.dot(between - line->centroid);
       const double var_angle = sigma * sigma / spread;
       c00 += sigma * sigma / line->weight + t * t * var_angle;
-      c01 -= t * var_angle;  // a line that turns by e moves its offset by t e; angle is right minus left
+      c01 -= t * var_angle;  // rotating a line by e moves its offset by t e; angle is right minus left
       c11 += var_angle;
     }
     const double det = c00 * c11 - c01 * c01;
@@ -71,9 +71,9 @@ class LineRegression final : public ContourExtractor {
 
   void cut(std::span<const Vec2> points, std::span<const double> tolerance, const PointRun& contour,
            std::vector<PointRun>& runs) const override {
-    const int half = window_ / 2 + 1;  // points of half a window; the middle point is in both halves
+    const int half = window_ / 2 + 1;  // number of points of half a window; the middle point is in both halves
     const auto window = [&](int first) { return points.subspan(as_index(first), as_index(half)); };
-    // A corner is a stretch of disagreement above the threshold; the contour is cut at its peak.
+    // A corner is a sequence of windows whose disagreement is above the threshold. The contour is cut at its peak.
     int first = contour.first;
     int peak = -1;
     double highest = fidelity_;

@@ -1,5 +1,6 @@
-// line_tracking: a line is extended point by point and ends at the first point too far from the least-squares line of
-// the points before it (LT). Siadat et al. 1997, section 4 and fig. 5; Borges & Aldon 2000, section 2.1.
+// line_tracking (LT): extends a line point by point. The line ends at the first point that is too far from the
+// least-squares line of the points before it. Siadat et al. 1997, section 4 and fig. 5; Borges & Aldon 2000, section
+// 2.1.
 //
 // The papers leave two things open. "Linear regression" is total least squares here, because a regression of y on x
 // fails on walls along y, which Siadat's section 6 avoids as well. A range jump alone does not end a line unless
@@ -32,8 +33,8 @@ class TrackedLine {
     syy_ += y * y;
   }
 
-  /// Is p farther than t from the line, or from the centroid while the direction is undefined? The direction is not
-  /// normalised, which saves two square roots and a division per point.
+  /// True if p is farther than t from the line, or from the centroid while the direction is undefined. The direction is
+  /// not normalised, which saves two square roots and a division per point.
   bool farther(const Vec2& p, double t) const {
     // All second moments times n, all positions times n.
     const double sxx = n_ * sxx_ - sx_ * sx_;
@@ -92,7 +93,7 @@ class LineTracking final : public LineExtractor {
     for (const PointRun& whole : runs_between_gaps(points, {params_.max_gap_m, params_.max_missing_beams}))
       track(scan, points, whole, runs);
     const SupportRules rules{params_.min_points, params_.min_length_m};
-    // The time of the least-squares line counts for the grouping, of which it is a part (Siadat, end of section 3).
+    // The time of the least-squares line counts as grouping time, of which it is a part (Siadat, end of section 3).
     if (params_.fit == Fit::tls) {
       ScanLines lines = lines_of_runs(scan, points, runs, Fit::tls, rules);
       trace.stage(Stage::post);

@@ -1,6 +1,6 @@
-// optimal: the division of a scan into lines and clutter that describes it in the fewest bits under the sensor's noise
-// model. Each line is estimated by maximum likelihood in the coordinates of the beams. Our own algorithm; derivation,
-// exactness and results are in docs/algorithms/optimal.md.
+// optimal: finds the division of a scan into lines and clutter that has the shortest description under the noise model
+// of the sensor. Each line is estimated by maximum likelihood in the coordinates of the beams. Our own algorithm;
+// derivation, exactness and results are in docs/algorithms/optimal.md.
 #include <algorithm>
 #include <cmath>
 
@@ -24,14 +24,14 @@ struct DescriptionRow {
   static constexpr auto columns() { return std::tuple{column("length_nats", &DescriptionRow::length_nats)}; }
 };
 
-constexpr int kMinReadings = 3;  // of a line; two readings always lie on one
+constexpr int kMinReadings = 3;  // fewest readings of a line; two readings are always on one line
 
 struct Line {
   PointRun run;
   std::optional<BeamLine> fit;
 };
 
-// The extraction of one scan: its returns, the lines so far, and the walls that they imply for each return.
+// The extraction of one scan: its returns, the lines found so far, and the walls that they imply for each return.
 class Extraction {
  public:
   Extraction(const Scan& scan, const SensorNoise& noise, int max_lines)
@@ -44,7 +44,7 @@ class Extraction {
     trace.stage(Stage::segment);
     segment();
     trace.stage(Stage::fit);
-    // The effect of bearing noise depends on the obliqueness of the walls, which is known after the first pass.
+    // The effect of bearing noise depends on the obliqueness of the walls, which is known only after the first pass.
     if (noise_.bearing_sigma_rad > 0) {
       fit();
       set_walls_from_lines();
@@ -60,8 +60,9 @@ class Extraction {
  private:
   void segment() {
     const std::vector<SegmentationPoint> in = model_.segmentation_points(walls_);
-    // A line's code is the place where it ends and half a place for where it begins, which is most often where the line
-    // before ends. LineCost adds half a log(points) for each of the line's two parameters.
+    // The code of a line contains the place where it ends and half a place for where it begins, because a line most
+    // often begins where the line before it ends. LineCost adds half a log(points) for each of the two parameters of
+    // the line.
     const LineCost line_cost{1.5 * model_.place_cost()};
     const Segmentation best =
         max_lines_ > 0 ? optimal_segmentation_at_most(in, max_lines_) : optimal_segmentation(in, line_cost);
@@ -105,7 +106,7 @@ class Extraction {
   }
 
   // Where two walls meet, the intersection of their lines determines which beam sees which wall. The cut with the least
-  // misfit gives readings to the line that they happen to fit, which biases both lines; the intersection does not
+  // misfit assigns each reading to the line that it happens to fit, which biases both lines. The intersection does not
   // depend on single readings. It replaces the cut if this costs less than the code of the cut's place.
   void place_corners() {
     for (int pass = 0; pass < 5; ++pass) {
@@ -121,8 +122,8 @@ class Extraction {
       return (a.fit->theta - b.fit->theta).dot(model_.direction(as_index(i))) > 0;
     };
     const bool before = a_is_nearer(a.run.first);
-    if (a_is_nearer(b.run.last) == before) return false;  // a step, not a corner
-    int cut = b.run.first;                                // first point of b
+    if (a_is_nearer(b.run.last) == before) return false;  // the lines end at a step, not at a corner
+    int cut = b.run.first;                                // index of the first point of b
     while (cut <= b.run.last && a_is_nearer(cut) == before) ++cut;
     while (cut > a.run.first && a_is_nearer(cut - 1) != before) --cut;
     if (cut == b.run.first || cut - a.run.first < kMinReadings || b.run.last - cut + 1 < kMinReadings) return false;
@@ -137,7 +138,7 @@ class Extraction {
     return true;
   }
 
-  // What follows an end. Nothing is known across missing beams.
+  // The line or reading that follows an end. It is unknown across missing beams.
   std::optional<Adjacent> adjacent(std::size_t k, bool last) const {
     const PointRun& run = lines_[k].run;
     const int own = last ? run.last : run.first;
@@ -151,8 +152,9 @@ class Extraction {
     return Adjacent{.line = lines_[other].fit, .readings = readings(lines_[other].run), .range_m = 0.0};
   }
 
-  // Averages every line over which readings at its ends are its own. The probability of a side is estimated from the
-  // scan: it starts at one side in two junctions and is then the mean over the junctions with that prior.
+  // Averages every line over the hypotheses about which readings at its ends belong to it. The probability of a side is
+  // estimated from the scan. The prior counts as one side in two junctions; the estimate is the mean over it and the
+  // junctions of the scan.
   void average_over_ends() {
     std::vector<std::optional<UncertainEnds>> ends(lines_.size());
     double sides = 1.0, junctions = 2.0;
@@ -210,7 +212,7 @@ class Extraction {
   ScanModel model_;
   std::vector<KnownWall> walls_;
   std::vector<Line> lines_;
-  std::vector<BeamReading> readings_;  // of all returns
+  std::vector<BeamReading> readings_;  // readings of all returns
   double cost_ = 0.0;
 };
 

@@ -1,7 +1,7 @@
-// polyline: maximum-likelihood polylines, walls that meet at shared vertices. A dynamic programme places the vertices,
-// of which a number may be requested; then all vertices are refined together in the coordinates of the beams. The
-// objective is that of Schaefer, Buescher, Luft & Burgard, "A maximum likelihood approach to extract polylines from 2-D
-// laser range scans", IROS 2018, under Gaussian noise; they remove vertices one by one. docs/algorithms/polyline.md.
+// polyline: maximum-likelihood polylines, walls that meet at shared vertices. A dynamic programme places the vertices;
+// their number may be requested. Then all vertices are refined together in the coordinates of the beams. The objective
+// is that of Schaefer, Buescher, Luft & Burgard, "A maximum likelihood approach to extract polylines from 2-D laser
+// range scans", IROS 2018, under Gaussian noise; they remove vertices one by one. docs/algorithms/polyline.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,8 +29,8 @@ struct DescriptionRow {
 };
 
 constexpr double kProhibitive = 1e6;  // [nats] for a return that must not be clutter
-constexpr int kMostVertices = 64;     // if the description decides their number
-constexpr int kMostPlaces = 400;      // points that may have a vertex in the search
+constexpr int kMostVertices = 64;     // limit if the description length determines their number
+constexpr int kMostPlaces = 400;      // limit of points that may have a vertex in the search
 constexpr int kSearches = 2;
 constexpr int kClosedSearches = 4;  // from different vertices of the best chain so far
 
@@ -72,8 +72,8 @@ class Extraction {
  private:
   using Offsets = std::array<double, 7>;  // in standard deviations
 
-  // Ranges for a vertex at each return: the reading, and a range (smoothed, or of an earlier chain) with offsets of
-  // some standard deviations.
+  // Ranges for a vertex at each return: the reading, and a range (smoothed or of an earlier chain) with offsets of some
+  // standard deviations.
   template <class RangeOfPoint>
   VertexChoices choices_around(const Offsets& offsets, RangeOfPoint range) const {
     VertexChoices choices;
@@ -141,8 +141,9 @@ class Extraction {
     return model_.size() == as_index(g.beams()) && std::fabs(g.angle_step()) * g.beams() > kTwoPi - 1e-6;
   }
 
-  // A scan of a full turn may be one closed chain, which has one wall more than an open one with as many vertices. The
-  // search needs a first vertex: it takes one of the chain before, as far as possible from that chain's first vertex.
+  // A scan of a full turn may be one closed chain, which has one wall more than an open chain with as many vertices.
+  // The search needs a first vertex. It takes the vertex of the chain before that is farthest from that chain's first
+  // vertex.
   void search_closed() {
     if (!is_full_turn() || chains_.empty()) return;
     const auto& widest = *std::ranges::max_element(chains_, {}, [](const FittedChain& c) { return c.points.size(); });

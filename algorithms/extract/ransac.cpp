@@ -1,6 +1,6 @@
-// ransac: lines through random pairs of points. The line with the largest support is kept, its points are removed, and
-// the search is repeated until no line has enough support. Fischler & Bolles 1981; Nguyen et al., Autonomous Robots 23,
-// 2007, the algorithm "RANSAC".
+// ransac: tests lines through random pairs of points. The line with the largest support is kept, its points are
+// removed, and the search is repeated until no line has enough support. Fischler & Bolles 1981; Nguyen et al.,
+// Autonomous Robots 23, 2007, the algorithm "RANSAC".
 //
 // The second point of a pair is drawn near the first in scan order, because distant points are rarely on one wall. The
 // support of a hypothesis is its largest stretch of points without a gap. Random draws depend on the seed alone.

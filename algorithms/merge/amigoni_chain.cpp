@@ -1,6 +1,6 @@
-// amigoni_chain: segments that a pairwise relation connects, directly or through others, become one line (after F.
+// amigoni_chain: joins segments that a pairwise relation connects, directly or through others, into one line (after F.
 // Amigoni and S. Gasparini, "Analysis of methods for reducing line segments in maps: towards a general approach", IROS
-// 2008, as described in Lakaemper 2009, section II). Its weakness is that dissimilarities add up along a chain.
+// 2008, as described in Lakaemper 2009, section II). Its weakness is that deviations add up along a chain.
 //
 // Unusable lines (not finite, without length, beyond 1e9 m) are dropped; if none is left, the status is degenerate. The
 // map does not depend on the order of the lines or of their ends.

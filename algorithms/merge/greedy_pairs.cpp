@@ -1,5 +1,5 @@
-// greedy_pairs: the pair of segments that matches best is replaced by one segment, until no pair matches. A baseline
-// without a paper.
+// greedy_pairs: replaces the best matching pair of segments by one segment until no pair matches. A baseline without a
+// paper.
 //
 // Unusable lines (not finite, without length, beyond 1e9 m) are dropped; if none is left, the status is degenerate. The
 // map does not depend on the order of the lines or of their ends. More than 20 million pairs of near segments are a
@@ -36,8 +36,8 @@ class GreedyPairs final : public SegmentMerger {
   merge::MatchTolerance rules_;
 };
 
-/// Per line the lines near it, each once. The tolerances are doubled, because a merged segment moves and grows; lines
-/// farther apart are never compared.
+/// For each line, the lines near it, each once. The tolerances are doubled, because a merged segment moves and grows.
+/// Lines that are farther apart are never compared.
 std::vector<std::vector<std::size_t>> GreedyPairs::neighbours(const std::vector<merge::Representative>& lines) const {
   const merge::MatchTolerance wide{2 * rules_.angle_rad, 2 * rules_.distance_m, 2 * rules_.gap_m + rules_.distance_m};
   const merge::NearSegments near(lines, wide);
@@ -86,7 +86,8 @@ MergeResult GreedyPairs::merge(const MergeInput& input, Trace& trace) const {
       if (i < j) consider(i, j);
 
   trace.stage(Stage::merge);
-  // Every merge makes a new node, the parent of the two merged ones. A node that is not merged is its own parent.
+  // Every merge makes a new node, which is the parent of the two merged ones. A node that is not merged is its own
+  // parent.
   std::vector<std::size_t> parent(nodes.size());
   for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = i;
   const auto current_node = [&](std::size_t i) {

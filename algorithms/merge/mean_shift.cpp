@@ -2,11 +2,11 @@
 // multi-line-segment merging for robot mapping using mean shift clustering", IROS 2009). docs/algorithms/mean_shift.md
 // lists the departures from the text, with reasons.
 //
-// Answers for difficult input: no lines give an empty map, converged. Lines that are not finite, have no length or
-// reach beyond 1e9 m are dropped (label -1); if none is left, the status is degenerate. A sigma that would cut the
-// lines into more than 10 million pieces, or for which a coordinate exceeds 1e8 sigma, is a ParamError. The map does
-// not depend on the order of the lines, nor on which end of a line is called a: every line of the map points along (cos
-// t, sin t), t in [0, pi). Its covariances are zero, because mean shift estimates none.
+// Results for difficult input: no lines give an empty map with the status converged. Lines that are not finite, have no
+// length or reach beyond 1e9 m are dropped (label -1); if none is left, the status is degenerate. A sigma that would
+// cut the lines into more than 10 million pieces, or for which a coordinate exceeds 1e8 sigma, is a ParamError. The map
+// does not depend on the order of the lines, nor on which end of a line is called a: every line of the map has the
+// direction (cos t, sin t) with t in [0, pi). Its covariances are zero, because mean shift does not estimate them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -163,7 +163,7 @@ Kernels MeanShift::kernels_of(const Params& p) {
   return k;
 }
 
-/// Per cluster the mean of the directions to which its members converged (section IV.C).
+/// For each cluster, the mean of the directions to which its members converged (section IV.C).
 std::vector<double> cluster_directions_of(const Clustering& clustering) {
   std::vector<std::vector<double>> of_members(as_index(clustering.clusters));
   for (std::size_t i = 0; i < clustering.cluster.size(); ++i)
@@ -198,7 +198,8 @@ std::vector<DraftLine> MeanShift::merge_clusters(std::span<const Piece> pieces, 
   return drafts;
 }
 
-/// Per line the index with the largest share of its length, the lowest of equal ones; -1 for none.
+/// For each line, the index with the largest share of its length; of equal shares the lowest index, -1 if there is
+/// none.
 class LargestShare {
  public:
   explicit LargestShare(std::size_t lines) : shares_(lines) {}
@@ -215,7 +216,7 @@ class LargestShare {
     std::vector<int> result;
     for (const auto& line : shares_) {
       const auto best = std::max_element(line.begin(), line.end(), [](const auto& a, const auto& b) {
-        const double slack = 1e-9 * std::max(a.second, b.second);  // lengths of equal pieces differ by rounding
+        const double slack = 1e-9 * std::max(a.second, b.second);  // the lengths of equal pieces differ by rounding
         return std::abs(a.second - b.second) > slack ? a.second < b.second : a.first > b.first;
       });
       result.push_back(best == line.end() ? -1 : best->first);

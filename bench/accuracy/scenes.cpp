@@ -54,7 +54,20 @@ sim::World random_room(CounterRng& rng) {
   return world;
 }
 
-sim::Trajectory random_poses(const sim::World& world, int count, double least_returns, CounterRng& rng) {
+// A pose near another, with no wall between them.
+Pose2 next_pose(const Pose2& pose, const sim::World& world, CounterRng& rng) {
+  for (;;) {
+    const Vec2 shift(0.3 * (2.0 * rng.uniform() - 1.0), 0.3 * (2.0 * rng.uniform() - 1.0));
+    const Pose2 next = pose * Pose2(shift, radians(10.0) * (2.0 * rng.uniform() - 1.0));
+    const bool clear = std::ranges::all_of(world.walls, [&](const Wall& w) {
+      return distance(next.translation(), w.segment) > shift.norm() / 2 &&
+             distance(pose.translation(), w.segment) > shift.norm() / 2;
+    });
+    if (shift.norm() <= 0.3 && clear) return next;
+  }
+}
+
+sim::Trajectory random_poses(const sim::World& world, int count, double least_returns, bool in_pairs, CounterRng& rng) {
   const sim::RayCaster caster(world);
   Vec2 low = world.walls.front().segment.a, high = low;
   for (const Wall& w : world.walls)
@@ -80,6 +93,9 @@ sim::Trajectory random_poses(const sim::World& world, int count, double least_re
     }
     if (returns < least_returns * kDirections) continue;
     trajectory.poses.push_back({static_cast<double>(trajectory.poses.size()), Pose2(x, y, yaw)});
+    if (in_pairs)
+      trajectory.poses.push_back(
+          {static_cast<double>(trajectory.poses.size()), next_pose(Pose2(x, y, yaw), world, rng)});
   }
   return trajectory;
 }
@@ -113,7 +129,7 @@ std::vector<Recording> recordings(const Scene& scene, double sigma_m, std::uint6
     else
       input.world = scene.random_rooms ? random_room(rng) : l_shaped_room();
     input.sensor = sim::make_sensor("ladar_2d30", {{"sigma_m", sigma_m}});
-    input.trajectory = random_poses(input.world, scene.scans / rooms, scene.least_returns, rng);
+    input.trajectory = random_poses(input.world, scene.scans / rooms, scene.least_returns, scene.in_pairs, rng);
     input.seed = seed * 1000 + static_cast<std::uint64_t>(room);
     result.push_back(sim::simulate(input));
   }

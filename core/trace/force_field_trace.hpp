@@ -47,9 +47,9 @@ struct PoseRow {
 struct HypothesisRow {
   static constexpr std::string_view kName = "hypothesis";
   int iteration = 0;
-  int shape = 0;
+  int shape = 0;  ///< 0: line, 1: rectangle
   int id = 0;
-  int fate = 0;
+  int fate = 0;  ///< 0: born, 1: confirmed, 2: changed, 3: dropped
   double certainty = 0.0;
   double x1_m = 0.0;
   double y1_m = 0.0;

@@ -8,10 +8,10 @@
 namespace scanbench {
 namespace {
 
-constexpr auto kNames =
-    std::to_array<std::string_view>({"pre", "segment", "search", "fit", "merge", "post", "match", "split", "phase1",
-                                     "phase2", "one_by_one", "joint", "resample", "simulate", "judge"});
-static_assert(kNames.size() == static_cast<std::size_t>(Stage::judge) + 1);
+constexpr auto kNames = std::to_array<std::string_view>({"pre", "segment", "search", "fit", "merge", "post", "match",
+                                                         "split", "phase1", "phase2", "one_by_one", "joint", "resample",
+                                                         "simulate", "judge", "start", "iterate", "walls"});
+static_assert(kNames.size() == static_cast<std::size_t>(Stage::walls) + 1);
 
 }  // namespace
 

@@ -7,9 +7,9 @@
 
 namespace scanbench {
 
-/// A part of a module's work. A new part is one more enumerator here and its name in stage.cpp.
+/// A part of a module's work; before the colon, the kinds of module that have it. A new part is one more enumerator here and its name in stage.cpp.
 enum class Stage {
-  pre,         ///< extract: the scan is prepared
+  pre,         ///< extract, match: scans are prepared
   segment,     ///< extract: points are grouped into lines
   search,      ///< extract: all chains of walls are searched together
   fit,         ///< extract: lines are fitted to their points
@@ -24,6 +24,9 @@ enum class Stage {
   resample,    ///< align: lines become equidistant points
   simulate,    ///< align: the scans move in the field of forces
   judge,       ///< align: the result is checked, its status decided
+  start,       ///< match: a first pose by the points
+  iterate,     ///< match: pairs and steps in turn
+  walls,       ///< match: the walls of both scans are measured and paired
 };
 
 /// Names in the order of the enumerators; each is the enumerator's own.

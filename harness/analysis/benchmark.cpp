@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
+#include <iterator>
 #include <set>
 #include <tuple>
 
+#include "core/special_values.hpp"
+
 namespace scanbench::harness {
 namespace {
-
-using metrics::Direction;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> scenario_names(const std::vector<Scenario>& scenarios) {
   std::vector<std::string> names;
@@ -44,25 +43,33 @@ double average(const std::vector<double>& values, bool geometric) {
     sum += geometric ? std::log(v) : v;
     count += 1.0;
   }
-  if (count == 0.0) return kNan;
+  if (count == 0.0) return kNaN;
   return geometric ? std::exp(sum / count) : sum / count;
 }
 
-std::map<std::string, int> conditions_won(const CellValues& f1, const std::vector<std::string>& pipelines,
+std::map<std::string, int> conditions_won(const CellValues& rank, const BenchmarkColumn& column,
+                                          const std::vector<std::string>& pipelines,
                                           const std::vector<std::uint64_t>& seeds,
                                           const std::vector<std::string>& scenarios) {
   std::map<std::string, int> won;
   for (const auto& scenario : scenarios) {
     std::vector<double> means;
-    for (const auto& pipeline : pipelines) means.push_back(average(per_seed(f1, pipeline, seeds, {scenario}), false));
-    double best = -1.0;
-    for (const double m : means) best = m > best ? m : best;
+    for (const auto& pipeline : pipelines)
+      means.push_back(average(per_seed(rank, pipeline, seeds, {scenario}), column.geometric));
+    double best = kNaN;
+    for (const double m : means)
+      if (better(column.description(), m, best)) best = m;
     for (std::size_t i = 0; i < means.size(); ++i) won[pipelines[i]] += means[i] == best;
   }
   return won;
 }
 
 }  // namespace
+
+std::string next_head(const BenchmarkColumn& rank) {
+  const std::string name = rank.head.substr(0, rank.head.find(" ["));
+  return rank.geometric ? name + " over next" : name + " − next";
+}
 
 CellValues values_of(const std::vector<SummaryRow>& rows, const std::string& metric) {
   CellValues values;
@@ -96,41 +103,6 @@ double noise_m(const Scenario& scenario) {
   return std::get<SimulatedInput>(scenario.input).sensor.noise.sigma_m;
 }
 
-const std::vector<BenchmarkColumn>& benchmark_columns() {
-  using enum Direction;
-  static const std::vector<BenchmarkColumn> kColumns{
-      {"f1", "F1 [%]", 100, 2, false, higher_is_better, "harmonic mean of precision and recall; decides the rank"},
-      {"precision", "precision [%]", 100, 2, false, higher_is_better,
-       "true lines over all lines found: true / (true + false + split)"},
-      {"recall", "recall [%]", 100, 2, false, higher_is_better, "true lines over lines that are there"},
-      {"split", "split [%]", 100, 2, false, lower_is_better, "share of the found lines that repeat a true line"},
-      {"merged", "merged [%]", 100, 2, false, lower_is_better,
-       "share of the found lines that cover more than half of two true lines of different walls"},
-      {"overlap", "overlap [%]", 100, 2, false, higher_is_better,
-       "common extent of a true line and its match over the extent of both together"},
-      {"sigma_offset", "σ offset [cm]", 100, 3, false, lower_is_better,
-       "root mean square distance of the matches' midpoints from the true line"},
-      {"sigma_angle", "σ angle [°]", 1, 3, false, lower_is_better,
-       "root mean square angle between the matches and the true line"},
-      {"efficiency_offset", "offset / bound", 1, 2, true, target,
-       "mean square error of the offset at the true line's midpoint over its Cramér–Rao bound; 1 is the best that the "
-       "readings allow; lines with 20 returns or more",
-       1.0},
-      {"efficiency_angle", "angle / bound", 1, 2, true, target, "the same for the angle", 1.0},
-      {"t_scan", "time [µs]", 1, 2, true, lower_is_better, "median CPU time per scan"},
-      {"t_ratio", "time ratio", 1, 2, true, lower_is_better,
-       "that time over the baseline's in the same condition and seed"}};
-  return kColumns;
-}
-
-metrics::MetricDescription BenchmarkColumn::description() const {
-  metrics::MetricDescription result;
-  result.metric = metric;
-  result.direction = direction;
-  result.target = target;
-  return result;
-}
-
 std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenarios, const std::vector<SummaryRow>& rows,
                                            const BenchmarkSpec& spec) {
   if (scenarios.empty()) return {};
@@ -138,12 +110,15 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenario
   const std::vector<std::string> conditions = scenario_names(scenarios);
   const std::vector<std::uint64_t> seeds = seeds_of(rows);
   std::map<std::string, RankedPipeline> by_name;
-  std::map<std::string, std::vector<double>> f1_of;
-  const CellValues f1 = values_of(rows, "f1");
-  const auto won = conditions_won(f1, names, seeds, conditions);
-  for (const auto& column : benchmark_columns()) {
-    const CellValues values = column.metric == "t_ratio" ? ratios_to(values_of(rows, "t_scan"), spec.baseline)
-                                                         : values_of(rows, column.metric);
+  std::map<std::string, std::vector<double>> rank_of;
+  const BenchmarkSubject& subject = spec.subject();
+  const BenchmarkColumn& rank = subject.rank_column();
+  const CellValues rank_values = values_of(rows, rank.metric);
+  const auto won = conditions_won(rank_values, rank, names, seeds, conditions);
+  for (const auto& column : subject.columns) {
+    const CellValues values = column.metric == "t_ratio"
+                                  ? ratios_to(values_of(rows, subject.time_metric), spec.baseline)
+                                  : values_of(rows, column.metric);
     for (const auto& name : names)
       by_name[name].values[column.metric] = mean_interval(per_seed(values, name, seeds, conditions, column.geometric));
   }
@@ -152,17 +127,19 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenario
     RankedPipeline& ranked = by_name[name];
     ranked.name = name;
     ranked.conditions_won = won.at(name);
-    f1_of[name] = per_seed(f1, name, seeds, conditions);
+    rank_of[name] = per_seed(rank_values, name, seeds, conditions, rank.geometric);
+    if (rank.geometric)
+      for (double& value : rank_of[name]) value = std::log(value);
     for (const auto& condition : conditions)
       for (const std::uint64_t seed : seeds) {
-        const auto found = f1.find({name, seed, condition});
-        ranked.missing += found == f1.end() || !std::isfinite(found->second);
+        const auto found = rank_values.find({name, seed, condition});
+        ranked.missing += found == rank_values.end() || !std::isfinite(found->second);
       }
     ranking.push_back(ranked);
   }
-  const auto key = [](const RankedPipeline& r) {
-    const double mean = r.values.at("f1").mean;
-    return std::tuple(r.missing > 0, std::isfinite(mean) ? -mean : 1.0, r.name);
+  const auto key = [&](const RankedPipeline& r) {
+    const double cost = metrics::cost(rank.description(), r.values.at(rank.metric).mean);
+    return std::tuple(r.missing > 0, !std::isfinite(cost), std::isfinite(cost) ? cost : 0.0, r.name);
   };
   std::ranges::sort(ranking, {}, key);
 
@@ -170,7 +147,7 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenario
   for (std::size_t i = 0; i < ranking.size(); ++i) {
     std::vector<double> differences;
     if (i + 1 < ranking.size())
-      std::ranges::transform(f1_of[ranking[i].name], f1_of[ranking[i + 1].name], std::back_inserter(differences),
+      std::ranges::transform(rank_of[ranking[i].name], rank_of[ranking[i + 1].name], std::back_inserter(differences),
                              std::minus<>{});
     ranking[i].next_difference = average(differences, false);
     p_values.push_back(paired_p_value(differences));

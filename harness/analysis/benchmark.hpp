@@ -8,6 +8,7 @@
 // F1 is always defined if there are walls.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <tuple>
@@ -15,6 +16,7 @@
 
 #include "harness/analysis/statistics.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
+#include "harness/scenario/benchmark_subject.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/store/summary.hpp"
 #include "metrics/metric.hpp"
@@ -24,28 +26,14 @@ namespace scanbench::harness {
 /// Standard deviation of the readings of a simulated scenario, the part that does not grow with range.
 double noise_m(const Scenario& scenario);
 
-/// A column of the ranking.
-struct BenchmarkColumn {
-  std::string metric;  ///< of summary.csv; or "t_ratio": time over that of the baseline in the same condition and seed
-  std::string head;    ///< with its unit
-  double scale = 1.0;
-  int decimals = 2;
-  bool geometric = false;
-  metrics::Direction direction = metrics::Direction::lower_is_better;
-  std::string definition;  ///< a sentence for the reader of the page
-  double target = 0.0;     ///< the best value if direction is `target`
-
-  metrics::MetricDescription description() const;  ///< for comparisons of values
-};
-const std::vector<BenchmarkColumn>& benchmark_columns();
-
 struct RankedPipeline {
   std::string name;
   std::map<std::string, MeanInterval> values;  ///< by the metric of a column; in the unit of summary.csv
-  int missing = 0;                             ///< cells without an F1: not ok, or missing
-  double next_difference = 0.0;  ///< mean F1 minus that of the next in rank, paired by seed; NaN for the last
+  int missing = 0;                             ///< cells without a value of the rank's metric: not ok, or not there
+  double next_difference = 0.0;  ///< mean of the rank's metric minus that of the next in rank, paired by seed, of the
+                                 ///< logarithms where the mean is geometric; NaN for the last
   double next_p = 1.0;           ///< of that difference, paired t test, corrected after Holm; NaN: no test
-  int conditions_won = 0;        ///< in which its F1, averaged over the seeds, is the best
+  int conditions_won = 0;        ///< in which it is the best, averaged over the seeds
 };
 
 /// The value of a metric (subject "all") in every cell: by pipeline, seed and scenario.
@@ -60,8 +48,12 @@ std::vector<double> per_seed(const CellValues& values, const std::string& pipeli
 /// Seeds of the rows, increasing: a run may have others than its scenarios name.
 std::vector<std::uint64_t> seeds_of(const std::vector<SummaryRow>& rows);
 
-/// Best F1 first; ties by name. Pipelines with missing cells come last, because they are not measured on all of them.
+/// Best value of the subject's first column first; ties by name. Pipelines with missing cells come last, because they
+/// are not measured on all of them.
 std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenarios, const std::vector<SummaryRow>& rows,
                                            const BenchmarkSpec& spec);
+
+/// Head of the column that compares a pipeline with the next in rank: "F1 − next", "MSE / bound over next".
+std::string next_head(const BenchmarkColumn& rank);
 
 }  // namespace scanbench::harness

@@ -36,8 +36,8 @@ constexpr std::string_view kNoReturn = "no_return_m must be given: the log does 
 const std::array<Format, 3>& formats() {
   static const std::array<Format, 3> all = {
       Format{"carmen",
-             {"poses", "no_return_m", "range_min_m", "first_angle_deg", "step_deg", "span_deg", "angles", "every",
-              "max_frames", "sensor_x_m", "sensor_y_m", "sensor_yaw_deg"},
+             {"poses", "compare_poses", "no_return_m", "range_min_m", "first_angle_deg", "step_deg", "span_deg",
+              "angles", "every", "max_frames", "sensor_x_m", "sensor_y_m", "sensor_yaw_deg"},
              parse_carmen,
              check_angle_options,
              "CARMEN log: FLASER or ROBOTLASER1 lines",
@@ -127,6 +127,10 @@ std::vector<ParamSpec> log_param_specs(std::string_view format) {
 
 void check_log_params(std::string_view format, const ParamSet& params) {
   format_of(format).check(make_params<LogOptions>(resolve(log_param_specs(format), params)));
+}
+
+Pose2 sensor_place(std::string_view format, const ParamSet& params) {
+  return make_params<LogOptions>(resolve(log_param_specs(format), params)).robot_from_sensor();
 }
 
 LogFormatText log_format_text(std::string_view format) {

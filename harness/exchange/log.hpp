@@ -5,7 +5,8 @@
 //          -90 deg + i * 180/(n-1) for 181 and 361; any other n needs first_angle_deg and step_deg. ROBOTLASER1 states
 //          its angles. A log that holds both gives the scans of the message that comes first.
 //          Poses: `reference` is the first pose triple of a line (the laser's), `odometry` the second (the robot's),
-//          `vertex` the VERTEX2 line before the scan in a graph log.
+//          `vertex` the VERTEX2 line before the scan in a graph log; `none` gives scans without odometry. With
+//          compare_poses another pose of the log is kept apart, for comparison with estimates.
 // dpslam   "Odometry x y theta" and "Laser n r1 .. rn" alternate; beam angles follow the same rule.
 // csv      one scan per row, fields separated by commas or blanks, # begins a comment; `columns` names them:
 //          t_s t_ms t_us  x_m x_cm x_mm  y_m y_cm y_mm  yaw_rad yaw_deg  skip skip:20  ranges
@@ -43,6 +44,9 @@ struct LogFormatText {
   std::vector<std::string> notes;  ///< rules that the options alone do not show
 };
 LogFormatText log_format_text(std::string_view format);
+
+/// The place of the sensor in the frame whose poses the log holds, as the options state it.
+Pose2 sensor_place(std::string_view format, const ParamSet& params);
 
 /// The scans of a log. `sensor` gives name, noise and timing; beam angles and range limits come from the log and its
 /// options. Stamps are the log's, or one scan period of the sensor apart if it has none. The recording has no truth.

@@ -51,7 +51,7 @@ double LogLines::number_of(std::string_view word, std::string_view what) const {
 }
 
 LogBuilder::LogBuilder(const LogOptions& options)
-    : options_(options), robot_from_sensor_(options.sensor_x_m, options.sensor_y_m, radians(options.sensor_yaw_deg)) {}
+    : options_(options), robot_from_sensor_(options.robot_from_sensor()) {}
 
 bool LogBuilder::wants_scan() {
   return scans_++ % options_.every == 0;
@@ -170,6 +170,7 @@ Recording LogBuilder::finish(SensorModel sensor, bool has_stamps) {
   Recording recording;
   recording.observed.sensor = std::move(sensor);
   recording.observed.frames = std::move(frames_);
+  if (!references_.empty()) recording.reference = ReferencePoses{std::move(references_), {}};
   return recording;
 }
 

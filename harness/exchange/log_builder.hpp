@@ -5,13 +5,15 @@
 #include <string_view>
 #include <vector>
 
+#include "core/geometry/angles.hpp"
+#include "core/geometry/pose2.hpp"
 #include "core/params.hpp"
 #include "core/recording.hpp"
 #include "harness/files/placed_error.hpp"
 
 namespace scanbench::harness {
 
-enum class LogPoses { reference, odometry, vertex };
+enum class LogPoses { reference, odometry, vertex, none };
 
 /// What to do with scans of other beam angles, or another number of beams, than the first.
 enum class LogAngles {
@@ -22,6 +24,7 @@ enum class LogAngles {
 /// Options of all formats; log_param_specs() names those of each.
 struct LogOptions {
   LogPoses poses = LogPoses::reference;
+  LogPoses compare_poses = LogPoses::none;
   double no_return_m = 0.0;
   double range_min_m = 0.0;
   double first_angle_deg = -90.0;
@@ -37,13 +40,25 @@ struct LogOptions {
   double sensor_x_m = 0.0;
   double sensor_y_m = 0.0;
   double sensor_yaw_deg = 0.0;
+
+  Pose2 robot_from_sensor() const { return {sensor_x_m, sensor_y_m, radians(sensor_yaw_deg)}; }
   static auto fields() {
     using O = LogOptions;
     return std::tuple{
         choice("poses", &O::poses,
-               {{LogPoses::reference, "reference"}, {LogPoses::odometry, "odometry"}, {LogPoses::vertex, "vertex"}},
+               {{LogPoses::reference, "reference"},
+                {LogPoses::odometry, "odometry"},
+                {LogPoses::vertex, "vertex"},
+                {LogPoses::none, "none"}},
                "pose of a scan: reference is the first triple of its line, odometry the second, vertex the VERTEX2 "
-               "line before it"),
+               "line before it; none: no odometry"),
+        choice(
+            "compare_poses", &O::compare_poses,
+            {{LogPoses::none, "none"},
+             {LogPoses::reference, "reference"},
+             {LogPoses::odometry, "odometry"},
+             {LogPoses::vertex, "vertex"}},
+            "poses, named in the same way, that no algorithm sees and estimates are compared with (metric trajectory)"),
         field("no_return_m", &O::no_return_m, at_least(0), "m",
               "readings of this value or more mean nothing in range; 0 disables this"),
         field("range_min_m", &O::range_min_m, at_least(0), "m", "readings below this are too close"),
@@ -133,6 +148,8 @@ class LogBuilder {
 
   /// Adds the scan that began last.
   void add(Frame frame);
+  /// The pose that an estimate of the next frame is compared with: for every frame or for none.
+  void add_reference(const Pose2& pose) { references_.push_back(pose); }
   std::size_t frames() const { return frames_.size(); }
 
   /// The recording. Without stamps in the log, frames are one scan period of the sensor apart.
@@ -152,6 +169,7 @@ class LogBuilder {
   const LogOptions& options_;
   Pose2 robot_from_sensor_;
   std::vector<Frame> frames_;
+  std::vector<Pose2> references_;
   long long scans_ = 0;
   Beams first_;    ///< of the scan in line first_line_
   Beams current_;  ///< of the scan that began last

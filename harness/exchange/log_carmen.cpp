@@ -123,6 +123,18 @@ class CarmenReader {
     vertex_ = builder_.pose(lines_, number(2, "x"), number(3, "y"), number(4, "yaw"));
   }
 
+  // The pose of this kind of the scan in this line, whose two triples begin at word `triples`.
+  Pose2 pose(LogPoses kind, std::size_t triples) {
+    if (kind == LogPoses::none) return {};
+    if (kind == LogPoses::vertex) {
+      if (!vertex_)
+        lines_.refuse(words_[0], "no VERTEX2 line before this scan; allowed: one before each, or other poses");
+      return *vertex_;
+    }
+    const std::size_t at = kind == LogPoses::odometry ? triples + 3 : triples;
+    return builder_.pose(lines_, number(at, "x"), number(at + 1, "y"), number(at + 2, "yaw"));
+  }
+
   // Ranges from word `first`, two pose triples from word `poses`.
   void scan(std::size_t first, std::size_t n, std::size_t poses, std::optional<std::size_t> stamp) {
     lines_.check_last_number(words_);
@@ -130,14 +142,9 @@ class CarmenReader {
     Frame frame;
     frame.ranges.reserve(n);
     for (std::size_t i = 0; i < n; ++i) frame.ranges.push_back(builder_.reading(number(first + i, "a range")));
-    const std::size_t at = options_.poses == LogPoses::odometry ? poses + 3 : poses;
-    frame.odom_from_sensor = builder_.pose(lines_, number(at, "x"), number(at + 1, "y"), number(at + 2, "yaw"));
-    if (options_.poses == LogPoses::vertex) {
-      if (!vertex_)
-        lines_.refuse(words_[0], "no VERTEX2 line before this scan; allowed: one before each, or other poses");
-      frame.odom_from_sensor = *vertex_;
-      vertex_.reset();
-    }
+    frame.odom_from_sensor = pose(options_.poses, poses);
+    if (options_.compare_poses != LogPoses::none) builder_.add_reference(pose(options_.compare_poses, poses));
+    vertex_.reset();
     if (stamp)
       frame.stamp_s = number(*stamp, "the stamp");
     else

@@ -58,14 +58,31 @@ void add_matches(const fs::path& file, std::uint64_t seed, bool by_range, MatchB
   }
 }
 
+/// The matched poses of one pipeline: position and heading in the bins of offset and angle.
+void add_poses(const fs::path& file, std::uint64_t seed, MatchBins& bins) {
+  if (!fs::exists(file)) return;
+  const CsvTable csv(read_file(file), file, {"x_m", "y_m", "yaw_rad", "bound_position_m", "bound_yaw_rad"});
+  for (std::size_t r = 0; r < csv.rows(); ++r) {
+    const double position_bound = 100.0 * csv.number(r, "bound_position_m");
+    const double heading_bound = degrees(csv.number(r, "bound_yaw_rad"));
+    const double position = 100.0 * std::hypot(csv.number(r, "x_m"), csv.number(r, "y_m"));
+    bins.offset_by_bound.add(seed, position_bound, position, position_bound);
+    bins.angle_by_bound.add(seed, heading_bound, degrees(csv.number(r, "yaw_rad")), heading_bound);
+  }
+}
+
 /// Only cells with the example's noise enter the curves over range, because other noise would hide the effect of range.
 MatchBins load_matches(const fs::path& run, const std::vector<Scenario>& scenarios, const std::string& pipeline,
-                       const std::vector<std::uint64_t>& seeds, double noise) {
+                       const std::vector<std::uint64_t>& seeds, double noise, bool poses) {
   MatchBins bins;
   for (const auto& scenario : scenarios)
-    for (const std::uint64_t seed : seeds)
-      add_matches(cell_path(run, {scenario.name, pipeline, seed}) / "matches.csv", seed, noise_m(scenario) == noise,
-                  bins);
+    for (const std::uint64_t seed : seeds) {
+      const fs::path cell = cell_path(run, {scenario.name, pipeline, seed});
+      if (poses)
+        add_poses(cell / "pose_errors.csv", seed, bins);
+      else
+        add_matches(cell / "matches.csv", seed, noise_m(scenario) == noise, bins);
+    }
   return bins;
 }
 
@@ -125,6 +142,7 @@ class Drawer {
         pdf_(pdf),
         rows_(load_summary(run / kSummaryFile)),
         seeds_(seeds_of(rows_)),
+        subject_(spec.subject()),
         example_(example_of(scenarios, spec)) {
     for (const auto& ranked : rank_pipelines(scenarios, rows_, spec)) names_.push_back(ranked.name);
   }
@@ -133,18 +151,26 @@ class Drawer {
     const auto step = [&](double share, const std::string& what) {
       if (progress) progress(share, what);
     };
-    step(0.0, "f1_noise");
-    draw_f1();
+    const std::string& rank = subject_.rank_column().metric;
+    step(0.0, rank + "_noise");
+    if (rank == "f1")
+      draw_f1();
+    else
+      draw_rank_over_noise();
     for (std::size_t i = 0; i < names_.size(); ++i) {
       step(0.1 + 0.6 * static_cast<double>(i) / static_cast<double>(names_.size()), "matches of " + names_[i]);
-      bins_.push_back(load_matches(run_, scenarios_, names_[i], seeds_, noise_m(example_)));
+      bins_.push_back(load_matches(run_, scenarios_, names_[i], seeds_, noise_m(example_), !subject_.shows_example));
     }
-    step(0.7, "error_range");
-    draw_errors_over_range();
+    if (subject_.shows_example) {
+      step(0.7, "error_range");
+      draw_errors_over_range();
+    }
     step(0.8, "error_bound");
     draw_errors_over_bound();
-    step(0.9, "scan_overlay");
-    draw_example();
+    if (subject_.shows_example) {
+      step(0.9, "scan_overlay");
+      draw_example();
+    }
     return std::move(files_);
   }
 
@@ -184,6 +210,40 @@ class Drawer {
           chart);
   }
 
+  /// The metric that decides the rank, one of those that span decades.
+  void draw_rank_over_noise() {
+    const BenchmarkColumn& rank = subject_.rank_column();
+    const CellValues values = values_of(rows_, rank.metric);
+    std::set<double> levels;
+    for (const auto& scenario : scenarios_) levels.insert(noise_m(scenario));
+    FacetChart chart{.title = rank.head + " against noise",
+                     .x = {.label = "σ of a range [cm]"},
+                     .y = {.label = rank.head, .log = true, .ticks = round_ticks(1e-3, 1e6)},
+                     .curve_names = {"this " + subject_.noun},
+                     .others_name = "the others"};
+    for (const double level : levels) chart.x.ticks.emplace_back(100 * level, fmt::format("{:.3g}", 100 * level));
+    for (const auto& name : names_) {
+      FacetCurve curve;
+      for (const double level : levels) {
+        std::vector<std::string> at_level;
+        for (const auto& scenario : scenarios_)
+          if (noise_m(scenario) == level) at_level.push_back(scenario.name);
+        const MeanInterval interval = mean_interval(per_seed(values, name, seeds_, at_level, rank.geometric));
+        if (!(interval.mean > 0)) continue;
+        const double scaled = rank.scale * interval.mean, low = rank.scale * interval.low;
+        curve.points.emplace_back(100 * level, scaled);
+        curve.intervals.push_back({100 * level, low > 0 ? low : 0.1 * scaled, rank.scale * interval.high});
+      }
+      chart.facets.push_back({name, {curve}, {}});
+    }
+    chart.y.range = log_range(chart.facets, 1);
+    write(rank.metric + "_noise",
+          rank.head +
+              " against the standard deviation of the readings, lower is better: mean over the conditions, bars "
+              "are 95 % intervals over the seeds. In every panel the others in grey; panels in the order of rank.",
+          chart);
+  }
+
   void draw_errors_over_range() {
     const auto chart_of = [&](const std::string& what, const std::string& unit, ErrorBins MatchBins::*bins) {
       FacetChart chart{.title = what + " error against range",
@@ -214,7 +274,8 @@ class Drawer {
     FacetChart chart{.title = "Errors against their bound",
                      .x = {.label = "√bound [cm], [°]", .log = true},
                      .y = {.label = "error [cm], [°]", .log = true},
-                     .curve_names = {"offset [cm]", "angle [°]"},
+                     .curve_names = subject_.shows_example ? std::vector<std::string>{"offset [cm]", "angle [°]"}
+                                                           : std::vector<std::string>{"position [cm]", "heading [°]"},
                      .reference_name = "error = bound"};
     for (std::size_t i = 0; i < names_.size(); ++i)
       chart.facets.push_back({names_[i],
@@ -228,10 +289,11 @@ class Drawer {
     chart.y.range->first = std::min(chart.y.range->first, chart.x.range->first);
     write("error_bound",
           fmt::format(
-              "Errors of matched lines with 20 returns or more against the root of their Cramér–Rao bound, all "
-              "conditions: root mean square in bins of a quarter of a decade with at least {} lines, geometric mean "
-              "over the seeds with its 95 % interval. On the dotted line an extractor reaches the bound.",
-              kLeastMatches),
+              "Errors of {} against the root of their Cramér–Rao bound, all conditions: root mean square in bins of a "
+              "quarter of a decade with at least {} of them, geometric mean over the seeds with its 95 % interval. On "
+              "the dotted line {} reaches the bound.",
+              subject_.shows_example ? "matched lines with 20 returns or more" : "matched poses", kLeastMatches,
+              subject_.shows_example ? "an extractor" : "a matcher"),
           chart);
   }
 
@@ -249,6 +311,7 @@ class Drawer {
   bool pdf_;
   std::vector<SummaryRow> rows_;
   std::vector<std::uint64_t> seeds_;
+  const BenchmarkSubject& subject_;
   const Scenario& example_;
   std::vector<std::string> names_;  ///< of the pipelines, by rank
   std::vector<MatchBins> bins_;     ///< as names_

@@ -46,13 +46,15 @@ std::string run_text(const ReportInput& input, const BenchmarkSpec& spec) {
     sensors.insert(simulated(scenario).sensor_preset);
   }
   const auto& scenarios = input.scenarios;
+  const BenchmarkSubject& subject = spec.subject();
   const std::size_t seeds = seeds_of(input.rows).size();
   return fmt::format(
-      "{} extractors on {} conditions: {} worlds, {} sensors, noise of {:.3g} cm. {} seeds make {} recordings with "
-      "{} scans and {} true lines in total; every extractor gets the same recordings.",
-      scenarios.front().pipelines.size(), scenarios.size(), worlds.size(), sensors.size(),
+      "{} {}s on {} conditions: {} worlds, {} sensors, noise of {:.3g} cm. {} seeds make {} recordings with "
+      "{} scans and {} {} in total; every {} gets the same recordings.",
+      scenarios.front().pipelines.size(), subject.noun, scenarios.size(), worlds.size(), sensors.size(),
       fmt::join(noise_levels(scenarios), ", "), seeds, scenarios.size() * seeds,
-      observations(input.rows, spec.baseline, "t_scan"), observations(input.rows, spec.baseline, "recall"));
+      observations(input.rows, spec.baseline, "t_scan"), observations(input.rows, spec.baseline, subject.count_metric),
+      subject.counted, subject.noun);
 }
 
 Table worlds_table(const ReportInput& input) {
@@ -90,12 +92,17 @@ Table sensors_table(const ReportInput& input) {
   return table;
 }
 
+const ModuleChoice& slot_of(const PipelineSpec& pipeline, const std::string& kind) {
+  return *std::ranges::find(pipeline.slots, kind, &ModuleChoice::kind);
+}
+
 /// "threshold_m 0.04 / 0.12 / 0.2", one value per noise level if they differ; empty if all have the default.
-std::string param_text(const std::vector<Scenario>& scenarios, std::size_t pipeline, const ParamSpec& spec) {
+std::string param_text(const std::vector<Scenario>& scenarios, std::size_t pipeline, const std::string& slot,
+                       const ParamSpec& spec) {
   std::map<double, std::set<std::string>> by_noise;
   std::set<std::string> all;
   for (const auto& scenario : scenarios) {
-    const std::string value = to_text(scenario.pipelines[pipeline].slots.front().params.at(spec.name));
+    const std::string value = to_text(slot_of(scenario.pipelines[pipeline], slot).params.at(spec.name));
     by_noise[noise_m(scenario)].insert(value);
     all.insert(value);
   }
@@ -108,18 +115,20 @@ std::string param_text(const std::vector<Scenario>& scenarios, std::size_t pipel
   return fmt::format("{} {}", spec.name, fmt::join(values, " / "));
 }
 
-Table extractors_table(const ReportInput& input, const std::vector<RankedPipeline>& ranking) {
+Table modules_table(const ReportInput& input, const BenchmarkSpec& spec, const std::vector<RankedPipeline>& ranking) {
   const auto& scenarios = input.scenarios;
-  Table table{
-      "extractors", "Extractors", "", {"extractor", "what it does", "parameters other than the defaults"}, {}, {}};
+  const std::string& noun = spec.subject().noun;
+  std::string title = noun + "s";
+  title.front() = static_cast<char>(title.front() - 'a' + 'A');
+  Table table{noun + "s", title, "", {noun, "what it does", "parameters other than the defaults"}, {}, {}};
   for (const auto& ranked : ranking) {
     const auto& pipelines = scenarios.front().pipelines;
     const auto k =
         static_cast<std::size_t>(std::ranges::find(pipelines, ranked.name, &PipelineSpec::name) - pipelines.begin());
-    const ModuleEntry module = find_module("extract", pipelines[k].slots.front().module);
+    const ModuleEntry module = find_module(spec.of, slot_of(pipelines[k], spec.of).module);
     std::vector<std::string> params;
-    for (const auto& spec : module.params)
-      if (auto text = param_text(scenarios, k, spec); !text.empty()) params.push_back(std::move(text));
+    for (const auto& param : module.params)
+      if (auto text = param_text(scenarios, k, spec.of, param); !text.empty()) params.push_back(std::move(text));
     table.rows.push_back({{ranked.name, module.info.summary, fmt::format("{}", fmt::join(params, ", "))}, {}, false});
   }
   table.caption = fmt::format("Values separated by / belong to the noise levels {:.3g} cm.",
@@ -147,37 +156,18 @@ std::string significance_text(const std::vector<RankedPipeline>& ranking) {
 
 std::vector<std::pair<std::string, std::string>> definitions(const BenchmarkSpec& spec) {
   std::vector<std::pair<std::string, std::string>> all;
-  for (const auto& column : benchmark_columns()) {
+  const BenchmarkColumn& rank = spec.subject().rank_column();
+  for (const auto& column : spec.subject().columns) {
     std::string text = column.definition;
     if (column.geometric) text += "; geometric mean over the conditions";
     all.emplace_back(column.metric == "t_ratio" ? "time / " + spec.baseline : column.head, text);
   }
-  all.emplace_back("F1 − next", "mean difference of F1 to the next in rank, in points, with the p-value");
-  all.emplace_back("best in", "conditions in which its F1 is the highest; ties count for all");
+  all.emplace_back(next_head(rank),
+                   rank.geometric ? "mean ratio of the first column to that of the next in rank, with the p-value"
+                                  : "mean difference of the first column to the next in rank, in points, with the "
+                                    "p-value");
+  all.emplace_back("best in", "conditions in which its first column is the best; ties count for all");
   return all;
-}
-
-constexpr std::string_view kMatching =
-    "A true line is a run of consecutive beams on one wall with at least 9 returns over 0.5 m. A found line matches it "
-    "if "
-    "they differ by at most 10° and 15 cm and overlap by more than half of the shorter; pairs are one to one, by "
-    "decreasing overlap. Found lines shorter than 0.5 m that match nothing are skipped. For every seed a value is "
-    "averaged over the conditions with equal weight; the table shows the mean over the seeds and, after ±, half of its "
-    "95 % interval (the wider of Student's t and a bootstrap). Undefined values are left out. * marks the best.";
-
-const std::vector<std::string>& limits_of_the_page() {
-  static const std::vector<std::string> kLimits{
-      "The seeds change the noise, not the worlds: intervals and tests show that a difference would recur on these "
-      "worlds, not that it would on others. \"Best in\" shows how much it depends on the condition.",
-      "Errors are those of found lines that passed the gate of the matching. An extractor that finds only easy lines "
-      "has smaller errors than one that finds all, and no error can be much larger than the gate.",
-      "The bound is that of a line whose beams are known, from the returns between its first and last beam. A ratio "
-      "below 1 is possible if an extractor used beams of two runs of one wall for one line.",
-      "Noise is Gaussian, equal at all ranges, and known to the extractors that take it as a parameter; there are no "
-      "mixed pixels, lost returns, rounding or moving bodies. Walls are straight.",
-      "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition and "
-      "seed, varies less."};
-  return kLimits;
 }
 
 std::string figure_html(const ReportInput& input, const std::string& name, const std::string& number) {
@@ -187,6 +177,9 @@ std::string figure_html(const ReportInput& input, const std::string& name, const
 }
 
 std::vector<std::pair<std::string, std::string>> numbered_figures(const BenchmarkSpec& spec) {
+  if (!spec.subject().shows_example)
+    return {{"benchmark_" + spec.subject().rank_column().metric + "_noise", "Figure 1"},
+            {"benchmark_error_bound", "Figure 2"}};
   return {{"benchmark_f1_noise", "Figure 1"},
           {"benchmark_offset_range", "Figure 2a"},
           {"benchmark_angle_range", "Figure 2b"},
@@ -206,12 +199,12 @@ std::string benchmark_html(const ReportInput& input, const BenchmarkSpec& spec) 
   out += fmt::format("<p>{}</p>\n", html_escaped(significance_text(ranking)));
   out += "<h2>Figures</h2>\n<div class=\"beside\">\n";
   for (const auto& [name, number] : numbered_figures(spec)) out += figure_html(input, name, number);
-  out += "</div>\n<h2>How the columns are defined</h2>\n<p>" + html_escaped(std::string(kMatching)) + "</p>\n<dl>\n";
+  out += "</div>\n<h2>How the columns are defined</h2>\n<p>" + html_escaped(spec.subject().method) + "</p>\n<dl>\n";
   for (const auto& [head, text] : definitions(spec))
     out += "<dt>" + html_escaped(head) + "</dt><dd>" + html_escaped(text) + "</dd>\n";
-  out += "</dl>\n<div class=\"prose plain\">" + to_html(extractors_table(input, ranking)) +
+  out += "</dl>\n<div class=\"prose plain\">" + to_html(modules_table(input, spec, ranking)) +
          "</div>\n<h2>What it does not show</h2>\n<ul>\n";
-  for (const auto& limit : limits_of_the_page()) out += "<li>" + html_escaped(limit) + "</li>\n";
+  for (const auto& limit : spec.subject().limits) out += "<li>" + html_escaped(limit) + "</li>\n";
   return html_page(input.title, out + "</ul>\n" + html_facts(input.facts));
 }
 
@@ -225,10 +218,10 @@ std::string benchmark_markdown(const ReportInput& input, const BenchmarkSpec& sp
   for (const auto& [name, number] : numbered_figures(spec))
     if (const auto figure = std::ranges::find(input.figures, name, &FigureFile::name); figure != input.figures.end())
       out += fmt::format("\n![{0}](figures/{1}.svg)\n\n{2}. {0}\n", figure->caption, name, number);
-  out += "\n## How the columns are defined\n\n" + std::string(kMatching) + "\n\n";
+  out += "\n## How the columns are defined\n\n" + spec.subject().method + "\n\n";
   for (const auto& [head, text] : definitions(spec)) out += "- " + head + ": " + text + "\n";
-  out += "\n" + to_markdown(extractors_table(input, ranking)) + "\n## What it does not show\n\n";
-  for (const auto& limit : limits_of_the_page()) out += "- " + limit + "\n";
+  out += "\n" + to_markdown(modules_table(input, spec, ranking)) + "\n## What it does not show\n\n";
+  for (const auto& limit : spec.subject().limits) out += "- " + limit + "\n";
   return out + markdown_facts(input.facts);
 }
 

@@ -17,7 +17,6 @@ namespace {
 
 using metrics::Direction;
 
-constexpr double kF1Margin = 0.05;
 constexpr double kRounding = 1e-9;  ///< a difference of exactly the margin is within it
 
 std::string number(double value, int decimals) {
@@ -35,32 +34,45 @@ TableCell interval_cell(const MeanInterval& interval, const BenchmarkColumn& col
   return cell;
 }
 
-TableCell next_cell(const RankedPipeline& ranked) {
+TableCell next_cell(const RankedPipeline& ranked, const BenchmarkColumn& rank) {
   if (!std::isfinite(ranked.next_p)) return {"–"};
-  TableCell cell{fmt::format("{:+.2f}", 100.0 * ranked.next_difference)};
+  TableCell cell{rank.geometric ? fmt::format("× {:.3f}", std::exp(ranked.next_difference))
+                                : fmt::format("{:+.2f}", rank.scale * ranked.next_difference)};
   cell.spread = ranked.next_p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", ranked.next_p);
   if (ranked.next_p >= 0.05) cell.spread += " n.s.";
   return cell;
 }
 
-/// Errors and costs are compared among extractors that find about equally much, because one that finds little also has
-/// small errors.
-void mark_columns(Table& table, const std::vector<RankedPipeline>& ranking) {
-  double best_f1 = kNaN;
+const BenchmarkColumn& column_of(const BenchmarkSubject& subject, const std::string& metric) {
+  return *std::ranges::find(subject.columns, metric, &BenchmarkColumn::metric);
+}
+
+/// Whether each pipeline answers about as much as the one that answers most; false for those that miss cells.
+std::vector<bool> answers_enough(const std::vector<RankedPipeline>& ranking, const BenchmarkSubject& subject) {
+  const metrics::MetricDescription fair = column_of(subject, subject.fair.metric).description();
+  double least = kNaN;
+  std::vector<double> costs;
   for (const auto& ranked : ranking) {
-    const double f1 = ranked.values.at("f1").mean;
-    if (ranked.missing == 0 && (std::isnan(best_f1) || f1 > best_f1)) best_f1 = f1;
+    costs.push_back(metrics::cost(fair, ranked.values.at(fair.metric).mean));
+    if (ranked.missing == 0 && !(costs.back() >= least)) least = costs.back();
   }
+  std::vector<bool> enough;
+  for (std::size_t r = 0; r < ranking.size(); ++r)
+    enough.push_back(ranking[r].missing == 0 && costs[r] <= least + subject.fair.margin + kRounding);
+  return enough;
+}
+
+void mark_columns(Table& table, const std::vector<RankedPipeline>& ranking, const BenchmarkSubject& subject) {
+  const std::vector<bool> enough = answers_enough(ranking, subject);
   std::size_t c = 0;
-  for (const auto& column : benchmark_columns()) {
+  for (const auto& column : subject.columns) {
     std::vector<TableCell*> cells;
     std::vector<double> means;
     std::vector<bool> eligible;
     for (std::size_t r = 0; r < ranking.size(); ++r) {
       cells.push_back(&table.rows[r].cells[c]);
       means.push_back(ranking[r].values.at(column.metric).mean);
-      const bool finds_enough = ranking[r].values.at("f1").mean >= best_f1 - kF1Margin - kRounding;
-      eligible.push_back(ranking[r].missing == 0 && (finds_enough || column.direction == Direction::higher_is_better));
+      eligible.push_back(ranking[r].missing == 0 && (enough[r] || column.direction == Direction::higher_is_better));
     }
     mark_best(cells, means, column.description(), eligible);
     ++c;
@@ -70,26 +82,24 @@ void mark_columns(Table& table, const std::vector<RankedPipeline>& ranking) {
 }  // namespace
 
 Table ranking_table(const std::vector<RankedPipeline>& ranking, const BenchmarkSpec& spec) {
-  Table table{"ranking", "", "", {"", "extractor"}, {}, {}};
-  for (const auto& column : benchmark_columns())
+  const BenchmarkSubject& subject = spec.subject();
+  Table table{"ranking", "", "", {"", subject.noun}, {}, {}};
+  for (const auto& column : subject.columns)
     table.columns.push_back({"", column.metric == "t_ratio" ? "time / " + spec.baseline : column.head, false});
-  table.columns.push_back({"", "F1 − next", false});
+  table.columns.push_back({"", next_head(subject.rank_column()), false});
   table.columns.push_back({"", "best in", false});
   int rank = 0;
   for (const auto& ranked : ranking) {
     const std::string missing = ranked.missing > 0 ? fmt::format(" ({} cells missing)", ranked.missing) : "";
     Table::Row row{{std::to_string(++rank), ranked.name + missing}, {}, false};
-    for (const auto& column : benchmark_columns())
+    for (const auto& column : subject.columns)
       row.cells.push_back(interval_cell(ranked.values.at(column.metric), column));
-    row.cells.push_back(next_cell(ranked));
+    row.cells.push_back(next_cell(ranked, subject.rank_column()));
     row.cells.push_back({std::to_string(ranked.conditions_won)});
     table.rows.push_back(std::move(row));
   }
-  mark_columns(table, ranking);
-  table.caption = fmt::format(
-      "* marks the best value; of errors, times and other costs among extractors within {} points of the best F1. An "
-      "extractor with missing cells has no mark.",
-      100.0 * kF1Margin);
+  mark_columns(table, ranking, subject);
+  table.caption = subject.fair.caption;
   return table;
 }
 

@@ -18,7 +18,7 @@
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/recording_folder.hpp"
-#include "harness/store/run_files.hpp"
+#include "harness/store/run_scenarios.hpp"
 #include "harness/store/run_folder.hpp"
 #include "render/backends/cairo.hpp"
 #include "render/backends/gl.hpp"

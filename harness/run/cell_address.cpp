@@ -1,7 +1,9 @@
 // Hashes the effective scenario, so that every field of a scenario enters the address of its cells.
 #include "harness/run/cell_address.hpp"
 
+#include <filesystem>
 #include <variant>
+#include <vector>
 
 #include "harness/files/hash.hpp"
 #include "harness/scenario/effective.hpp"
@@ -9,25 +11,36 @@
 namespace scanbench::harness {
 namespace {
 
-/// Removes the path of a file from an input and returns the hash of the file (empty if none). The file's bytes enter
-/// the address, not its path.
-std::string take_file(SimulatedInput& input) {
+/// SHA-256 of the files of an input.
+using Hashes = std::vector<std::string>;
+
+/// Removes the paths of files from an input and returns the hashes of the files. Their bytes enter the address, not
+/// their paths.
+Hashes take_files(SimulatedInput& input) {
   input.caster = sim::CasterKind::exact;  // both casters give the same bytes
   return {};                              // the world itself is part of the text
 }
 
-std::string take_file(RecordedInput& input) {
-  const std::string hash = input.log_sha256.empty() ? sha256_of_file(input.log) : input.log_sha256;
-  input.log = "/";
-  input.log_as_written.clear();
-  return hash;
+/// Replaces the path of a file, if there is one, by the root. `known`: its hash, empty if it must be computed.
+void take(std::filesystem::path& path, std::string& as_written, const std::string& known, Hashes& taken) {
+  if (!path.empty()) {
+    taken.push_back(known.empty() ? sha256_of_file(path) : known);
+    path = "/";
+  }
+  as_written.clear();
 }
 
-std::string take_file(LinesInput& input) {
-  const std::string hash = input.file.empty() ? "" : sha256_of_file(input.file);
-  if (!input.file.empty()) input.file = "/";
-  input.file_as_written.clear();
-  return hash;
+Hashes take_files(RecordedInput& input) {
+  Hashes taken;
+  take(input.log, input.log_as_written, input.log_sha256, taken);
+  take(input.relations, input.relations_as_written, input.relations_sha256, taken);
+  return taken;
+}
+
+Hashes take_files(LinesInput& input) {
+  Hashes taken;
+  take(input.file, input.file_as_written, "", taken);
+  return taken;
 }
 
 }  // namespace
@@ -35,10 +48,10 @@ std::string take_file(LinesInput& input) {
 std::string input_address(const Scenario& scenario) {
   Scenario part;
   part.input = scenario.input;
-  const std::string file = std::visit([](auto& input) { return take_file(input); }, part.input);
+  const Hashes files = std::visit([](auto& input) { return take_files(input); }, part.input);
   Sha256 hash;
   hash.part("input", effective_yaml(part));
-  if (!file.empty()) hash.part("file", file);
+  for (const auto& file : files) hash.part("file", file);
   return hash.hex();
 }
 

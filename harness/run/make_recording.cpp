@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "harness/exchange/line_set.hpp"
 #include "harness/exchange/log.hpp"
+#include "harness/exchange/pose_relations.hpp"
 #include "harness/files/text_file.hpp"
 
 namespace scanbench::harness {
@@ -45,11 +46,21 @@ sim::SimulationInput input_within_memory(const Scenario& scenario, std::uint64_t
   return input;
 }
 
+Recording recorded_log(const RecordedInput& input, double max_bytes) {
+  Recording recording = read_log(input.log, input.format, input.params, input.sensor, max_bytes);
+  if (input.relations.empty()) return recording;
+  std::vector<double> stamps;
+  for (const Frame& frame : recording.observed.frames) stamps.push_back(frame.stamp_s);
+  if (!recording.reference) recording.reference.emplace();
+  recording.reference->relations = read_relations(input.relations, stamps, sensor_place(input.format, input.params));
+  return recording;
+}
+
 }  // namespace
 
 void check_scenario(const Scenario& scenario) {
   if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
-    read_log(recorded->log, recorded->format, recorded->params, recorded->sensor, scenario.limits.memory_bytes);
+    recorded_log(*recorded, scenario.limits.memory_bytes);
   if (!std::holds_alternative<SimulatedInput>(scenario.input)) return;
   const sim::SimulationInput input = input_within_memory(scenario, 0);
   try {
@@ -62,7 +73,7 @@ void check_scenario(const Scenario& scenario) {
 Recording make_recording(const Scenario& scenario, std::uint64_t seed, int threads,
                          const std::function<void(double)>& progress) {
   if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
-    return read_log(recorded->log, recorded->format, recorded->params, recorded->sensor, scenario.limits.memory_bytes);
+    return recorded_log(*recorded, scenario.limits.memory_bytes);
   if (const auto* lines = std::get_if<LinesInput>(&scenario.input))
     return lines->file.empty() ? sim::line_copies(*lines->world, lines->copies, seed)
                                : line_set_recording(lines->frames, lines->world ? &*lines->world : nullptr);

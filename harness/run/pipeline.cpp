@@ -85,6 +85,17 @@ void check_pose(const Pose2& pose, const std::string& where) {
     throw InvalidResult(where + ": the pose is not finite");
 }
 
+void check_match(const Match& match, const std::string& where) {
+  check_pose(match.reference_from_current, where);
+  if (!match.covariance.allFinite()) throw InvalidResult(where + ": the covariance is not finite");
+}
+
+/// False if all scans claim one pose: what recorded scans without poses look like.
+bool has_odometry(const ScanSet& scans) {
+  return std::ranges::any_of(
+      scans.frames, [&](const Frame& frame) { return !(frame.odom_from_sensor == scans.frames[0].odom_from_sensor); });
+}
+
 void check_map(const LineMap& map, const std::string& slot) {
   for (std::size_t i = 0; i < map.lines.size(); ++i)
     if (!map.lines[i].segment.a.allFinite() || !map.lines[i].segment.b.allFinite() ||
@@ -160,22 +171,38 @@ class Chain {
 
   void match(const ModuleChoice& slot) {
     const auto matcher = Registry<ScanMatcher>::make(slot.module, slot.params);
+    const bool odometry = has_odometry(scans_);
     for (std::size_t k = 1; k < views_.size(); ++k) {
-      const Pose2 guess = scans_.frames[k - 1].odom_from_sensor.inverse() * scans_.frames[k].odom_from_sensor;
+      // Without odometry the sensor is taken to go on as it went from the scan before the last one to the last.
+      const Pose2 guess = odometry ? scans_.frames[k - 1].odom_from_sensor.inverse() * scans_.frames[k].odom_from_sensor
+                          : k > 1  ? poses_[k - 2].inverse() * poses_[k - 1]
+                                   : Pose2();
       Match found;
       listener_("match", static_cast<int>(k),
                 [&](Trace& trace) { found = matcher->match(observation(k - 1), observation(k), guess, trace); });
       note("match", found.status);
-      const Pose2& step = found.status == Status::no_match ? guess : found.reference_from_current;
-      check_pose(step, "match, frame " + std::to_string(k));
-      poses_[k] = poses_[k - 1] * step;
+      check_match(found, "match, frame " + std::to_string(k));
+      result_.matches.push_back({.frame = static_cast<int>(k), .reference = static_cast<int>(k) - 1, .match = found});
+      poses_[k] = poses_[k - 1] * (found.status == Status::no_match ? guess : found.reference_from_current);
     }
   }
 
   void map(const ModuleChoice& slot) {
     const auto mapper = Registry<Mapper>::make(slot.module, slot.params);
-    for (std::size_t k = 0; k < views_.size(); ++k)
-      listener_("map", static_cast<int>(k), [&](Trace& trace) { mapper->insert(observation(k), poses_[k], trace); });
+    std::vector<Pose2> placed;
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      Insertion inserted;
+      listener_("map", static_cast<int>(k),
+                [&](Trace& trace) { inserted = mapper->insert(observation(k), poses_[k], trace); });
+      note("map", inserted.status);
+      const std::string frame = "frame " + std::to_string(k);
+      if (inserted.status != Status::converged && !inserted.message.empty())
+        messages_.try_emplace("map", "first in " + frame + ": " + inserted.message);
+      check_pose(inserted.world_from_sensor, "map, " + frame);
+      if (inserted.lines < 0) throw InvalidResult("map, " + frame + ": " + std::to_string(inserted.lines) + " lines");
+      placed.push_back(inserted.world_from_sensor);
+    }
+    poses_ = std::move(placed);
     result_.map = mapper->map();
     result_.has_map = true;
     check_map(result_.map, "map");

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/run/pipeline.hpp"
+#include "harness/scenario/chain.hpp"
 #include "harness/scenario/trace_choice.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
@@ -58,6 +59,7 @@ bool EarlierCells::files_are_whole(const CellKey& key, const PipelineSpec& pipel
   const bool places = std::ranges::any_of(pipeline.slots, [](const auto& slot) { return slot.kind != "extract"; });
   for (const auto& [file, written] :
        {std::pair(&kTimingFile, true), std::pair(&kTraceFile, !trace.nothing()), std::pair(&kMergeFile, merge),
+        std::pair(&kPoseMatchesFile, has_slot(pipeline, "match")),
         std::pair(&kMapFile, merge || has_slot(pipeline, "map")), std::pair(&kPosesFile, places && frames > 0)})
     if (written && !fs::exists(folder / *file)) return false;
 

@@ -33,7 +33,7 @@ struct RunResult {
   std::filesystem::path out;      ///< RunOptions::out without "." and ".."
   std::vector<CellResult> cells;  ///< selected ones, in the order of summary.csv
   bool interrupted = false;
-  bool old_run_kept = false;  ///< interrupted or incomplete, so that it did not replace the earlier run in its folder
+  bool old_run_kept = false;  ///< the earlier run in the folder stays, because this one is incomplete
   /// 0 all cells ok; 3 some are not; 4 some are missing; 130 interrupted.
   int exit_code() const;
 };

@@ -21,7 +21,7 @@
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
-#include "harness/store/run_files.hpp"
+#include "harness/store/run_start.hpp"
 #include "harness/store/run_target.hpp"
 #include "harness/store/summary.hpp"
 
@@ -66,7 +66,7 @@ class Run {
       reuse_finished_cells();
       refuse_to_drop_cells();
       write_start();
-      report("", nullptr);
+      tell_progress("", nullptr);
       work();
     } catch (...) {
       pool_->kill_all();  // before the folders that the children write are removed
@@ -192,7 +192,7 @@ class Run {
       return;
     }
     const int threads = std::max(1, options_.jobs - static_cast<int>(pool_->running()));
-    report("recording " + group.plan.scenario->name + "/" + std::to_string(group.plan.seed), nullptr);
+    tell_progress("recording " + group.plan.scenario->name + "/" + std::to_string(group.plan.seed), nullptr);
     try {
       pool_->start(cells_.size() + index,
                    [&] {
@@ -312,10 +312,10 @@ class Run {
     ++done_;
     Group& group = group_of(cell);
     if (--group.unfinished == 0) group.recording.reset();
-    report(to_string(cell.result.key), &cell.result);
+    tell_progress(to_string(cell.result.key), &cell.result);
   }
 
-  void report(const std::string& what, const CellResult* cell) const {
+  void tell_progress(const std::string& what, const CellResult* cell) const {
     if (options_.progress) options_.progress({done_, total_, what, cell});
   }
 

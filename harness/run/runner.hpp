@@ -10,11 +10,11 @@
 #include "harness/run/run_options.hpp"
 #include "harness/scenario/effective.hpp"
 #include "harness/scenario/scenario.hpp"
-#include "harness/store/run_files.hpp"
+#include "harness/store/run_scenarios.hpp"
 
 namespace scanbench::harness {
 
-/// Functions that a run calls and that tests replace.
+/// What a run gets from outside, so that tests can replace it.
 struct RunServices {
   std::function<Recording(const Scenario&, std::uint64_t seed, int threads)> recording;
   EffectiveText effective_yaml;

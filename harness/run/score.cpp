@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 namespace {
 
 metrics::MetricInput metric_input(const Recording& recording, const PipelineResult& result) {
-  return {recording.observed, recording.truth ? &*recording.truth : nullptr, result};
+  return {recording.observed, recording.truth ? &*recording.truth : nullptr, result,
+          recording.reference ? &*recording.reference : nullptr};
 }
 
 /// Calls `use` with every chosen family that applies to the input.

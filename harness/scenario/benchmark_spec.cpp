@@ -2,6 +2,7 @@
 #include "harness/scenario/benchmark_spec.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/scenario/chain.hpp"
 #include "harness/yaml/reader.hpp"
 
 namespace scanbench::harness {
@@ -28,16 +30,39 @@ std::vector<std::string> pipeline_names(const Scenario& scenario) {
   return names;
 }
 
-void check_metrics(const Scenario& scenario, Mark mark) {
-  for (const std::string family : {"segments", "efficiency", "timing"}) {
-    const auto choice = std::ranges::find(scenario.metrics, family, &ModuleChoice::module);
-    const bool writes_matches =
-        choice != scenario.metrics.end() && (family != "efficiency" || std::get<bool>(choice->params.at("matches")));
-    if (!writes_matches)
-      throw PlacedError(mark, fmt::format("{} has no metric {}; allowed: a benchmark of scenarios with the metrics "
-                                          "segments, {{name: efficiency, params: {{matches: true}}}} and timing",
-                                          scenario.name, family == "efficiency" ? "efficiency with matches" : family));
-  }
+/// "segments", "{name: efficiency, params: {matches: true}}"
+std::string text_of(const RequiredMetric& required) {
+  return required.parameter.empty()
+             ? required.family
+             : fmt::format("{{name: {}, params: {{{}: true}}}}", required.family, required.parameter);
+}
+
+/// "segments", "efficiency with matches"
+std::string name_of(const RequiredMetric& required) {
+  return required.parameter.empty() ? required.family : required.family + " with " + required.parameter;
+}
+
+bool has_metric(const Scenario& scenario, const RequiredMetric& required) {
+  const auto choice = std::ranges::find(scenario.metrics, required.family, &ModuleChoice::module);
+  return choice != scenario.metrics.end() &&
+         (required.parameter.empty() || std::get<bool>(choice->params.at(required.parameter)));
+}
+
+void check_metrics(const Scenario& scenario, const BenchmarkSubject& subject, Mark mark) {
+  const auto missing =
+      std::ranges::find_if(subject.required, [&](const auto& metric) { return !has_metric(scenario, metric); });
+  if (missing == subject.required.end()) return;
+  std::vector<std::string> allowed;
+  for (const auto& required : subject.required) allowed.push_back(text_of(required));
+  throw PlacedError(mark, fmt::format("{} has no metric {}; allowed: a benchmark of scenarios with the metrics {}",
+                                      scenario.name, name_of(*missing), fmt::join(allowed, ", ")));
+}
+
+void check_slots(const Scenario& scenario, const std::string& slot, Mark mark) {
+  for (const auto& pipeline : scenario.pipelines)
+    if (!has_slot(pipeline, slot))
+      throw PlacedError(mark, fmt::format("{} of {} has no slot {}; allowed: a benchmark of pipelines that have it",
+                                          pipeline.name, scenario.name, slot));
 }
 
 }  // namespace
@@ -45,6 +70,11 @@ void check_metrics(const Scenario& scenario, Mark mark) {
 BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& scenarios) {
   YamlMap map(node, "benchmark");
   BenchmarkSpec spec;
+  const YamlNode* of = map.find("of");
+  spec.of = map.text_or("of", spec.of);
+  if (const auto slots = benchmark_slots(); std::ranges::find(slots, spec.of) == slots.end())
+    throw PlacedError(of->mark,
+                      fmt::format("no benchmark ranks modules of the kind {}{}", spec.of, known_names(spec.of, slots)));
   const YamlNode& baseline = map.require("baseline", "a pipeline's name");
   spec.baseline = map.text("baseline", "a pipeline's name");
   spec.example = map.text_or("example", scenarios.front().name);
@@ -61,7 +91,8 @@ BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& 
       throw PlacedError(node.mark,
                         fmt::format("{} is not simulated; allowed: scenarios with a world, a sensor and a trajectory",
                                     scenario.name));
-    check_metrics(scenario, node.mark);
+    check_slots(scenario, spec.of, node.mark);
+    check_metrics(scenario, spec.subject(), node.mark);
   }
   if (std::ranges::find(pipelines, spec.baseline) == pipelines.end())
     throw PlacedError(baseline.mark,
@@ -74,7 +105,8 @@ BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& 
 }
 
 std::string benchmark_json(const BenchmarkSpec& spec) {
-  const nlohmann::ordered_json json{{"about", spec.about}, {"baseline", spec.baseline}, {"example", spec.example}};
+  const nlohmann::ordered_json json{
+      {"about", spec.about}, {"of", spec.of}, {"baseline", spec.baseline}, {"example", spec.example}};
   return json.dump(2) + "\n";
 }
 

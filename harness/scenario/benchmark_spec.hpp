@@ -6,23 +6,27 @@
 #include <string>
 #include <vector>
 
+#include "harness/scenario/benchmark_subject.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/yaml/gate.hpp"
 
 namespace scanbench::harness {
 
 struct BenchmarkSpec {
-  std::string about;     ///< the suite's description
-  std::string baseline;  ///< pipeline whose time is 1 in the ratios of times
-  std::string example;   ///< scenario whose scan is shown
+  std::string about;           ///< the suite's description
+  std::string baseline;        ///< pipeline whose time is 1 in the ratios of times
+  std::string example;         ///< scenario whose scan is shown
+  std::string of = "extract";  ///< slot whose modules are ranked
+
+  const BenchmarkSubject& subject() const { return benchmark_subject(of); }
 };
 
-/// Reads the key `benchmark` of a suite of these scenarios: {baseline: iepf, example: rooms-1cm}. The default example
-/// is the first scenario; `about` stays empty. Throws PlacedError for unknown names, and unless all scenarios are
-/// simulated, share the same pipelines, and have the metrics segments, efficiency (with matches: true) and timing.
+/// Reads the key `benchmark` of a suite of these scenarios: {of: extract, baseline: iepf, example: rooms-1cm}. The
+/// defaults are extract and the first scenario; `about` stays empty. Throws PlacedError for unknown names, and unless
+/// all scenarios are simulated, share the same pipelines, and have the slot and the metrics that the subject requires.
 BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& scenarios);
 
+/// The text of benchmark.json.
 std::string benchmark_json(const BenchmarkSpec& spec);
-/// Reads benchmark.json of a run folder; nullopt if the run is no benchmark. Throws ConfigError if the file is damaged.
 
 }  // namespace scanbench::harness

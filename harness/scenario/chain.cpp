@@ -33,6 +33,10 @@ std::string chain_text(bool scans) {
   return text;
 }
 
+bool has_slot(const PipelineSpec& pipeline, std::string_view kind) {
+  return std::ranges::find(pipeline.slots, kind, &ModuleChoice::kind) != pipeline.slots.end();
+}
+
 std::optional<ChainFault> chain_fault(const PipelineSpec& pipeline, bool scans) {
   const std::string& name = pipeline.name;
   const std::size_t count = pipeline.slots.size();

@@ -24,6 +24,9 @@ std::span<const SlotKind> chain_slots();
 /// "extract, then align or match, then map or merge"; without the first stage if lines are given instead of scans.
 std::string chain_text(bool scans);
 
+/// True if the pipeline has a slot of this kind.
+bool has_slot(const PipelineSpec& pipeline, std::string_view kind);
+
 struct ChainFault {
   std::size_t slot = 0;  ///< index of the wrong slot; the number of slots if one is missing
   std::string message;

@@ -54,6 +54,8 @@ void add_input(YamlNode& root, const RecordedInput& input, const StoredInputs&) 
   YamlNode& recording = yaml_add(root, "recording", yaml_map());
   yaml_add(recording, "log", path_node(input.log, input.log_as_written));
   yaml_add(recording, "format", yaml_text(input.format));
+  if (!input.relations.empty())
+    yaml_add(recording, "relations", path_node(input.relations, input.relations_as_written));
   add_params(recording, input.params);
   YamlNode& sensor = yaml_add(root, "sensor", yaml_map());
   yaml_add(sensor, "preset", yaml_text(input.sensor_preset));

@@ -33,9 +33,6 @@ struct PipelineSpec {
   std::string published;            ///< the method's name in Scenario::published_file; may be empty
 };
 
-/// True if the pipeline has a slot of this kind.
-bool has_slot(const PipelineSpec& pipeline, std::string_view kind);
-
 /// Input of a run with scans of a simulated world.
 struct SimulatedInput {
   std::string world_text;  ///< bytes of the world's file, unpacked; empty: the world is written into the scenario
@@ -55,10 +52,13 @@ struct SimulatedInput {
 /// Input of a run with scans of a recorded log.
 struct RecordedInput {
   std::filesystem::path log;
-  std::string log_as_written;  ///< in the scenario, with ${SCANBENCH_DATA}
-  std::string log_sha256;      ///< known without the log, of a scenario that a run folder holds; else empty
-  std::string format;          ///< carmen, csv, dpslam
-  ParamSet params;             ///< of the reader: no-return value, first angle, pose triple, ...; effective
+  std::string log_as_written;       ///< in the scenario, with ${SCANBENCH_DATA}
+  std::string log_sha256;           ///< known without the log, of a scenario that a run folder holds; else empty
+  std::string format;               ///< carmen, csv, dpslam
+  std::filesystem::path relations;  ///< relative poses to compare estimates with; empty: none
+  std::string relations_as_written;
+  std::string relations_sha256;  ///< as log_sha256
+  ParamSet params;               ///< of the reader: no-return value, first angle, pose triple, ...; effective
   std::string sensor_preset;
   ParamSet sensor_params;  ///< effective; its beam angles and range limits are unused, because the log has its own
   SensorModel sensor;

@@ -169,14 +169,20 @@ class ScenarioReader {
     if (input.format != "csv")
       map.require("no_return_m",
                   "the reading in m that means nothing in range, as do all greater ones; 0 if there is none");
+    const YamlNode* relations = map.find("relations");
+    if (relations != nullptr) input.relations_as_written = map.text("relations", "a file's path");
     input.params = resolve(specs, map.params(specs));
     map.done();
     at_param(node, [&] { check_log_params(input.format, input.params); });
+    const auto at_most = [](const std::filesystem::path& file, double bytes) {
+      InputFile(file).require_at_most(static_cast<std::uint64_t>(bytes));
+    };
     input.log = resolve_path(log, input.log_as_written, scenario_.path, is_recorded_);
-    if (!is_recorded_)
-      at_param(log, [&] {
-        InputFile(input.log).require_at_most(static_cast<std::uint64_t>(scenario_.limits.memory_bytes));
-      });
+    if (!is_recorded_) at_param(log, [&] { at_most(input.log, scenario_.limits.memory_bytes); });
+    if (relations != nullptr) {
+      input.relations = resolve_path(*relations, input.relations_as_written, scenario_.path, is_recorded_);
+      if (!is_recorded_) at_param(*relations, [&] { at_most(input.relations, kMaxWorldBytes); });
+    }
     if (const YamlNode* sensor = map_.find("sensor")) {
       read_sensor(*sensor, recorded_sensor_specs(), input.sensor_preset, input.sensor_params, input.sensor);
     } else {

@@ -1,4 +1,4 @@
-// Reads seeds, pipelines, lists of metrics and figures, and paths.
+// Reads the schema, seeds, pipelines, lists of metrics and figures, and paths.
 #include "harness/scenario/shared_keys.hpp"
 
 #include <fmt/format.h>
@@ -73,6 +73,14 @@ PipelineSpec read_pipeline(const YamlNode& node, bool scans) {
 }
 
 }  // namespace
+
+void read_schema(YamlMap& map) {
+  ParamSpec spec;
+  spec.name = "schema";
+  spec.type = ParamType::integer;
+  spec.bounds = between(1, 1);
+  read_param(map.require("schema", "schema: 1, the version of the format"), spec);
+}
 
 std::vector<std::uint64_t> read_seeds(YamlMap& map) {
   const YamlNode* one = map.find("seed");

@@ -1,4 +1,4 @@
-// Readers of the keys that scenarios and suites share.
+// Readers of the keys that scenarios, suites and worlds share.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,9 @@
 #include "harness/yaml/reader.hpp"
 
 namespace scanbench::harness {
+
+/// Checks the key `schema`: present, and 1. Throws PlacedError.
+void read_schema(YamlMap& map);
 
 /// The value of `seed` or `seeds`; empty if the map has neither. Throws PlacedError.
 std::vector<std::uint64_t> read_seeds(YamlMap& map);

@@ -11,6 +11,7 @@
 #include "core/number_text.hpp"
 #include "harness/files/placed_error.hpp"
 #include "harness/files/text_file.hpp"
+#include "harness/scenario/shared_keys.hpp"
 #include "harness/yaml/writer.hpp"
 
 namespace scanbench::harness {

@@ -10,6 +10,7 @@
 #include "harness/files/csv.hpp"
 #include "harness/files/npy.hpp"
 #include "harness/files/text_file.hpp"
+#include "harness/scenario/chain.hpp"
 #include "harness/store/json_file.hpp"
 
 namespace scanbench::harness {
@@ -24,6 +25,8 @@ const Columns kLineColumns{"frame", "line",      "x1_m",       "y1_m",      "x2_
 const Columns kMapColumns{"line", "x1_m", "y1_m", "x2_m", "y2_m", "members", "points"};
 const Columns kPoseColumns{"frame", "x_m", "y_m", "yaw_rad"};
 const Columns kMergeColumns{"frame", "line", "cluster1", "cluster2", "map_line"};
+const Columns kMatchColumns{"frame",     "reference",  "x_m",       "y_m",        "yaw_rad",      "cov_xx_m2",
+                            "cov_xy_m2", "cov_xyaw_m", "cov_yy_m2", "cov_yyaw_m", "cov_yaw_rad2", "status"};
 const Columns kTimingColumns{"stage", "frame", "seconds"};
 const Columns kMetricColumns{"metric", "subject", "value", "unit", "count", "ci_low", "ci_high"};
 const Columns kCovarianceColumns{"cov_offset_m2", "cov_offset_angle", "cov_angle_rad2"};
@@ -134,8 +137,51 @@ void write_map(const fs::path& cell, const LineMap& map) {
   write_staged_file(cell / kMapFile, csv.str());
 }
 
+void write_matches(const fs::path& cell, const std::vector<FrameMatch>& matches) {
+  CsvWriter csv(kMatchColumns);
+  for (const auto& m : matches) {
+    const Pose2& pose = m.match.reference_from_current;
+    const Eigen::Matrix3d& c = m.match.covariance;
+    csv.integer(m.frame).integer(m.reference).number(pose.x()).number(pose.y()).number(pose.yaw());
+    csv.number(c(0, 0)).number(c(0, 1)).number(c(0, 2)).number(c(1, 1)).number(c(1, 2)).number(c(2, 2));
+    csv.text(to_string(m.match.status)).end_row();
+  }
+  write_staged_file(cell / kPoseMatchesFile, csv.str());
+}
+
 CsvTable table(const fs::path& file, const Columns& columns) {
   return {read_file(file), file, columns};
+}
+
+Status status_from(const CsvTable& csv, std::size_t row) {
+  const std::string text = csv.text(row, "status");
+  for (const Status status : {Status::converged, Status::max_iterations, Status::degenerate, Status::no_match})
+    if (to_string(status) == text) return status;
+  csv.refuse(row, "no outcome of a match is called '" + text + "'");
+}
+
+std::vector<FrameMatch> load_matches(const fs::path& file, std::size_t frames) {
+  const CsvTable csv = table(file, kMatchColumns);
+  std::vector<FrameMatch> matches;
+  for (std::size_t r = 0; r < csv.rows(); ++r) {
+    FrameMatch m{.frame = csv.index(r, "frame"), .reference = csv.index(r, "reference"), .match = {}};
+    for (const int frame : {m.frame, m.reference})
+      if (frame < 0 || static_cast<std::size_t>(frame) >= frames)
+        csv.refuse(r, "frame " + std::to_string(frame) + " is not in labels.npy");
+    m.match.status = status_from(csv, r);
+    m.match.reference_from_current = {csv.number(r, "x_m"), csv.number(r, "y_m"), csv.number(r, "yaw_rad")};
+    Eigen::Matrix3d& c = m.match.covariance;
+    c(0, 0) = csv.number(r, "cov_xx_m2");
+    c(0, 1) = c(1, 0) = csv.number(r, "cov_xy_m2");
+    c(0, 2) = c(2, 0) = csv.number(r, "cov_xyaw_m");
+    c(1, 1) = csv.number(r, "cov_yy_m2");
+    c(1, 2) = c(2, 1) = csv.number(r, "cov_yyaw_m");
+    c(2, 2) = csv.number(r, "cov_yaw_rad2");
+    if (!m.match.reference_from_current.translation().allFinite() || !c.allFinite())
+      csv.refuse(r, "the match is not finite");
+    matches.push_back(m);
+  }
+  return matches;
 }
 
 }  // namespace
@@ -178,6 +224,7 @@ void write_result(const fs::path& cell, const PipelineSpec& pipeline, const Pipe
     }
     write_staged_file(cell / kPosesFile, csv.str());
   }
+  if (has_slot(pipeline, "match")) write_matches(cell, result.matches);
   if (result.has_map) write_map(cell, result.map);
   if (has_slot(pipeline, "merge")) {
     CsvWriter csv(kMergeColumns);
@@ -206,6 +253,7 @@ PipelineResult load_result(const fs::path& cell) {
       throw ConfigError((cell / kPosesFile).string() + ": " + std::to_string(csv.rows()) + " poses for " +
                         std::to_string(result.lines.size()) + " frames");
   }
+  if (fs::exists(cell / kPoseMatchesFile)) result.matches = load_matches(cell / kPoseMatchesFile, result.lines.size());
   result.has_map = fs::exists(cell / kMapFile);
   if (result.has_map) {
     const CsvTable csv = table(cell / kMapFile, kMapColumns);

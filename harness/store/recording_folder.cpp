@@ -25,6 +25,8 @@ const RunFile kFramesFile("recordings/*/*/frames.csv");
 const RunFile kRotationsFile("recordings/*/*/rotations.npy");
 const RunFile kRangesFile("recordings/*/*/ranges.npy");
 const RunFile kGivenLinesFile("recordings/*/*/lines.csv");
+const RunFile kReferencePosesFile("recordings/*/*/reference_poses.csv");
+const RunFile kRelationsFile("recordings/*/*/relations.csv");
 const RunFile kWallsFile("recordings/*/*/walls.csv");
 const RunFile kTrueRangesFile("recordings/*/*/true_ranges.npy");
 const RunFile kWallIdsFile("recordings/*/*/wall_ids.npy");
@@ -96,6 +98,21 @@ void pose_fields(CsvWriter& csv, const Pose2& pose) {
   csv.number(pose.x()).number(pose.y()).number(pose.yaw());
 }
 
+const std::vector<std::string> kReferenceColumns{"frame", "x_m", "y_m", "yaw_cos", "yaw_sin"};
+const std::vector<std::string> kRelationColumns{"first", "second", "x_m", "y_m", "yaw_cos", "yaw_sin"};
+
+void exact_pose_fields(CsvWriter& csv, const Pose2& pose) {
+  csv.number(pose.x()).number(pose.y()).number(pose.cos()).number(pose.sin());
+}
+
+Pose2 exact_pose_from(const CsvTable& csv, std::size_t row) {
+  const Vec2 place(csv.number(row, "x_m"), csv.number(row, "y_m"));
+  const Vec2 rotation(csv.number(row, "yaw_cos"), csv.number(row, "yaw_sin"));
+  if (!place.allFinite() || !(std::abs(rotation.norm() - 1.0) < 1e-9))
+    csv.refuse(row, "the pose is no finite place with a unit vector");
+  return Pose2::from_unit(place, rotation);
+}
+
 std::string frames_csv(const Recording& recording) {
   CsvWriter csv({"frame", "t_s", "true_x_m", "true_y_m", "true_yaw_rad", "odom_x_m", "odom_y_m", "odom_yaw_rad"});
   for (std::size_t k = 0; k < recording.observed.frames.size(); ++k) {
@@ -122,6 +139,28 @@ std::string lines_csv(const ScanSet& scans) {
   return csv.str();
 }
 
+/// Poses to compare with have their exact unit vectors here: no module sees them, so that rotations.npy stays what it
+/// is.
+std::string reference_poses_csv(const std::vector<Pose2>& poses) {
+  CsvWriter csv(kReferenceColumns);
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    csv.integer(static_cast<long long>(k));
+    exact_pose_fields(csv, poses[k]);
+    csv.end_row();
+  }
+  return csv.str();
+}
+
+std::string relations_csv(const std::vector<PoseRelation>& relations) {
+  CsvWriter csv(kRelationColumns);
+  for (const PoseRelation& relation : relations) {
+    csv.integer(relation.first).integer(relation.second);
+    exact_pose_fields(csv, relation.first_from_second);
+    csv.end_row();
+  }
+  return csv.str();
+}
+
 void read_lines(const CsvTable& csv, ScanSet& scans) {
   for (std::size_t r = 0; r < csv.rows(); ++r) {
     const int frame = csv.index(r, "frame");
@@ -131,6 +170,30 @@ void read_lines(const CsvTable& csv, ScanSet& scans) {
     if (!line.a.allFinite() || !line.b.allFinite()) csv.refuse(r, "the line is not finite");
     scans.frames[static_cast<std::size_t>(frame)].lines.push_back(line);
   }
+}
+
+std::vector<Pose2> read_reference_poses(const CsvTable& csv, std::size_t frames, const fs::path& file) {
+  std::vector<Pose2> poses;
+  for (std::size_t r = 0; r < csv.rows(); ++r) {
+    if (csv.index(r, "frame") != static_cast<int>(r)) csv.refuse(r, "frames must be numbered 0, 1, 2, ...");
+    poses.push_back(exact_pose_from(csv, r));
+  }
+  if (poses.size() != frames)
+    throw ConfigError(file.string() + ": " + std::to_string(poses.size()) + " poses for " + std::to_string(frames) +
+                      " frames");
+  return poses;
+}
+
+std::vector<PoseRelation> read_relations(const CsvTable& csv, std::size_t frames) {
+  std::vector<PoseRelation> relations;
+  for (std::size_t r = 0; r < csv.rows(); ++r) {
+    const PoseRelation relation{csv.index(r, "first"), csv.index(r, "second"), exact_pose_from(csv, r)};
+    for (const int frame : {relation.first, relation.second})
+      if (frame < 0 || static_cast<std::size_t>(frame) >= frames)
+        csv.refuse(r, "frame " + std::to_string(frame) + " is not in frames.csv");
+    relations.push_back(relation);
+  }
+  return relations;
 }
 
 /// All files but scan.json.
@@ -159,6 +222,10 @@ Files data_files(const Recording& recording) {
   files.emplace_back(kRotationsFile.name(), npy_bytes(rotations, frames.size(), 4));
   files.emplace_back(kRangesFile.name(), npy_bytes(ranges, frames.size(), beams));
   if (recording.observed.has_given_lines()) files.emplace_back(kGivenLinesFile.name(), lines_csv(recording.observed));
+  if (recording.reference && !recording.reference->world_from_sensor.empty())
+    files.emplace_back(kReferencePosesFile.name(), reference_poses_csv(recording.reference->world_from_sensor));
+  if (recording.reference && !recording.reference->relations.empty())
+    files.emplace_back(kRelationsFile.name(), relations_csv(recording.reference->relations));
   if (recording.truth) {
     files.emplace_back(kWallsFile.name(), walls_csv(*recording.truth));
     files.emplace_back(kTrueRangesFile.name(), npy_bytes(recording.truth->ranges, frames.size(), beams));
@@ -289,6 +356,16 @@ Recording load_recording(const fs::path& folder) {
   if (fs::exists(folder / kGivenLinesFile))
     read_lines({bytes_of(kGivenLinesFile), folder / kGivenLinesFile, {"frame", "line", "x1_m", "y1_m", "x2_m", "y2_m"}},
                recording.observed);
+  if (fs::exists(folder / kReferencePosesFile)) {
+    const fs::path file = folder / kReferencePosesFile;
+    recording.reference.emplace().world_from_sensor =
+        read_reference_poses({bytes_of(kReferencePosesFile), file, kReferenceColumns}, count, file);
+  }
+  if (fs::exists(folder / kRelationsFile)) {
+    if (!recording.reference) recording.reference.emplace();
+    recording.reference->relations =
+        read_relations({bytes_of(kRelationsFile), folder / kRelationsFile, kRelationColumns}, count);
+  }
   if (fs::exists(folder / kWallsFile)) {
     Truth truth;
     const CsvTable walls(bytes_of(kWallsFile), folder / kWallsFile, {"wall", "label", "x1_m", "y1_m", "x2_m", "y2_m"});

@@ -14,9 +14,10 @@ namespace scanbench::harness {
 inline const RunFile kScanFile("recordings/*/*/scan.json");
 
 /// The files of a recording: name and bytes, in the order in which they enter the content hash. Walls, true ranges and
-/// wall ids are absent without truth, lines.csv exists only if lines are given instead of scans. `rotations.npy`
-/// (frames x 4: cos and sin of the true and of the odometry yaw; NaN without truth) holds the exact unit vectors that
-/// the yaw columns of frames.csv round. Throws ConfigError if frames have different numbers of beams.
+/// wall ids are absent without truth, lines.csv exists only if lines are given instead of scans, reference_poses.csv
+/// and relations.csv only if a log has poses to compare with. `rotations.npy` (frames x 4: cos and sin of the true and
+/// of the odometry yaw; NaN without truth) holds the exact unit vectors that the yaw columns of frames.csv round.
+/// Throws ConfigError if frames have different numbers of beams.
 std::vector<std::pair<std::string, std::string>> recording_files(const Recording& recording);
 
 /// SHA-256 over name, length and bytes of every file but scan.json, which enters without its own `content_hash`.

@@ -68,7 +68,7 @@ bool is_run_file(const fs::path& relative) {
   return matches("cells/*/*/*/*.csv", path) && tables.contains(std::string(last_part(path)));
 }
 
-bool is_run_folder(const fs::path& relative) {
+bool holds_run_files(const fs::path& relative) {
   const std::string path = relative.generic_string();
   return std::ranges::any_of(patterns(), [&](std::string_view pattern) { return holds(pattern, path); });
 }

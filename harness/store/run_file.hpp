@@ -12,8 +12,8 @@ namespace scanbench::harness {
 /// One file, or one kind of file, of every run folder. Constants of this type exist before main() begins.
 class RunFile {
  public:
-  /// A path relative to the run folder; `*` is any number of characters of one name: "cells/*/*/*/lines.csv". The text
-  /// must outlive the program's main(): a literal.
+  /// A path relative to the run folder; `*` is any number of characters of one name: "cells/*/*/*/lines.csv". It must
+  /// be a literal, because it is kept as a view.
   explicit RunFile(std::string_view pattern);
 
   /// Its last part, "lines.csv".
@@ -34,6 +34,6 @@ std::set<std::string> metric_table_files();
 bool is_run_file(const std::filesystem::path& relative);
 
 /// True for the folders, relative to the run folder, that hold such files.
-bool is_run_folder(const std::filesystem::path& relative);
+bool holds_run_files(const std::filesystem::path& relative);
 
 }  // namespace scanbench::harness

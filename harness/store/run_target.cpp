@@ -60,7 +60,7 @@ void carry_along(const fs::path& from, const fs::path& to) try {
       continue;
     }
     if (it->is_directory() && !it->is_symlink()) {
-      if (fs::is_empty(it->path()) && !is_run_folder(relative)) make_folders(to / relative);
+      if (fs::is_empty(it->path()) && !holds_run_files(relative)) make_folders(to / relative);
       continue;
     }
     if (is_run_file(relative) || fs::exists(fs::symlink_status(to / relative))) continue;

@@ -233,12 +233,4 @@ YamlNode to_yaml(const ParamSet& params) {
   return map;
 }
 
-void read_schema(YamlMap& map) {
-  ParamSpec spec;
-  spec.name = "schema";
-  spec.type = ParamType::integer;
-  spec.bounds = between(1, 1);
-  read_param(map.require("schema", "schema: 1, the version of the format"), spec);
-}
-
 }  // namespace scanbench::harness

@@ -64,7 +64,4 @@ const std::vector<YamlNode>& read_list(const YamlNode& node, std::string_view na
 YamlNode to_yaml(const ParamValue& value);
 YamlNode to_yaml(const ParamSet& params);
 
-/// Checks a `schema` key: present, and 1. Throws PlacedError.
-void read_schema(YamlMap& map);
-
 }  // namespace scanbench::harness

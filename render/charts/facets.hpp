@@ -29,7 +29,7 @@ struct FacetChart {
   std::vector<Facet> facets{};
   std::vector<std::string> curve_names{};  ///< for the legend, as many as a facet has curves
   std::string reference_name{};            ///< empty: no reference
-  std::string others_name{};               ///< empty: the first curves of the other facets are not drawn
+  std::string others_name{};               ///< of the first curves of all others, in grey; empty: not drawn
 };
 
 /// Four columns, five for more than a dozen facets, at the width of two text columns, so labels of the x axis must be

@@ -19,14 +19,14 @@ struct BeamFan {
   double slack_rad;
 };
 
-/// The nearest surface of each beam so far. Initially -1 at unhit_range().
+/// The nearest surface of each beam so far. Initially none (-1), at range unhit_range().
 struct BeamHits {
   double* range;
   double* surface;  ///< index of the surface; -1: none
 };
 
-/// A range so far beyond `range_max_m` that a surface beyond the maximum can neither replace one within it nor hide a
-/// tie.
+/// The range of a beam without a hit: beyond `range_max_m` by more than rounding errors and the width of a tie, so that
+/// a surface at the maximum still counts.
 [[gnu::always_inline]] inline double unhit_range(double range_max_m) {
   return range_max_m * (1 + 1e-12) + 2e-9;
 }

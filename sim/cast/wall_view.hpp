@@ -5,7 +5,7 @@
 
 namespace scanbench::sim {
 
-/// Boxes of four children, relative to the world's coordinates. Each is larger than its walls by kBoxMarginM on all
+/// The boxes of up to four children, in world coordinates. Each is larger than its walls by kBoxMarginM on all
 /// sides, which exceeds all rounding errors in a world that validate() accepts.
 struct alignas(32) TreeNode {
   static constexpr int kChildren = 4;
@@ -13,7 +13,7 @@ struct alignas(32) TreeNode {
   double low_y[kChildren];
   double high_x[kChildren];
   double high_y[kChildren];
-  std::int32_t child[kChildren];  ///< >= 0: a node; < 0: walls from index ~child on; kNone: no child
+  std::int32_t child[kChildren];  ///< >= 0: a node; < 0: a leaf, its walls begin at index ~child; kNone
   std::int32_t count[kChildren];  ///< walls of a leaf
 
   static constexpr std::int32_t kNone = 0x7fffffff;

@@ -23,10 +23,10 @@ struct NearestSurface {
 struct CastKernels {
   /// Rotates a sensor's beams into the world: `count` numbers each, a multiple of 4.
   void (*rotate)(const double* x, const double* y, double cos, double sin, int count, double* out_x, double* out_y);
-  /// Clears the hits; surfaces beyond `unhit` do not count. `count` numbers, a multiple of 4.
+  /// Clears the hits; `unhit` is unhit_range(), surfaces beyond it do not count. `count` numbers, a multiple of 4.
   void (*clear)(const BeamHits& hits, int count, double unhit);
-  /// Writes the results of `count` beams: +inf and -1 beyond `range_max`; as wall ids surfaces below `walls`. An array
-  /// may be null.
+  /// Writes the results of `count` beams. Beyond `range_max` the range is +inf and the id -1. A surface with an index
+  /// below `walls` is a wall, and its index the id; other surfaces get -1. An array may be null.
   void (*finish)(const BeamHits& hits, int count, double range_max, double walls, double* ranges,
                  std::int32_t* wall_ids);
   /// Offers every wall to every beam that it covers. For a few hundred walls at most.

@@ -55,7 +55,7 @@ std::string row_of(const std::string& path) {
   return "";
 }
 
-const std::set<std::string> kTruthHeaders = {"core/truth.hpp", "core/recording.hpp"};
+const std::set<std::string> kTruthHeaders = {"core/truth.hpp", "core/recording.hpp", "core/reference_poses.hpp"};
 
 template <class Check>
 void for_each_include(const std::string& folder, const Check& check) {

@@ -1,5 +1,5 @@
-// Estimators of motion and maps: every registered matcher, aligner and mapper on inputs that determine nothing, and on
-// the easiest one.
+// Estimators of motion and maps: every registered aligner and mapper on inputs that determine nothing, and on the
+// easiest one. Matchers: matcher_conformance_test.cpp.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -44,42 +44,6 @@ OwnedScan nothing() {
 
 bool finite(const Pose2& p) {
   return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.yaw());
-}
-
-class MatcherConformance : public ::testing::TestWithParam<std::string> {
- protected:
-  Match match(const Seen& reference, const Seen& current, const Pose2& guess) const {
-    Trace silent;
-    const Match result = module_->match(reference.view(), current.view(), guess, silent);
-    EXPECT_TRUE(finite(result.reference_from_current));
-    EXPECT_TRUE(result.covariance.allFinite());
-    return result;
-  }
-  std::unique_ptr<ScanMatcher> module_ = Registry<ScanMatcher>::make(GetParam());
-};
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(MatcherConformance);
-INSTANTIATE_TEST_SUITE_P(All, MatcherConformance, ::testing::ValuesIn(Registry<ScanMatcher>::names()),
-                         [](const auto& test) { return test.param; });
-
-TEST_P(MatcherConformance, AScanWithoutReturnsDoesNotMatch) {
-  const Seen empty(nothing()), full(room({0, 0, 0}));
-  const Pose2 guess(0.1, 0.2, 0.3);
-  EXPECT_NE(match(empty, empty, guess).status, Status::converged);
-  EXPECT_NE(match(full, empty, guess).status, Status::converged);
-  EXPECT_NE(match(empty, full, guess).status, Status::converged);
-}
-
-TEST_P(MatcherConformance, AScanMatchesItselfWhereItIs) {
-  const Seen full(room({0, 0, 0.2}));
-  const Match result = match(full, full, {});
-  EXPECT_NEAR(result.reference_from_current.x(), 0.0, 5e-3);
-  EXPECT_NEAR(result.reference_from_current.y(), 0.0, 5e-3);
-  EXPECT_THAT(result.reference_from_current.yaw(), testing::AngleNear(0.0, 5e-3));
-}
-
-TEST_P(MatcherConformance, TheAnswerIsTheSameTwice) {
-  const Seen a(room({0, 0, 0})), b(room({0.1, 0.05, 0.03}));
-  EXPECT_EQ(match(a, b, {}).reference_from_current, match(a, b, {}).reference_from_current);
 }
 
 class AlignerConformance : public ::testing::TestWithParam<std::string> {

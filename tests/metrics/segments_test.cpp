@@ -1,5 +1,14 @@
 // segments: perfect lines, and small errors with a known effect.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
 #include "core/index.hpp"
+#include "core/rng.hpp"
 #include "core/special_values.hpp"
 #include "made_up.hpp"
 #include "metrics/line_matching.hpp"
@@ -238,6 +247,52 @@ TEST(Surfaces, JoinTouchingAndOverlappingCollinearWallsOnly) {
                                                      {"parallel", {{0, 0.01}, {4, 0.01}}}});
   EXPECT_EQ(surfaces.of_wall, (std::vector<int>{0, 0, 1, 0, 2, 3}));
   EXPECT_EQ(surfaces.segments[0], (Segment{{0, 0}, {6, 0}}));
+}
+
+// The definition, pair by pair, with sets merged by relabelling.
+std::vector<int> surfaces_by_hand(const std::vector<Wall>& walls) {
+  const auto join = [](const Segment& s, const Segment& t) {
+    const bool s_longer = s.length() >= t.length();
+    const Segment& base = s_longer ? s : t;
+    const Segment& other = s_longer ? t : s;
+    const Vec2 u = (base.b - base.a) / base.length(), v = (other.b - other.a) / other.length();
+    const Vec2 middle = 0.5 * (other.a + other.b) - base.a;
+    const double a = u.dot(other.a - base.a), b = u.dot(other.b - base.a);
+    return std::fabs(cross(u, v)) <= std::sin(radians(0.1)) && std::fabs(cross(u, middle)) <= 1e-3 &&
+           std::min(a, b) <= base.length() + 1e-3 && std::max(a, b) >= -1e-3;
+  };
+  std::vector<int> set(walls.size());
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    set[i] = static_cast<int>(i);
+    for (std::size_t j = 0; j < i; ++j)
+      if (set[j] != set[i] && join(walls[i].segment, walls[j].segment)) {
+        const int from = std::max(set[i], set[j]), to = std::min(set[i], set[j]);
+        std::ranges::replace(set, from, to);
+      }
+  }
+  std::map<int, int> number;  // sets in the order of their first walls
+  for (int& s : set) s = number.try_emplace(s, static_cast<int>(number.size())).first->second;
+  return set;
+}
+
+TEST(Surfaces, AreThoseOfTheDefinitionInRandomWorlds) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    CounterRng rng(seed, RngStream::pose);
+    const auto below = [&](int n) { return static_cast<int>(rng.uniform() * n); };
+    // Few lines, and ends that touch, overlap or just miss: every limit is met from both sides.
+    std::vector<Wall> walls;
+    const double turn = kTwoPi * rng.uniform(), size = seed % 2 == 0 ? 1.0 : 100.0;
+    for (int i = 0; i < 150; ++i) {
+      const double y = below(4) + 4e-4 * below(6), tilt = radians(0.04) * below(5);
+      const double x = size * 0.25 * below(16) + 4e-4 * below(5), length = size * 0.25 * (1 + below(4));
+      const Vec2 a(x, y), b = a + length * Vec2(std::cos(tilt), std::sin(tilt));
+      const Eigen::Rotation2Dd rotation(turn + (below(2) == 0 ? kPi / 2 : 0.0));
+      walls.push_back({std::to_string(i), {rotation * a, rotation * b}});
+      if (below(2) == 0) std::swap(walls.back().segment.a, walls.back().segment.b);
+    }
+    const auto surfaces = join_walls(walls);
+    EXPECT_EQ(surfaces.of_wall, surfaces_by_hand(walls)) << "seed " << seed;
+  }
 }
 
 TEST(Surfaces, ThePiecesOfACurveStayApart) {

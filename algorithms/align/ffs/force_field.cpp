@@ -23,13 +23,13 @@ namespace {
 constexpr std::size_t kLanes = 8;
 using Floats [[gnu::vector_size(4 * kLanes)]] = float;
 using Ints [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
-using Words [[gnu::vector_size(4 * kLanes)]] = std::uint32_t;  ///< as Ints, where a sum may wrap around
+using Words [[gnu::vector_size(4 * kLanes)]] = std::uint32_t;  ///< the same as Ints, for sums that may wrap around
 using Longs [[gnu::vector_size(4 * kLanes)]] = std::int64_t;
 
-/// Points in the order of the grid's cells, relative to its middle, with the sums of what acts on them.
+/// Points in the order of the cells of the grid, relative to its centre, with the sums of the forces on them.
 struct Lanes {
   std::vector<float> x, y;
-  std::vector<float> c, s;  ///< direction times weight: products of two points are w_v w_u cos(angle)
+  std::vector<float> c, s;  ///< direction times weight; the product of two points is w_v w_u cos(angle)
   std::vector<std::int32_t> body;
   std::vector<float> fx, fy, stiffness;
 };
@@ -54,8 +54,8 @@ struct Constants {
   return Ints{} + v;
 }
 
-/// std::bit_cast, always inlined: a call would pass wide vectors as the compiler's general target does, and the callers
-/// are compiled for others.
+/// std::bit_cast, always inlined. A call would pass wide vectors in the way of the default target, but the callers are
+/// compiled for other targets.
 template <class To, class From>
 [[gnu::always_inline]] inline To bits(const From& from) {
   return __builtin_bit_cast(To, from);
@@ -97,8 +97,9 @@ template <class To, class From>
   return sum[0];
 }
 
-/// 2^y for -126 < y <= 0; anything elsewhere. 2^y = 2^n 2^f with |f| <= 1/2: adding 1.5 * 2^23 rounds to the nearest
-/// integer and leaves it in the low bits; Taylor polynomial of degree 5, remainder below (ln 2 / 2)^6 / 6! = 2.5e-6.
+/// 2^y for -126 < y <= 0; undefined for other y. 2^y = 2^n 2^f with |f| <= 1/2. Adding 1.5 * 2^23 rounds to the nearest
+/// integer, which is then in the low bits. 2^f is a Taylor polynomial of degree 5 with a remainder below (ln 2 / 2)^6 /
+/// 6! = 2.5e-6.
 [[gnu::always_inline]] inline Floats power_of_two(Floats y) {
   const Floats rounded = y + all(12582912.0F);
   const Floats f = y - (rounded - all(12582912.0F));
@@ -111,7 +112,8 @@ template <class To, class From>
   return bits<Floats>(bits<Words>(p) + (bits<Words>(rounded) << 23));
 }
 
-/// 1 / sqrt(v), relative error below 5e-6; finite for 0. A guess from the exponent and two Newton steps.
+/// 1 / sqrt(v) with a relative error below 5e-6; finite for 0. An estimate from the exponent is improved by two Newton
+/// steps.
 [[gnu::always_inline]] inline Floats reciprocal_root(Floats v) {
   Floats r = bits<Floats>(all(std::int32_t{0x5f3759df}) - (bits<Ints>(v) >> 1));
   const Floats half = v * all(0.5F);
@@ -119,7 +121,8 @@ template <class To, class From>
   return r * (all(1.5F) - half * r * r);
 }
 
-/// Point i against the points in places begin .. end - 1, all behind i. Arrays reach kLanes beyond their last point.
+/// Computes the pairs of point i with the points at places begin .. end - 1, which all come after i. Arrays extend
+/// kLanes beyond their last point.
 [[gnu::always_inline]] inline void attract(const Pointers& p, const Constants& k, std::size_t i, std::size_t begin,
                                            std::size_t end) {
   const Floats x = all(p.x[i]), y = all(p.y[i]), c = all(p.c[i]), s = all(p.s[i]);
@@ -135,7 +138,7 @@ template <class To, class From>
     const auto left = static_cast<std::int32_t>(end - j);
     const Ints limit = all(left);
     const Ints acts = (others != body) & (squared <= all(k.squared_cut)) & (lane < limit);
-    if (none(acts)) continue;  // neighbours in memory are neighbours on a line: half of all blocks
+    if (none(acts)) continue;  // adjacent points are often of one body; this skips half of all blocks
     const Ints magnitude = bits<Ints>(c * load(p.c + j) + s * load(p.s + j)) & 0x7fffffff;            // |w w cos|
     const Floats m = where(acts, bits<Floats>(magnitude) * power_of_two(squared * all(k.exponent)));  // (2)
     const Floats inverse = reciprocal_root(squared);

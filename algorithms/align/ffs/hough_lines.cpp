@@ -1,4 +1,4 @@
-// Accumulator, peaks and refit of Hough lines.
+// Accumulator, peaks and refit of the lines of a Hough transform.
 #include "algorithms/align/ffs/hough_lines.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 constexpr int kAngles = 180;  // one degree each
 constexpr int kApartDeg = 5;
 constexpr int kApartCells = 5;
-constexpr double kMostCellsAcross = 4096.0;  // cells are wider where the map would need more
+constexpr double kMostCellsAcross = 4096.0;  // cells are wider if the map would need more
 constexpr double kRefitCells = 1.5;
 
 std::array<Vec2, kAngles> make_normals() {
@@ -35,7 +35,7 @@ struct Voter {
   float votes;
 };
 
-/// Points within cells of the plane of half a Hough cell, as one voter at their mean.
+/// Merges points within cells of half a Hough cell into one voter at their mean.
 std::vector<Voter> voters_of(std::span<const Vec2> points, const Vec2& origin, double step_m) {
   const CellGrid grid(points, step_m);
   std::vector<Voter> voters;
@@ -54,7 +54,7 @@ std::vector<Voter> voters_of(std::span<const Vec2> points, const Vec2& origin, d
 class Accumulator {
  public:
   Accumulator(std::span<const Voter> voters, double step_m, double reach_m) {
-    half_ = static_cast<int>(std::ceil(reach_m / step_m)) + 2;  // a spare cell on both sides for the neighbours
+    half_ = static_cast<int>(std::ceil(reach_m / step_m)) + 2;  // one spare cell on both sides for the neighbours
     across_ = 2 * half_ + 1;
     votes_.assign(static_cast<std::size_t>(kAngles) * static_cast<std::size_t>(across_), 0.0F);
     for (int k = 0; k < kAngles; ++k) {
@@ -72,8 +72,8 @@ class Accumulator {
   }
   int half() const { return half_; }
 
-  /// A cell with half of its neighbours in distance, so that a line near a border is not lost. Angles beyond the ends
-  /// are those of the same line with the opposite normal.
+  /// The votes of a cell plus half of those of its neighbours in distance, so that a line near a border is not lost. A
+  /// cell at an angle outside the table is the cell of the same line with the opposite normal.
   float smoothed(int angle, int cell) const {
     if (angle < 0 || angle >= kAngles) {
       angle += angle < 0 ? kAngles : -kAngles;

@@ -1,5 +1,5 @@
-// Lines that many points of the map lie on, wherever they are: the Hough transform (Hough 1962; Duda & Hart 1972), as
-// Lakaemper 2010, section 4.1, finds the lines of a virtual scan.
+// Finds lines with many points of the map by the Hough transform (Hough 1962; Duda & Hart 1972), with which Lakaemper
+// 2010, section 4.1, finds the lines of a virtual scan.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@ namespace scanbench::align::ffs {
 
 struct HoughRules {
   double step_m = 0.1;         ///< width of a cell in distance
-  double min_certainty = 0.3;  ///< votes of a line per votes of the strongest
+  double min_certainty = 0.3;  ///< smallest ratio of the votes of a line to the votes of the strongest line
   double min_votes = 40.0;
   int most = 8;
 };
@@ -19,17 +19,17 @@ struct HoughRules {
 struct HoughLine {
   Vec2 normal;       ///< unit
   double offset;     ///< normal . p = offset on the line
-  double votes;      ///< of its cell, with half of those of both neighbours in distance
-  double certainty;  ///< votes per votes of the strongest line
+  double votes;      ///< votes of its cell plus half of those of both neighbours in distance
+  double certainty;  ///< ratio of the votes to those of the strongest line
 };
 
-/// Every point votes for the lines through it in steps of one degree; peaks by decreasing votes, none within five
-/// degrees and five cells of a stronger one; each then refitted (total least squares) to the points within 1.5 cells of
-/// it. Points must be finite. Points within half a cell vote together from their mean place: the votes are the same but
-/// for points within that of the border of a cell.
+/// Every point votes for the lines through it in steps of one degree. Peaks are taken by decreasing votes; a peak
+/// within five degrees and five cells of a stronger one is skipped. Each line is then refitted (total least squares) to
+/// the points within 1.5 cells of it. Points must be finite. Points within half a cell vote together from their mean,
+/// which changes the votes only for points at most that far from the border of a cell.
 std::vector<HoughLine> hough_lines(std::span<const Vec2> points, const HoughRules& rules);
 
-/// The part of a line inside the bounding box of the points; without length if it does not cross.
+/// The part of a line inside the bounding box of the points. It has no length if the line does not cross the box.
 Segment clipped(const HoughLine& line, std::span<const Vec2> points);
 
 }  // namespace scanbench::align::ffs

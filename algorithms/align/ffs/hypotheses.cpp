@@ -1,4 +1,4 @@
-// Detection, plotting and fate of hypotheses.
+// Detection, plotting and tracking of hypotheses.
 #include "algorithms/align/ffs/hypotheses.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ double distance_to_line(const Vec2& p, const Hypothesis& line) {
   return std::fabs(cross(along, p - line.corners[0]));
 }
 
-/// How far one hypothesis has moved from another of its kind.
+/// Distance by which a hypothesis has moved from another of its kind.
 double moved(const Hypothesis& from, const Hypothesis& to) {
   double farthest = 0.0;
   if (from.shape == Shape::line) {

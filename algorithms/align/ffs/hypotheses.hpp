@@ -1,5 +1,5 @@
-// Hypotheses about the map: lines and rectangles, made anew in every iteration from real data only, plotted as a
-// virtual scan, and followed from iteration to iteration for the journal (Lakaemper 2010, sections 4 and 5).
+// Hypotheses about the map: lines and rectangles. They are detected in every iteration from real data only, plotted as
+// a virtual scan, and tracked over iterations for the trace (Lakaemper 2010, sections 4 and 5).
 #pragma once
 
 #include <string_view>
@@ -19,14 +19,14 @@ struct Hypothesis {
   Shape shape = Shape::line;
   std::vector<Vec2> corners;  ///< the two ends of a line, the four corners of a rectangle
   double certainty = 0.0;     ///< 0 .. 1
-  int id = -1;                ///< the same for what is taken for the same in the next iteration
+  int id = -1;                ///< equal for hypotheses of consecutive iterations that are taken for the same
 };
 
 struct HypothesisRules {
   HoughRules lines;
   RectangleRules rectangles;
   PrototypeRules prototypes;
-  double line_weight = 1.0;  ///< of a virtual point of a line of certainty 1; a real point has 1
+  double line_weight = 1.0;  ///< weight of a virtual point on a line of certainty 1; a real point has weight 1
   double rectangle_weight = 1.0;
   double resample_m = 0.1;
 };
@@ -34,19 +34,19 @@ struct HypothesisRules {
 /// Lines and rectangles of the current map.
 std::vector<Hypothesis> hypotheses_of(const CurrentMap& map, const HypothesisRules& rules);
 
-/// Plots them at the density of the real points, with weights: strength of the kind times certainty. Hypotheses of
-/// weight 0 are not plotted.
+/// Plots hypotheses at the density of the real points. The weight of their points is the strength of the kind times the
+/// certainty. Hypotheses of weight 0 are not plotted.
 VirtualScan plotted(const std::vector<Hypothesis>& hypotheses, const HypothesisRules& rules);
 
-/// Follows hypotheses: each takes the id of the nearest one of its kind in the last iteration, if no corner is farther
-/// than five steps of resampling (lines: no end is farther from the other line); confirmed within one step, else
-/// changed.
+/// Tracks hypotheses. Each takes the id of the nearest one of its kind in the last iteration if no corner is more than
+/// five resampling steps away (for a line: if neither end is farther from the other line). Its fate is "confirmed"
+/// within one step, otherwise "changed".
 class HypothesisJournal {
  public:
   explicit HypothesisJournal(double step_m) : step_m_(step_m) {}
 
-  /// Gives ids and writes one trace row `hypothesis` each, and one for each that is dropped: iteration, shape, id,
-  /// fate, certainty, x1, y1 .. x4, y4 (a line's second end three times), world frame.
+  /// Assigns ids and writes a trace row `hypothesis` for each, and for each that is dropped: iteration, shape, id,
+  /// fate, certainty, x1, y1 .. x4, y4 (for a line the second end three times), world frame.
   void follow(const CurrentMap& map, std::vector<Hypothesis>& hypotheses, Trace& trace);
 
  private:

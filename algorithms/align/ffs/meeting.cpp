@@ -1,4 +1,4 @@
-// Partners of all points among the points of other scans and of hypotheses.
+// Finds the partners of all points among the points of other scans and of hypotheses.
 #include "algorithms/align/ffs/meeting.hpp"
 
 #include <algorithm>
@@ -19,7 +19,8 @@ constexpr double kCosAligned = 0.8660254037844386;  // 30 degrees
 
 Meeting meeting_of(std::span<const Body> bodies, std::span<const Pose2> poses, const FieldPoints& real,
                    const VirtualScan& virtual_scan, double reach) {
-  // Behind the scans every hypothesis that holds is a node of its own: two scans on two of them do not hold each other.
+  // After the scans, each hypothesis that holds is a node of its own. Two scans on two different hypotheses do not hold
+  // each other.
   const int scans = static_cast<int>(bodies.size());
   int nodes = scans;
   std::vector<Vec2> at = real.at, along = real.direction;
@@ -59,7 +60,7 @@ Meeting meeting_of(std::span<const Body> bodies, std::span<const Pose2> poses, c
   Meeting meeting{ScanGroups(bodies.size()), {}};
   for (const auto& group : joined.groups())
     for (const std::size_t member : group)
-      if (member < bodies.size()) meeting.groups.join(group.front(), member);  // scans come before hypotheses
+      if (member < bodies.size()) meeting.groups.join(group.front(), member);  // the scans come before the hypotheses
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (!normal_matrix[b].isZero(0.0) && observable(normal_matrix[b]).rank() < 3) meeting.sliding.push_back(b);
   return meeting;

@@ -1,4 +1,4 @@
-// Which scans hold each other when a simulation ends, and which can slide.
+// Finds which scans hold each other at the end of a simulation, and which of them can slide.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,13 @@ namespace scanbench::align::ffs {
 
 struct Meeting {
   ScanGroups groups;
-  std::vector<std::size_t> sliding;  ///< scans that meet others and yet could move along or about them
+  std::vector<std::size_t> sliding;  ///< scans that meet others but could still move along or about them
 };
 
-/// Two scans meet if at least five points of them lie within `reach` of a point of the other with nearly the same
-/// direction (30 degrees), or of the same rectangle (a line does not hold: both could slide along it). A scan slides if
-/// the normals of its points that have such a partner determine fewer than three motions (see observable()).
+/// A point of one scan is held by a point of the other that is within `reach` and has nearly the same direction (30
+/// degrees), or by a rectangle within `reach` of both scans. A line holds nothing, because both scans could slide along
+/// it. Two scans meet if at least five points are held. A scan slides if the normals of its held points determine fewer
+/// than three motions (see observable()).
 Meeting meeting_of(std::span<const Body> bodies, std::span<const Pose2> poses, const FieldPoints& real,
                    const VirtualScan& virtual_scan, double reach);
 

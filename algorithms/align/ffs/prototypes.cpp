@@ -1,4 +1,4 @@
-// Greedy grouping of segments, without angles: directions are unit vectors.
+// Greedy grouping of segments. Directions are unit vectors; no angles are computed.
 #include "algorithms/align/ffs/prototypes.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct Prototype {
   double weight;
 };
 
-/// Distance of the midpoint of the shorter from the line of the longer, if they match; negative if not.
+/// Distance of the midpoint of the shorter segment from the line of the longer one if they match; negative otherwise.
 double distance_if_matching(const Prototype& a, const Prototype& b, double cosine, const PrototypeRules& rules) {
   if (std::fabs(a.along.dot(b.along)) < cosine) return -1.0;
   const Prototype &longer = a.weight >= b.weight ? a : b, &shorter = a.weight >= b.weight ? b : a;
@@ -71,7 +71,7 @@ std::vector<Segment> prototypes_of(std::span<const Segment> segments, const Prot
       prototypes.push_back(p);
     }
   }
-  for (std::size_t k = 0; k < prototypes.size();) {  // each joint leaves one less
+  for (std::size_t k = 0; k < prototypes.size();) {  // each join removes one prototype
     const Prototype candidate = prototypes[k];
     prototypes.erase(prototypes.begin() + static_cast<std::ptrdiff_t>(k));
     const std::size_t nearest = nearest_to(candidate);

@@ -1,4 +1,4 @@
-// Parallel pairs, pairs of pairs, and the ideal rectangle of each.
+// Detection of rectangles: parallel pairs of segments, pairs of these pairs, and the ideal rectangle of each.
 #include "algorithms/align/ffs/rectangles.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace scanbench::align::ffs {
 namespace {
 
-/// S, L of a segment; D is taken in the frame of the pair or rectangle at hand.
+/// S, L of a segment; D is computed in the frame of the pair or rectangle.
 struct Side {
   Vec2 middle;
   Vec2 along;  ///< unit, undirected
@@ -21,12 +21,12 @@ struct Side {
 struct Pair {
   std::size_t a, b;
   Vec2 along;         ///< unit, undirected
-  double extent;      ///< of both sides' projections on their common direction
-  double separation;  ///< of their midpoints across it
+  double extent;      ///< extent of both sides' projections on their common direction
+  double separation;  ///< distance of their midpoints across that direction
   Vec2 centre;
 };
 
-/// The square of a complex number: doubles the angle of a unit vector.
+/// The square of a complex number; it doubles the angle of a unit vector.
 Vec2 squared(const Vec2& z) {
   return {z.x() * z.x() - z.y() * z.y(), 2.0 * z.x() * z.y()};
 }
@@ -39,7 +39,7 @@ std::vector<Side> sides_of(std::span<const Segment> segments) {
   std::vector<Side> sides;
   for (const Segment& s : segments)
     if (s.length() > 0) sides.push_back({s.midpoint(), s.direction(), s.length(), s});
-  // An order of their own: the result does not depend on the one given.
+  // Sorts the sides, so that the result does not depend on their given order.
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     if (a.length != b.length) return a.length > b.length;
     return a.middle.x() != b.middle.x() ? a.middle.x() < b.middle.x() : a.middle.y() < b.middle.y();
@@ -73,8 +73,8 @@ std::vector<Pair> parallel_pairs(const std::vector<Side>& sides, const Rectangle
   return pairs;
 }
 
-/// The ideal rectangle of two pairs: orientation is the length-weighted mean of all four sides modulo a right angle,
-/// its sides go through their midpoints.
+/// The ideal rectangle of two pairs. Its orientation is the length-weighted mean of all four sides modulo a right
+/// angle, and its sides pass through their midpoints.
 Rectangle ideal(const std::vector<Side>& sides, const Pair& p, const Pair& q) {
   const std::array<std::size_t, 4> members{p.a, p.b, q.a, q.b};
   Vec2 fourfold = Vec2::Zero();
@@ -98,7 +98,7 @@ Rectangle ideal(const std::vector<Side>& sides, const Pair& p, const Pair& q) {
 }
 
 bool completes(const Pair& p, const Pair& q, double sine, const RectangleRules& rules) {
-  if (std::fabs(p.along.dot(q.along)) > sine) return false;  // shares no side then: its own are parallel
+  if (std::fabs(p.along.dot(q.along)) > sine) return false;  // also if they share a side
   const auto fits = [&](double extent, double separation) {
     return std::fabs(extent - separation) <= rules.misfit * std::max(extent, separation);
   };

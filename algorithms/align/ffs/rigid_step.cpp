@@ -1,4 +1,4 @@
-// Forces and torques of bodies, and the step that they allow.
+// Forces and torques of bodies, and the largest step that the forces allow.
 #include "algorithms/align/ffs/rigid_step.hpp"
 
 #include <algorithm>

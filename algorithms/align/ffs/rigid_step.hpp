@@ -9,7 +9,7 @@
 
 namespace scanbench::align::ffs {
 
-/// What drives a body: acceleration of its centre [per unit mass] and angular acceleration about it, and the stiffness
+/// The motion of a body: acceleration of its centre [per unit mass], angular acceleration about it, and the stiffness
 /// of the springs that hold it, per unit mass and per unit inertia.
 struct Drive {
   Vec2 acceleration = Vec2::Zero();
@@ -17,8 +17,8 @@ struct Drive {
   double stiffness = 0.0;
 };
 
-/// Sums of the forces on the points of each body; points of body b are consecutive, bodies in order, and follow each
-/// other from place 0. A body without extent does not turn.
+/// Sums of the forces on the points of each body. The points of each body are consecutive, and the bodies are in order
+/// from place 0. A body without extent does not rotate.
 std::vector<Drive> drives_of(std::span<const Body> bodies, std::span<const Pose2> poses, const FieldPoints& points,
                              std::span<const PointForce> forces);
 
@@ -26,8 +26,9 @@ std::vector<Drive> drives_of(std::span<const Body> bodies, std::span<const Pose2
 /// springs are faint: bodies that hardly hold each other are not thrown. 0 if nothing is driven and it is 0.
 double largest_step(std::span<const Drive> drives, double least_stiffness = 0.0);
 
-/// Moves every body at once, from rest: acceleration * dt^2 / 2 and a turn about its centre by angular * dt^2 / 2. No
-/// point moves by more than `limit`: beyond, all motions shrink together. Returns the largest displacement.
+/// Moves all bodies at once from rest, by acceleration * dt^2 / 2 and a rotation about the centre by angular * dt^2 /
+/// 2. If a point would move by more than `limit`, all motions are scaled down together. Returns the largest
+/// displacement.
 double move(std::span<const Body> bodies, std::span<const Drive> drives, double half_dt_squared, double limit,
             std::vector<Pose2>& poses);
 

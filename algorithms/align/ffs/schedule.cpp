@@ -1,4 +1,4 @@
-// Geometric cooling from the start to the end.
+// Geometric cooling from the start value to the end value.
 #include "algorithms/align/ffs/schedule.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How a simulation cools: the radius of the field and the width of the steps over its iterations.
+// The cooling schedule of a simulation: the width of the field and the size of the steps in each iteration.
 #pragma once
 
 #include <tuple>
@@ -22,7 +22,7 @@ struct Schedule {
   double sigma_at(int iteration) const;  ///< geometric from start to end, then constant
   double step_at(int iteration) const;   ///< the same
   bool cooled(int iteration) const { return iteration + 1 >= cooling_iterations; }
-  /// Throws ParamError for an end above its start, or fewer iterations than it takes to cool.
+  /// Throws ParamError for an end above its start, and for fewer iterations than the cooling takes.
   void check() const;
 };
 

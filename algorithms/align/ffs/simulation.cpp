@@ -1,4 +1,4 @@
-// The loop of section 5: field, step, new hypotheses, until the map is stable.
+// The loop of section 5: computes the field, makes a step and finds new hypotheses until the map is stable.
 #include "algorithms/align/ffs/simulation.hpp"
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 namespace scanbench::align::ffs {
 namespace {
 
-constexpr double kSettled = 1e-3;     // of sigma_end_m
-constexpr double kLongestStep = 1.0;  // of sigma: a longer one would leave the field that asked for it
+constexpr double kSettled = 1e-3;     // share of sigma_end_m
+constexpr double kLongestStep = 1.0;  // in sigma; a longer step would leave the field from which it was computed
 constexpr double kMeetingSigmas = 2.0;
 
-/// Bodies, where they are, and their placed points.
+/// Bodies, their poses and their placed points.
 class Simulation {
  public:
   Simulation(std::span<const Observation> scans, std::span<const Pose2> initial, const Schedule& schedule)
@@ -99,7 +99,7 @@ class Simulation {
   }
 
   Schedule schedule_;
-  Pose2 world_from_map_;  ///< the map's frame is that of the first scan as given
+  Pose2 world_from_map_;  ///< the frame of the map is that of the first scan as given
   std::vector<Body> bodies_;
   std::vector<Pose2> poses_;  ///< map from sensor
   std::vector<int> body_of_line_;

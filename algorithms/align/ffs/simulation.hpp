@@ -1,5 +1,5 @@
-// Force field simulation: scans as rigid bodies that move in each other's field until nothing moves any more
-// (Lakaemper 2010, section 3; with a virtual scan among them, section 5).
+// Force field simulation. Scans are rigid bodies that move in the field of the other scans until none moves (Lakaemper
+// 2010, section 3; section 5 for the version with a virtual scan).
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace scanbench::align::ffs {
 
-/// The current map as hypotheses are made from it: real data only. Frame: that of the simulation.
+/// The current map, from which hypotheses are made: real data only, in the frame of the simulation.
 struct CurrentMap {
   int iteration;
   const FieldPoints& points;
@@ -24,15 +24,16 @@ struct CurrentMap {
 };
 using Hypothesize = std::function<VirtualScan(const CurrentMap&, Trace&)>;
 
-/// Aligns the scans; `hypothesize` is called before every iteration but the first (the virtual scan is empty then), and
-/// may be empty. Only relative poses are determined: the first scan keeps its given pose.
+/// Aligns the scans. `hypothesize` may be empty; it is called before every iteration except the first, in which the
+/// virtual scan is empty. Only relative poses are determined, so the first scan keeps its given pose.
 ///
 /// Trace rows: `iteration` (iteration, sigma [m], dt^2 / 2, potential, largest displacement [m], virtual points), and
 /// `pose` (iteration, scan, x, y, yaw) before each iteration and after the last.
 ///
-/// converged: cooled down, and no point moved by more than a thousandth of sigma_end_m twice running. degenerate: scans
-/// or groups of scans that do not meet, or a scan that can slide along what it meets. no_match: no two scans meet; the
-/// poses come back as they were. max_iterations otherwise. The message names the scans.
+/// The status is converged if the cooling has ended and no point moved by more than a thousandth of sigma_end_m in two
+/// consecutive iterations; degenerate if scans or groups of scans do not meet, or a scan can slide along those that it
+/// meets; no_match if no two scans meet (the poses are then those given); otherwise max_iterations. The message names
+/// the scans.
 Alignment simulate(std::span<const Observation> scans, std::span<const Pose2> initial, const Schedule& schedule,
                    const Hypothesize& hypothesize, Trace& trace);
 

@@ -1,4 +1,4 @@
-// The virtual scan: points drawn from suspected lines and rectangles.
+// The virtual scan: points on hypothetical lines and rectangles.
 #pragma once
 
 #include <vector>
@@ -7,12 +7,12 @@
 
 namespace scanbench::align::ffs {
 
-/// A virtual scan (section 4.3): points that attract and do not move.
+/// A virtual scan (section 4.3): points that attract others and do not move.
 struct VirtualScan {
   std::vector<Vec2> points;
   std::vector<Vec2> directions;
   std::vector<double> weights;
-  std::vector<int> holds;  ///< number of the hypothesis, if two scans on it hold each other; -1: they can slide
+  std::vector<int> holds;  ///< number of the hypothesis if two scans on it hold each other; -1 if they can slide
 };
 
 }  // namespace scanbench::align::ffs

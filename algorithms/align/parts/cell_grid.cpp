@@ -23,7 +23,7 @@ CellGrid::CellGrid(std::span<const Vec2> points, double reach) : order_(points.s
   middle_ = 0.5 * (low_ + high);
   const Vec2 extent = high - low_;
   const double most = kCellsPerPoint * static_cast<double>(points.size()) + kFewCells;
-  // A long narrow map needs as many cells as its longer side; a square one their product.
+  // The number of cells grows with the longer side of a narrow map and with the area of other maps.
   const double cell =
       std::max({0.5 * reach, std::sqrt(2.0 * extent.x() * extent.y() / most), 2.0 * extent.maxCoeff() / most});
   inverse_cell_ = 1.0 / cell;

@@ -1,4 +1,4 @@
-// Points sorted by the cells of a uniform grid: the neighbours of a point are a few runs of consecutive points.
+// Points sorted by the cells of a uniform grid. The neighbours of a point are in a few runs of consecutive points.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@
 
 namespace scanbench::align {
 
-/// Built in O(points), immutable afterwards. The order depends on the points only: by cell, row by row, within a cell
-/// as given.
+/// Built in O(points), immutable afterwards. Points are in the order of their cells, row by row, and within a cell in
+/// the given order.
 class CellGrid {
  public:
-  /// For neighbours within `reach` > 0. Points must be finite. Cells are half the reach wide, wider where more than
-  /// some four cells per point would be needed.
+  /// For neighbours within `reach` > 0. Points must be finite. Cells are half the reach wide, or wider if more than
+  /// about four cells per point would be needed.
   CellGrid(std::span<const Vec2> points, double reach);
 
   struct Run {
@@ -25,14 +25,14 @@ class CellGrid {
 
   int rows() const { return rows_; }
   int columns() const { return columns_; }
-  /// How many rows and columns around a cell hold all points within the reach of a point in it.
+  /// The number of rows and columns around a cell that contain all points within the reach of a point in the cell.
   int around() const { return around_; }
-  /// order()[k] is the index, as given, of the point in place k.
+  /// order()[k] is the given index of the point at place k.
   const std::vector<std::uint32_t>& order() const { return order_; }
   /// Centre of the bounding box.
   const Vec2& middle() const { return middle_; }
 
-  /// Places of the points in columns first .. last of a row; columns beyond the grid are none.
+  /// Places of the points in columns first .. last of a row; columns beyond the grid are empty.
   Run run(int row, int first, int last) const;
   Run cell(int row, int column) const { return run(row, column, column); }
 
@@ -40,7 +40,7 @@ class CellGrid {
   int row_of(const Vec2& p) const { return index((p.y() - low_.y()) * inverse_cell_, rows_); }
   int column_of(const Vec2& p) const { return index((p.x() - low_.x()) * inverse_cell_, columns_); }
 
-  /// Calls visit(index as given) for all points within the reach of p, and some others.
+  /// Calls visit(given index) for all points within the reach of p, and for some others.
   template <class Visit>
   void for_each_near(const Vec2& p, Visit&& visit) const {
     if (order_.empty()) return;

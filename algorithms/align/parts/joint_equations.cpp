@@ -10,8 +10,8 @@
 namespace scanbench::align {
 namespace {
 
-// Of the largest diagonal entry. Scans that determine each other but not their place as a group would make the matrix
-// singular; the gradient has nothing along such motions, and the damping keeps it so.
+// Share of the largest diagonal entry. The matrix is singular if scans determine each other but not their place as a
+// group. The gradient has no component along such motions, and the damping keeps the solution zero there.
 constexpr double kDamping = 1e-9;
 
 }  // namespace
@@ -36,7 +36,7 @@ ScanGroups JointEquations::groups(int fewest) const {
 std::vector<Eigen::Vector3d> JointEquations::solve(int& lowest_rank) const {
   const std::size_t n = diagonal_.size();
   std::vector<Eigen::Vector3d> motions(n, Eigen::Vector3d::Zero());
-  // Unknowns are the observable motions of each scan; the first has none.
+  // The unknowns are the observable motions of each scan; the first scan has none.
   std::vector<Observable> free(n);
   std::vector<Eigen::Index> begin(n + 1, 0);
   for (std::size_t k = 1; k < n; ++k) {

@@ -19,7 +19,7 @@ class JointEquations {
         row_(scans, Eigen::Matrix3d::Zero()),
         shared_(scans, 0) {}
 
-  /// A residual of scans i and j with its derivatives by their poses.
+  /// Adds a residual of scans i and j with its derivatives by their poses.
   void add(std::size_t i, const Eigen::Vector3d& row_i, std::size_t j, const Eigen::Vector3d& row_j, double residual,
            double weight) {
     diagonal_[i] += weight * row_i * row_i.transpose();
@@ -30,13 +30,13 @@ class JointEquations {
     ++shared_[j];
   }
 
-  /// After the last residual whose first scan is i.
+  /// To be called after the last residual whose first scan is i.
   void finish(std::size_t i);
 
-  /// Motions of all scans, that of the first zero; `lowest_rank` among the others.
+  /// Motions of all scans; that of the first is zero. `lowest_rank` is lowered to the smallest rank of the others.
   std::vector<Eigen::Vector3d> solve(int& lowest_rank) const;
 
-  /// Scans meet when at least `fewest` residuals join them.
+  /// Groups of scans; two scans meet if at least `fewest` residuals join them.
   ScanGroups groups(int fewest) const;
 
  private:

@@ -1,4 +1,4 @@
-// Lines into the cells within their reach.
+// Construction of the grid: enters each line in the cells within its reach.
 #include "algorithms/align/parts/line_grid.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ constexpr double kMostCellsAlong = 100.0;
 }  // namespace
 
 LineGrid::LineGrid(const PartnerRules& widest, double longest_m) : across_m_(widest.gate_m), along_m_(widest.margin_m) {
-  // Up to 1e9 m cell numbers stay below 2^31, as the keys need it.
+  // Up to 1e9 m, cell numbers are below 2^31, which the keys require.
   inverse_cell_ = 1.0 / std::max(kSmallestCellM, (longest_m + 2.0 * (across_m_ + along_m_)) / kMostCellsAlong);
 }
 
@@ -27,7 +27,7 @@ void LineGrid::add(int scan, const Pose2& world_from_sensor, std::span<const Seg
 }
 
 void LineGrid::add(const PlacedLine& line) {
-  // A cell is taken for the circle around it: some more cells than the line reaches, and none too few.
+  // A cell is replaced by the circle around it. This adds some cells that the line does not reach and omits none.
   const double around = 0.5 * std::numbers::sqrt2 / inverse_cell_;
   const double across = across_m_ + around;
   const double along = along_m_ + around;

@@ -1,4 +1,4 @@
-// Which lines may a reading lie on? The lines of many scans in a uniform grid.
+// Index of the lines of many scans in a uniform grid. It finds the lines to which a reading may belong.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace scanbench::align {
 
-/// A line as its scan saw it: free space on the left of its direction.
+/// A line as its scan saw it, with free space on the left of its direction.
 struct PlacedLine {
   Vec2 start;
   Vec2 direction;  ///< unit
@@ -28,18 +28,19 @@ struct PlacedLine {
 /// A return placed in the world.
 struct Sighting {
   Vec2 point;
-  Vec2 sensor;                  ///< where it was seen from
-  Vec2 surface = Vec2::Zero();  ///< unit direction of what was hit, free space on its left; zero: not known
+  Vec2 sensor;                  ///< position of the sensor
+  Vec2 surface = Vec2::Zero();  ///< unit direction of the surface that was hit, free space on its left; zero if unknown
 };
 
-/// When a reading may belong to a line.
+/// Conditions under which a reading may belong to a line.
 struct PartnerRules {
   double gate_m;       ///< largest |oriented distance|
-  double margin_m;     ///< by which the extent of the line is enlarged at both ends
-  double min_aligned;  ///< smallest cosine of the angle between surface and line, where the surface is known
+  double margin_m;     ///< enlarges the extent of the line at both ends
+  double min_aligned;  ///< smallest cosine of the angle between surface and line, if the surface is known
 };
 
-/// Within gate and extent, seen from the free side by a beam that goes towards the line, and aligned.
+/// True if the reading is within gate and extent, seen from the free side by a beam towards the line, and aligned with
+/// it.
 inline bool may_belong(const Sighting& seen, const PlacedLine& line, const PartnerRules& rules) {
   const double distance = line.before(seen.point);
   if (!(std::abs(distance) <= rules.gate_m)) return false;
@@ -52,16 +53,16 @@ inline bool may_belong(const Sighting& seen, const PlacedLine& line, const Partn
 
 class LineGrid {
  public:
-  /// For questions with up to the gate and the margin of `widest`. Cells grow with the longest line that will come,
-  /// so that a line covers some ten thousand of them at most.
+  /// For queries with at most the gate and the margin of `widest`. The cell size grows with `longest_m`, the length of
+  /// the longest line, so that a line covers at most about ten thousand cells.
   LineGrid(const PartnerRules& widest, double longest_m);
 
-  /// The lines of a scan, placed in the world. Scans must come in ascending order. Lines that are not finite, without
-  /// length or farther than 1e9 m from the origin are passed over.
+  /// Adds the lines of a scan, placed in the world. Scans must be added in ascending order. Lines that are not finite,
+  /// have no length or are more than 1e9 m from the origin are skipped.
   void add(int scan, const Pose2& world_from_sensor, std::span<const Segment> lines);
 
-  /// Calls visit(line, oriented distance) with the nearest line of each scan to which the reading may belong, scans
-  /// ascending; of equally near ones the first.
+  /// Calls visit(line, oriented distance) with the nearest line of each scan to which the reading may belong, in
+  /// ascending order of scans. Of equally near lines the first is taken.
   template <class Visit>
   void for_each_nearest(const Sighting& seen, const PartnerRules& rules, Visit&& visit) const {
     if (!in_range(seen.point)) return;
@@ -83,7 +84,7 @@ class LineGrid {
  private:
   static bool in_range(const Vec2& p) { return p.cwiseAbs().maxCoeff() <= 1e9 && p.allFinite(); }
   std::int64_t cell_of(double v) const { return static_cast<std::int64_t>(std::floor(v * inverse_cell_)); }
-  // Each pair of cell numbers below 2^31 has its own.
+  // Each pair of cell numbers below 2^31 has a key of its own.
   static std::int64_t key_of(std::int64_t ix, std::int64_t iy) { return iy * (std::int64_t{1} << 32) + ix; }
   void add(const PlacedLine& line);
 

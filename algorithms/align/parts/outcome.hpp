@@ -1,5 +1,5 @@
-// What the aligners that solve for all poses at once share around the solution: how far to look for partners, and what
-// to say in the end.
+// Common parts of the aligners that solve for all poses at once: the gate for partners, and the status and message of
+// the result.
 #pragma once
 
 #include <span>
@@ -12,14 +12,14 @@
 
 namespace scanbench::align {
 
-/// Standard deviations of the given poses: of a position on each axis, and of a heading.
+/// Standard deviations of the given poses: of the position on each axis, and of the heading.
 struct OdometryError {
   double sigma_m;
   double sigma_rad;
 };
 
-/// How far two scans may place one surface apart: 2.5 standard deviations of the difference of two poses, at the
-/// median of the levers (typical distances of the returns of a scan) [m]; without levers at none.
+/// The distance at which two scans may place one surface: 2.5 standard deviations of the difference of two poses, at
+/// the median of the levers (typical distances of the returns of a scan) [m]. Without levers the lever is 0.
 double gate_for(const OdometryError& error, std::span<const double> levers_m);
 
 /// A movement for a message: one significant digit, so that messages of many runs can be counted together.
@@ -28,14 +28,14 @@ std::string movement_text(double value);
 /// How the last round of a joint solution went.
 struct Outcome {
   ScanGroups groups;
-  bool slides;  ///< some scan has motions that the others do not determine
+  bool slides;  ///< a scan has motions that the others do not determine
   bool converged;
   int rounds;
   Move last;
 };
 
-/// no_match, with the poses as given, if no two scans meet; degenerate if groups of scans do not meet or one can slide;
-/// max_iterations if the last round still moved poses. The first pose keeps its given place.
+/// The status is no_match, with the poses as given, if no two scans meet; degenerate if groups of scans do not meet or
+/// a scan can slide; max_iterations if the last round still moved poses. The first pose keeps its given place.
 Alignment judged(const Outcome& outcome, std::span<const Pose2> initial, std::span<const Pose2> poses);
 
 }  // namespace scanbench::align

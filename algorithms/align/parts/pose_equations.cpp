@@ -1,4 +1,4 @@
-// Shapes of scans, the rank rule and the update of a pose.
+// Registered parts of a scan, the rank rule and the update of a pose.
 #include "algorithms/align/parts/pose_equations.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace scanbench::align {
 namespace {
 
-constexpr double kUnobservable = 1e-3;  // of the largest eigenvalue
+constexpr double kUnobservable = 1e-3;  // share of the largest eigenvalue
 constexpr double kFarthestM = 1e9;
 constexpr double kShortestLeverM = 1e-3;
 

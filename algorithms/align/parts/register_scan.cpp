@@ -1,4 +1,4 @@
-// Iterations of segment-point registration.
+// Gauss-Newton iterations of segment-point registration.
 #include "algorithms/align/parts/register_scan.hpp"
 
 namespace scanbench::align {

@@ -1,4 +1,4 @@
-// One scan against lines that stand: segment-point registration, Siadat et al. 1997, section 7.
+// Registers one scan on fixed lines by the segment-point method, Siadat et al. 1997, section 7.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace scanbench::align {
 
-/// `wide_m`, halved at each iteration, down to `narrow_m`.
+/// The gate of each iteration: `wide_m`, halved at each iteration, down to `narrow_m`.
 struct Gates {
   double wide_m;
   double narrow_m;
@@ -17,9 +17,9 @@ struct Gates {
   bool narrow(int iteration) const { return at(iteration) <= narrow_m; }
 };
 
-/// Gauss-Newton on n . (R p + t) + c, each point with its nearest line of each scan in the grid, until a step is small
-/// or 20 are done. No motion along what these do not determine: without partners the pose stays.
-/// Of `rules` the gate does not count.
+/// Gauss-Newton on n . (R p + t) + c, where each point has its nearest line of each scan in the grid. Ends when a step
+/// is small or after 20 iterations. The pose does not move along directions that the pairs do not determine; without
+/// partners it stays. The gate of `rules` is ignored.
 Pose2 register_scan(const ScanShape& scan, const LineGrid& lines, const Pose2& predicted, PartnerRules rules,
                     const Gates& gates);
 

@@ -1,4 +1,4 @@
-// Union of scans that meet, and the common motion that an alignment leaves free.
+// Union of scans that meet, and the common motion that an alignment does not determine.
 #include "algorithms/align/parts/scan_groups.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Densities of foreign readings, and the average over hypotheses. docs/algorithms/optimal.md, section 5.
+// Computes densities of foreign readings, and the average over hypotheses. docs/algorithms/optimal.md, section 5.
 #include "algorithms/extract/optimal/line_ends.hpp"
 
 #include <algorithm>

@@ -11,8 +11,8 @@
 
 namespace scanbench::extract {
 
-/// What follows one end of a line: the next line with its readings in scan order, which begin directly after the line's
-/// last one; or, without a next line, the range of the next reading.
+/// The neighbour of one end of a line: the next line with its readings in scan order, which begin directly after the
+/// last reading of the line; or, without a next line, the range of the next reading.
 struct Adjacent {
   std::optional<BeamLine> line;
   std::span<const BeamReading> readings;
@@ -21,7 +21,7 @@ struct Adjacent {
 
 struct UncertainLine {
   BeamLine line;                 ///< mean over all hypotheses; information: inverse of the total covariance
-  std::array<int, 2> foreign{};  ///< median number of readings at the first and last end that are not the line's
+  std::array<int, 2> foreign{};  ///< median number of readings at the first and last end that do not belong to the line
   std::array<double, 2> side{};  ///< probability that a side joins the line with the next one
 };
 

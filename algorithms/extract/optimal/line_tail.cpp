@@ -1,4 +1,5 @@
-// Sums over tails, and the refitted line. docs/algorithms/optimal.md, section 5.
+// Sums over the readings at the ends of a line, and the line refitted without them. docs/algorithms/optimal.md, section
+// 5.
 #include "algorithms/extract/optimal/line_tail.hpp"
 
 #include <Eigen/LU>

@@ -1,4 +1,4 @@
-// The line without some readings at its ends, by removing them from the normal equations.
+// The line without some of the readings at its ends, computed by removing them from the normal equations.
 // docs/algorithms/optimal.md, section 5.
 #pragma once
 
@@ -9,29 +9,29 @@
 
 namespace scanbench::extract {
 
-/// Sums over the outermost readings of an end: what is lost if they are not the line's.
+/// Sums over the outermost readings of one end of a line: their share of its normal equations.
 struct Tail {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  Vec2 gradient = Vec2::Zero();  ///< sum of g e / s^2 in the linear model
+  Vec2 gradient = Vec2::Zero();  ///< sum of g e / s^2: gradient g, residual e, standard deviation s
   double half_squares = 0.0;
 };
 
 inline constexpr int kLongestTail = 6;
-using Tails = std::array<Tail, kLongestTail + 1>;  ///< by number of readings
+using Tails = std::array<Tail, kLongestTail + 1>;  ///< indexed by the number of readings
 
 enum class End { first, last };
 
-/// Reading k of an end, counted from the outermost.
+/// Reading k of an end, counted from the outermost one.
 const BeamReading& reading_from_end(std::span<const BeamReading> readings, End end, std::size_t k);
 
-/// The tails of up to `longest` readings; longer tails stay empty.
+/// The tails of up to `longest` readings. Longer tails are empty.
 Tails tails_of(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise, End end,
                int longest);
 
 /// A line fitted without its tail.
 struct Shortened {
   Vec2 theta = Vec2::Zero();
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of theta
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< covariance of theta
   double gain = 0.0;                                     ///< decrease of half the sum of squared errors
   bool valid = false;                                    ///< false: the remaining readings determine no line
 };

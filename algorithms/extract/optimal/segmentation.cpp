@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kKnotsPerGroup = 16;
 constexpr std::size_t kGroupsPerAnchor = 4;
-constexpr std::size_t kKnotsPerSweep = 8;  // pruned groups are removed every so many knots
+constexpr std::size_t kKnotsPerSweep = 8;  // pruned groups are removed after this number of knots
 
 // Sums of w * (cos^2, cos sin, sin^2, cos v, sin v, v^2) over points, in the frame of an anchor.
 using Sums = std::array<double, 6>;
@@ -46,7 +46,7 @@ class AnchoredSums {
   }
   const Sums& sums() const { return sums_; }
 
-  std::size_t groups = 0;  // of starts that began to use it
+  std::size_t groups = 0;  // number of groups of starts that used it
 
  private:
   Vec2 axis_;
@@ -65,12 +65,13 @@ double half_misfit(const Sums& s) {
   return half_misfit(s[0], s[1], s[2], s[3], s[4], s[5]);
 }
 
-// The misfit of n points is needed from three points on: two always lie on a line, and the formula is 0/0 there.
+// The misfit is computed only from three points on, because two points are always on a line and the formula is 0/0
+// there.
 bool has_misfit(std::size_t n) {
   return n > 2;
 }
 
-// The knots: point indices 0 .. n, every `stride` points and at every gap that no line crosses.
+// The knots: point indices from 0 to n, one every `stride` points and one at every gap that no line crosses.
 std::vector<std::size_t> knots_of(std::span<const SegmentationPoint> points, int max_knots) {
   const std::size_t n = points.size();
   const auto limit = as_index(std::max(max_knots, 1));
@@ -103,24 +104,24 @@ struct Starts {
   }
 };
 
-// Neighbouring starts with a common lower bound. No line from one of them costs less than the cheapest start plus the
-// misfit of the points behind the last start, now or at any later end, because misfits only grow. While that is dearer
-// than the best cut known, none of the starts needs to be tried.
+// Neighbouring starts with a common lower bound. A line from one of them costs at least the cheapest start plus the
+// misfit of the points behind the last start. This bound also holds at every later end, because misfits never decrease.
+// While it is above the cost of the best known cut, none of the starts is tried.
 struct Group {
-  std::size_t begin, end;  // knots
+  std::size_t begin, end;  // in knots
   std::size_t anchor;
   double least_base = kInf;
-  double bound = -kInf;  // of base + misfit
+  double bound = -kInf;  // lower bound of base + misfit
 };
 
-// How the points before a knot are described: by what is before `from`, then by a line from there or by clutter.
+// The last step of the best description of the points before a knot: a line from `from`, or clutter.
 struct Step {
   double cost = 0.0;  // F
   std::size_t from = 0;
   bool is_line = false;
 };
 
-// The recurrence above, one knot after the other.
+// Evaluates the recurrence above, knot by knot.
 class Recurrence {
  public:
   Recurrence(std::span<const SegmentationPoint> points, LineCost line_cost, int max_knots)
@@ -146,14 +147,14 @@ class Recurrence {
   }
 
  private:
-  // Makes knot s a start of lines.
+  // Allows lines to start at knot s.
   void allow_start(std::size_t s) {
     const SegmentationPoint& first = points_[knots_[s]];
     if (first.gap_cost == kInf) {  // no line continues
       groups_.clear();
       anchors_.clear();
     } else {
-      on_lines_ += first.gap_cost;  // before the start: the line that begins here does not pay for it
+      on_lines_ += first.gap_cost;  // added before the start, because the line that begins here does not pay for it
     }
     if (groups_.empty() || groups_.back().end - groups_.back().begin == kKnotsPerGroup) {
       if (anchors_.empty() || anchors_.back().groups == kGroupsPerAnchor) anchors_.emplace_back(first);
@@ -181,7 +182,7 @@ class Recurrence {
 
   // min over s < t of F(s) + C(s, t) + K(t - s), if it is less than the best so far.
   void try_lines_to(std::size_t t, Step& best) {
-    // The line that was best one knot earlier is tried first: it most often continues, and its cost then excludes the
+    // The line that was best one knot earlier is tried first. It most often continues, and its cost then excludes the
     // other groups by their bounds.
     if (steps_[t - 1].is_line) {
       const auto group = std::ranges::upper_bound(groups_, steps_[t - 1].from, {}, &Group::begin);
@@ -212,9 +213,9 @@ class Recurrence {
     group.bound = std::max(group.bound, least);
   }
 
-  // If the line from s, ended at t without its LineCost, is no cheaper than F(t), then at any later end the cut of F(t)
-  // followed by a new line is no dearer than a longer line from s: misfits of the parts add up to no more than the
-  // misfit of the whole, and LineCost does not grow when a line gets shorter. So s is never needed again.
+  // Suppose the line from s, ended at t without its LineCost, costs at least F(t). Then at any later end the cut of
+  // F(t) followed by a new line costs no more than a longer line from s, because the misfits of the parts add up to at
+  // most the misfit of the whole, and LineCost does not grow when a line gets shorter. So s is never needed again.
   void prune(std::size_t t) {
     if (++since_sweep_ < kKnotsPerSweep) return;
     since_sweep_ = 0;
@@ -246,7 +247,7 @@ class Recurrence {
   std::span<const SegmentationPoint> points_;
   double line_base_;
   std::vector<std::size_t> knots_;
-  std::vector<double> logarithm_;  // of small numbers
+  std::vector<double> logarithm_;  // logarithms of small numbers
   std::vector<Step> steps_;
   Starts starts_;
   std::vector<Group> groups_;

@@ -21,7 +21,7 @@ struct LineCost {
 
 struct Segmentation {
   std::vector<PointRun> lines;  ///< ascending, disjoint; points between them are clutter
-  double cost = 0.0;            ///< of all points and lines [nats]
+  double cost = 0.0;            ///< cost of all points and lines [nats]
 };
 
 /// Half the least weighted sum of squared errors of one line through the points: the part of a line's cost that depends

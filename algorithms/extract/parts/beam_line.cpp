@@ -1,4 +1,4 @@
-// Gauss-Newton on 1/range = theta . direction. docs/algorithms/optimal.md, section 5.
+// Gauss-Newton fit of 1/range = theta . direction. docs/algorithms/optimal.md, section 5.
 #include "algorithms/extract/parts/beam_line.hpp"
 
 #include <algorithm>
@@ -79,7 +79,7 @@ std::optional<BeamLine> fit_beam_line(std::span<const BeamReading> readings, con
     }
     auto step = normal.solve();
     if (!step) return std::nullopt;
-    // After a step the line must be in front of the first and the last beam, hence of all beams.
+    // After a step the line must be in front of the first and the last beam; it is then in front of all beams.
     const Vec2 first = frame.to(readings.front().direction), last = frame.to(readings.back().direction);
     for (int halving = 0; halving < 30; ++halving) {
       const Vec2 next = theta + *step;

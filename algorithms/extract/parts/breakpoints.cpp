@@ -1,4 +1,4 @@
-// Runs between gaps and between adaptive breakpoints. Borges & Aldon 2004, section 3.1.
+// Division of a scan into runs at gaps and at adaptive breakpoints. Borges & Aldon 2004, section 3.1.
 #include "algorithms/extract/parts/breakpoints.hpp"
 
 #include <algorithm>
@@ -29,8 +29,9 @@ AdaptiveBreakpoint::AdaptiveBreakpoint(double lambda_rad)
     : sin_lambda_(portable::sincos(lambda_rad).sin), cos_lambda_(portable::sincos(lambda_rad).cos) {}
 
 double AdaptiveBreakpoint::max_distance(const Scan& scan, int beam, int next_beam) const {
+  if (next_beam - beam - 1 > kMostMissingBeams) return 0.0;
   const Vec2& u = scan.sensor.geometry.direction(beam);
-  const Vec2& v = scan.sensor.geometry.direction(next_beam);
+  const Vec2& v = scan.sensor.geometry.direction(beam + 1);  // dphi is one step, also across missing beams
   const double sin_step = std::fabs(cross(u, v));
   const double cos_step = u.dot(v);
   const double sin_rest = sin_lambda_ * cos_step - cos_lambda_ * sin_step;  // sin(lambda - dphi)

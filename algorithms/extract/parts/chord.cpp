@@ -1,4 +1,4 @@
-// The farthest point from one pass of cross products.
+// Search for the farthest point in one pass of cross products.
 #include "algorithms/extract/parts/chord.hpp"
 
 #include <algorithm>

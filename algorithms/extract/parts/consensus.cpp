@@ -1,4 +1,4 @@
-// Stretches of inliers of a line in scan order.
+// Stretches of the inliers of a line in scan order.
 #include "algorithms/extract/parts/consensus.hpp"
 
 #include <cmath>
@@ -24,7 +24,7 @@ std::vector<int> largest_support(std::span<const Vec2> points, std::span<const d
   if (starts.empty()) return {};
   starts.push_back(inliers.size());
   const std::size_t stretches = starts.size() - 1;
-  // Across the seam of a full turn the last stretch continues in the first.
+  // Across the seam of a full turn, the last stretch continues in the first.
   const bool closed = stretches > 1 && !apart(inliers.front(), inliers.back());
   std::size_t best = 0;
   std::size_t best_size = 0;

@@ -1,5 +1,5 @@
-// The support of a line hypothesis, for RANSAC and Hough. An infinite line is near points all over the scan; a wall is
-// a stretch of them without a large gap.
+// The support of a line hypothesis, for RANSAC and Hough. An infinite line is near points in all parts of the scan; a
+// wall is a sequence of points without a large gap.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Contours, cutting, merging and fitting. Nguyen et al. 2007.
+// Steps of a contour extractor: contours, cutting, merging and fitting. Nguyen et al. 2007.
 #include "algorithms/extract/parts/contour_extractor.hpp"
 
 #include "algorithms/extract/parts/covariance.hpp"

@@ -39,7 +39,7 @@ class ContourExtractor : public LineExtractor {
   /// the largest distance of points[k] from its line.
   virtual void cut(std::span<const Vec2> points, std::span<const double> tolerance, const PointRun& contour,
                    std::vector<PointRun>& runs) const = 0;
-  /// Does cut() compare every point with its tolerance? Only then lines have covariances.
+  /// True if cut() compares every point with its tolerance. Lines have covariances only in this case.
   virtual bool tests_every_point() const { return true; }
 
  private:

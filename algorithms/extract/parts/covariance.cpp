@@ -1,4 +1,4 @@
-// First-order propagation of the readings' noise through the fit.
+// First-order propagation of the noise of the readings through a line fit.
 #include "algorithms/extract/parts/covariance.hpp"
 
 #include "core/index.hpp"

@@ -2,10 +2,10 @@
 // & Siegwart 1997, "Feature extraction and scene interpretation for map-based navigation and map building", section 2;
 // here with noise along the beam instead of across the line.
 //
-// A covariance is valid only if the extractor admits points by the sensor's own noise, so that the residuals are that
-// noise. The tolerance of sef, iepf, line_tracking, kovesi, smf and fuzzy_lines is a parameter, and their lines may
-// contain a bend many standard deviations deep. line_regression knows its corners to half a window only. These
-// extractors report no covariance.
+// A covariance is valid only if the extractor admits points by the noise of the sensor, so that the residuals have this
+// noise. In sef, iepf, line_tracking, kovesi, smf and fuzzy_lines the tolerance is a parameter, and their lines may
+// contain a bend many standard deviations deep. line_regression locates corners only to half a window. These extractors
+// report no covariance.
 #pragma once
 
 #include <optional>

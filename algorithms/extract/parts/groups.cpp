@@ -20,7 +20,7 @@ void set_residual(const PointMoments& m, LineFit& fit) {
   fit.residual_sum = std::max(0.0, sum) + m.weight() * off * off;
 }
 
-// The line through the centroid perpendicular to its ray, for groups without a direction.
+// The line through the centroid perpendicular to its ray; used for groups without a direction.
 LineFit across_the_ray(const PointMoments& m) {
   LineFit fit;
   fit.centroid = m.centroid();
@@ -112,7 +112,7 @@ ScanLines assemble(const Scan& scan, const ScanPoints& points, std::span<const P
     // A shared break point is in the support of the next run.
     const int own_last = k + 1 < runs.size() ? std::min(run.last, runs[k + 1].first - 1) : run.last;
     const int own = own_last - run.first + 1;
-    if (own < rules.min_points) continue;  // before the fit, which takes longer
+    if (own < rules.min_points) continue;  // before the fit, which takes more time
     const LineFit fit = fit_of_run(k);
     LineFeature line = feature(fit, points.points[as_index(run.first)], points.points[as_index(run.last)]);
     line.first_beam = points.beams[as_index(run.first)];

@@ -1,4 +1,4 @@
-// Straightness within the sensor's noise, and merging. Nguyen et al. 2007.
+// Straightness test within the noise of the sensor, and merging of runs. Nguyen et al. 2007.
 #include "algorithms/extract/parts/noise_scale.hpp"
 
 #include <algorithm>

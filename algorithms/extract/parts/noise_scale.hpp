@@ -21,8 +21,8 @@ struct NoiseTolerance {
 /// The tolerance of every point.
 std::vector<double> tolerances(const Scan& scan, const ScanPoints& points, const NoiseTolerance& tolerance);
 
-/// Are two neighbours of the run farther from the line than their tolerance, on the same side? Nguyen et al. 2007,
-/// section on split-and-merge: one such point is noise, two consecutive ones are a break.
+/// True if two neighbours of the run are farther from the line than their tolerance, on the same side. Nguyen et al.
+/// 2007, section on split-and-merge: one such point is noise, two consecutive ones are a break.
 bool has_clear_break(std::span<const Vec2> points, std::span<const double> tolerance, const PointRun& run,
                      const LineFit& line);
 

@@ -1,4 +1,4 @@
-// Spurious returns, code lengths and weights. docs/algorithms/optimal.md, section 2.
+// Removal of spurious returns; code lengths and weights of the others. docs/algorithms/optimal.md, section 2.
 #include "algorithms/extract/parts/scan_model.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 const double kRootTwoPi = std::sqrt(kTwoPi);
 
-// No real sensor answers always. With this value two missing beams do not end a wall, three do.
+// Every real sensor misses some beams. With this value two missing beams do not end a wall; three do.
 constexpr double kLeastDropout = 0.01;
 
 double median_of_five(std::span<const double> ranges, std::size_t i) {
@@ -37,7 +37,7 @@ ScanModel::ScanModel(const Scan& scan, const SensorNoise& noise)
   for (std::size_t i = 0; i < size(); ++i) {
     const double around = smoothed_range(i);
     const double sigma = reading_sigma(noise, around, 0.0);
-    // Left out if it is shorter to describe as a spurious return, uniform up to the wall, than as an error.
+    // Skips a reading if its code as a spurious return, uniform up to the wall, is shorter than its code as an error.
     const double nats = std::log(1.0 / noise.spurious_probability) + std::log(around / (sigma * kRootTwoPi));
     if (around - ranges_[i] > sigma * std::sqrt(2.0 * std::max(nats, 2.0))) continue;
     kept.beams.push_back(points_.beams[i]);
@@ -56,7 +56,7 @@ double ScanModel::place_cost() const {
   return std::log(static_cast<double>(size()));
 }
 
-// Code length of the missing beams between points i-1 and i, if one line continues across them.
+// Code length of the missing beams between points i-1 and i if one line continues across them.
 double ScanModel::gap_cost(std::size_t i) const {
   int missing = 0;
   for (int b = points_.beams[i - 1] + 1; b < points_.beams[i]; ++b) missing += !scan_.valid(b);
@@ -67,7 +67,7 @@ double ScanModel::gap_cost(std::size_t i) const {
   const double p = std::clamp(noise_.dropout_probability + noise_.dropout_grazing * oblique * oblique, kLeastDropout,
                               1.0 - kLeastDropout);
   const double nats = -missing * std::log(p);
-  // Longer than an opening, which is described by the places where it begins and ends.
+  // No line continues if the code is longer than that of an opening, the places where it begins and ends.
   return nats > 2.0 * place_cost() ? kInf : nats;
 }
 

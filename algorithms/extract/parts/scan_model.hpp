@@ -1,4 +1,4 @@
-// Code lengths of the returns of a scan: which returns take part in a description by lines, and what each costs on a
+// Code lengths of the returns of a scan: the returns that a description by lines contains, and the cost of each on a
 // line, as clutter and across missing beams. docs/algorithms/optimal.md, section 2.
 #pragma once
 
@@ -14,21 +14,21 @@ namespace scanbench::extract {
 struct SegmentationPoint {
   Vec2 direction = Vec2::Zero();  ///< unit vector of the beam
   double inverse_range = 0.0;     ///< [1/m]
-  double weight = 0.0;            ///< turns a squared error of the inverse range into one in standard deviations
+  double weight = 0.0;            ///< converts a squared error of the inverse range into one in standard deviations
   double line_cost = 0.0;         ///< code length [nats] of a return exactly on its line
   double clutter_cost = 0.0;      ///< code length of a return on no line
-  /// Code length of the missing beams since the point before, if one line continues across them; infinite if none can.
+  /// Code length of the missing beams since the point before if one line continues across them; infinite if none can.
   double gap_cost = 0.0;
 };
 
-/// The wall that a return shows, as a fitted line tells.
+/// The wall at a return, known from a fitted line.
 struct KnownWall {
-  double range = 0.0;  ///< of the wall along the beam [m]; 0: unknown
+  double range = 0.0;  ///< range of the wall along the beam [m]; 0: unknown
   double slope = 0.0;  ///< change of range per radian of bearing
 };
 
-/// The returns of a scan that take part. If the sensor gives spurious returns, those far in front of their neighbours
-/// are left out, and lines continue behind them. The scan and the noise must outlive the model.
+/// The returns of a scan that are described. If the sensor gives spurious returns, those far in front of their
+/// neighbours are skipped, and lines continue behind them. The scan and the noise must outlive the model.
 class ScanModel {
  public:
   ScanModel(const Scan& scan, const SensorNoise& noise);
@@ -38,10 +38,10 @@ class ScanModel {
   std::size_t size() const { return ranges_.size(); }
   const Vec2& direction(std::size_t i) const { return scan_.sensor.geometry.direction(points_.beams[i]); }
 
-  /// The median of the five ranges around return i: the noise of one reading and one spurious neighbour do not show.
+  /// The median of the five ranges around return i. It suppresses the noise of one reading and one spurious neighbour.
   double smoothed_range(std::size_t i) const;
 
-  /// Code length [nats] of a place in the scan: log of the number of returns, of which there must be one.
+  /// Code length [nats] of a place in the scan: the logarithm of the number of returns, which must be at least one.
   double place_cost() const;
 
   /// All returns; `walls` is empty or has one entry per return.

@@ -1,4 +1,4 @@
-// Levenberg-Marquardt on the vertices of a chain. docs/algorithms/polyline.md, section 3.
+// Levenberg-Marquardt fit of the vertices of a chain. docs/algorithms/polyline.md, section 3.
 #include "algorithms/extract/polyline/chain.hpp"
 
 #include <algorithm>
@@ -146,7 +146,7 @@ ChainFit fit_chain(const Chain& start, std::span<const BearingReading> readings)
   for (int iteration = 0; iteration < 200 && damping < 1e12; ++iteration) {
     Eigen::MatrixXd damped = n.matrix;
     for (Eigen::Index i = 0; i < damped.rows(); ++i) damped(i, i) += damping * n.matrix(i, i) + 1e-300;
-    // What no reading sees does not move.
+    // A vertex that no reading sees does not move.
     for (Eigen::Index i = 0; i < damped.rows(); ++i)
       if (!(n.matrix(i, i) > 0)) damped(i, i) = 1.0;
     const Eigen::VectorXd step = damped.ldlt().solve(n.rhs);

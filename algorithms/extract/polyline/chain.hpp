@@ -37,7 +37,7 @@ struct Chain {
   /// a turn before or after.
   int wall_at(double bearing_rad) const;
   double inverse_range(int wall, double bearing_rad) const;
-  /// Change of range per radian of bearing.
+  /// Change of the range per radian of bearing.
   double slope(int wall, double bearing_rad) const;
 };
 

@@ -1,4 +1,4 @@
-// The dynamic programme of chains. docs/algorithms/polyline.md, section 2.
+// Dynamic programme for the best chains on a grid. docs/algorithms/polyline.md, section 2.
 #include "algorithms/extract/polyline/search.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace scanbench::extract {
 namespace {
 
 constexpr double kProhibitive = 1e6;  // [nats], finite, because differences of sums are formed
-// A wall spans less than half a turn, and more than rounding.
+// A wall spans less than half a turn and more than rounding errors.
 constexpr double kLeastSine = 1e-9;
 constexpr double kLeastCosine = -0.99;
 

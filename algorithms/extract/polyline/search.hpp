@@ -19,7 +19,7 @@ struct GridVertex {
 /// explains the points from its first to its last vertex.
 struct GridChains {
   std::vector<std::vector<GridVertex>> chains;
-  double cost = 0.0;  ///< of everything [nats]
+  double cost = 0.0;  ///< cost of the whole description [nats]
 };
 
 /// Extra cost of a wall between neighbouring points [nats]. Such a wall explains no return between its ends, and

@@ -11,7 +11,7 @@
 
 namespace scanbench::extract {
 
-/// How the support of a line is halved to initialise the fuzzy clustering with C = 2, which the paper leaves open.
+/// Ways to halve the support of a line, which initialises the fuzzy clustering with C = 2. The paper leaves this open.
 enum class SmfInitialisation {
   scan_order,      ///< first and second half of the points
   principal_axis,  ///< first and second half along the line

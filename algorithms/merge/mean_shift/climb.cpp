@@ -1,9 +1,9 @@
 // Mean-shift steps (Lakaemper 2009, eq. 1) and, where they are slow, Newton steps.
 //
-// Along a wall that was seen often the density is a ridge with faint ripples. There eq. 1 makes hundreds of shifts of a
-// hundredth of a standard deviation. Newton steps on the log density replace them. They use the same sums, never
-// descend (otherwise a step of eq. 1 is made), are short compared with the distance of modes, and end at the same
-// modes.
+// Along a wall that was seen often, the density is a ridge with faint ripples. There eq. 1 makes hundreds of shifts of
+// a hundredth of a standard deviation. Newton steps on the log density replace them. They use the same sums and end at
+// the same modes. They never descend; if they would, a step of eq. 1 is made instead. They are short compared with the
+// distance of modes.
 #include "algorithms/merge/mean_shift/climb.hpp"
 
 #include <algorithm>

@@ -26,7 +26,7 @@ struct ClimbRules {
   bool capture = true;
   bool accelerate = true;  ///< Newton steps where shifts are short
   Float3 inner;            ///< half sides of the box that an accelerated climb must not leave
-  Float3 outer;            ///< half sides of the box with complete candidates; at least kLongestFastStep more
+  Float3 outer;            ///< half sides of the box in which all candidates are known; at least kLongestFastStep more
 };
 
 /// Moves t (relative to the box centre) uphill. `steps` counts the steps of the climb in all boxes. `captured_by` is

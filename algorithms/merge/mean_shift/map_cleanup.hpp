@@ -38,8 +38,8 @@ struct RequiredSupport {
   double min_points_per_m;
 };
 
-/// Per line: is it shorter than min_length_m, with fewer supporting points than min_points_per_m? Points that are not
-/// finite are skipped.
+/// For each line: true if it is shorter than min_length_m and has fewer supporting points than min_points_per_m. Points
+/// that are not finite are skipped.
 std::vector<bool> lacks_support(std::span<const DraftLine> lines, std::span<const Vec2> points,
                                 const RequiredSupport& rules);
 

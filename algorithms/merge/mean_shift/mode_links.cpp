@@ -1,4 +1,4 @@
-// Connected components by distance and along ridges.
+// Connected components of modes by distance and along ridges.
 #include "algorithms/merge/mean_shift/mode_links.hpp"
 
 #include <algorithm>

@@ -18,7 +18,7 @@ namespace scanbench::merge {
 namespace {
 
 constexpr double kBox = 1.0;         // side of a box
-constexpr double kHysteresis = 0.1;  // how far a climb may leave its box before it changes to the next
+constexpr double kHysteresis = 0.1;  // distance by which a climb may leave its box before it changes to the next
 constexpr double kMargin =
     kHysteresis + kLongestFastStep + 1e-3;  // distance from the box up to which candidates are complete
 constexpr double kSame = 2e-3;              // ends of climbs this close are one mode: they are converged to 1e-5

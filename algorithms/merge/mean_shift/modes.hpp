@@ -11,12 +11,12 @@ namespace scanbench::merge {
 
 /// Lengths in standard deviations of the kernel exp(-|d|^2 / 2).
 struct ModeOptions {
-  double cutoff = 4.0;      ///< of the kernel while climbing; modes are polished with 6.5
-  double period = 0.0;      ///< of the third coordinate, 0: none; else at least min_period(cutoff)
-  double tolerance = 1e-3;  ///< of climbs by eq. 1 alone, before the polish
+  double cutoff = 4.0;      ///< cut-off of the kernel while climbing; modes are polished with 6.5
+  double period = 0.0;      ///< period of the third coordinate; 0: none, otherwise at least min_period(cutoff)
+  double tolerance = 1e-3;  ///< tolerance of climbs by eq. 1 alone, before the polish
   int max_steps = 5000;     ///< mean-shift steps of one climb
   bool accelerate = true;   ///< Newton steps where shifts are short
-  bool capture = true;      ///< end a climb as soon as it is next to a known mode
+  bool capture = true;      ///< end a climb as soon as it is near a known mode
 };
 
 /// The smallest period at which no point is within the cut-off on both sides, where the distance of eq. 4 has a kink.

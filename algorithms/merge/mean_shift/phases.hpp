@@ -14,21 +14,21 @@ enum class Kernel2 { rotated, printed };
 
 /// Lengths in metres, angles in radians.
 struct Kernels {
-  double sigma_m;      ///< of K1, in every dimension (eq. 3)
+  double sigma_m;      ///< standard deviation of K1 in every dimension (eq. 3)
   double h_rad_per_m;  ///< bandwidth: the difference of direction that counts as one metre (eq. 4)
-  double sigma_x_m;    ///< of K2, along the direction of the cluster
-  double sigma_y_m;    ///< of K2, across
+  double sigma_x_m;    ///< standard deviation of K2 along the direction of the cluster
+  double sigma_y_m;    ///< standard deviation of K2 across it
   double factor;       ///< factor of both variances of K2
   Kernel2 form;
   double epsilon1_m;  ///< labelling distance of phase 1, in the metric of eq. 4
   double epsilon2;    ///< labelling distance of phase 2, in units of sigma_x along and sigma_y across
   double ridge_dip;   ///< largest fall of density between linked modes of one ridge, as a share; 0: no such links
-  double cutoff;      ///< of kernels during climbs, in standard deviations
+  double cutoff;      ///< cut-off of kernels during climbs, in standard deviations
   bool accelerate;    ///< Newton steps where shifts are short
-  bool capture;       ///< end climbs as soon as they are next to known modes
+  bool capture;       ///< end climbs as soon as they are near a known mode
 };
 
-/// One entry per piece, clusters numbered in order of their first pieces.
+/// One entry per piece. Clusters are numbered in the order of their first pieces.
 struct Clustering {
   std::vector<int> cluster;
   std::vector<Vec3> end;  ///< where the piece's point converged: (x, y, alpha), metres and radians in [0, pi)

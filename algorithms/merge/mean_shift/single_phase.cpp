@@ -1,4 +1,4 @@
-// Every point under a kernel of its own (Lakaemper 2009, remark at the end of section IV.C).
+// Climbs of every point under a kernel of its own (Lakaemper 2009, remark at the end of section IV.C).
 #include "algorithms/merge/mean_shift/single_phase.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 constexpr double kBox = 1.0;  // half side of the region that one list of candidates serves, in standard deviations
 const double kBoxDiagonal = std::sqrt(3.0) * kBox;
 
-/// Joint space in units in which no kernel is wider than 1 in any direction.
+/// The joint space in units in which no kernel is wider than 1 in any direction.
 class SinglePhase {
  public:
   SinglePhase(std::span<const Piece> pieces, const Kernels& kernels)

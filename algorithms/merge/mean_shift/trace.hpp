@@ -1,4 +1,5 @@
-// The trace rows of mean_shift (core/trace/mean_shift_trace.hpp). Each call does nothing unless somebody records.
+// Writes the trace rows of mean_shift (core/trace/mean_shift_trace.hpp). The calls do nothing unless the trace is
+// recorded.
 #pragma once
 
 #include <span>

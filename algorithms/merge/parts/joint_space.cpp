@@ -1,4 +1,4 @@
-// Splitting in an order that does not depend on the input's (Lakaemper 2009, section IV.A).
+// Splits lines in an order that does not depend on the order of the input (Lakaemper 2009, section IV.A).
 #include "algorithms/merge/parts/joint_space.hpp"
 
 #include <algorithm>

@@ -20,14 +20,14 @@ struct Piece {
 /// called a, except among lines equal in every number.
 struct JointSpace {
   std::vector<Piece> pieces;
-  std::size_t unusable = 0;  ///< lines left out: not finite, without length, or beyond kFarthest
+  std::size_t unusable = 0;  ///< number of lines skipped: not finite, without length, or beyond kFarthest
 };
 
 /// Lines with a coordinate beyond this many metres are not used.
 inline constexpr double kFarthest = 1e9;
-/// At coordinates larger than this many standard deviations a double is too coarse for a mode.
+/// At coordinates above this number of standard deviations, a double is too coarse for a mode.
 inline constexpr double kMostSigmas = 1e8;
-/// More pieces than this are refused: all stages together would take about 4 GiB.
+/// More pieces are refused, because all stages together would take about 4 GiB.
 inline constexpr double kMostPieces = 1e7;
 
 /// Cuts every line into ceil(length / longest) equal pieces; one for longest = infinity. Throws ParamError for sigma_m,

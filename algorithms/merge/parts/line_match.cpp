@@ -58,7 +58,7 @@ std::optional<double> match_cost(const Representative& a, const Representative& 
 }
 
 DistinctLines distinct_lines(std::span<const MapLine> lines) {
-  // Here sigma only limits the coordinates.
+  // sigma is used here only to limit the coordinates.
   const JointSpace space = split_lines(lines, kFarthest / kMostSigmas, kInf);
   DistinctLines distinct;
   distinct.of_line.assign(lines.size(), -1);
@@ -88,8 +88,8 @@ NearSegments::NearSegments(std::span<const Representative> segments, const Match
     }
   }
   first_.push_back(points_.size());
-  // Matching segments come this close to each other somewhere, and grid points are at most half a spacing from there.
-  // This also holds for long pairs whose ends diverge.
+  // Matching segments are this close to each other at some place, and a grid point is at most half a spacing from
+  // there. This also holds for long pairs whose ends diverge.
   reach_ = spacing + std::hypot(2.0 * rules.distance_m, rules.gap_m) + 1e-6;
   grid_.emplace(points_, reach_);
 }

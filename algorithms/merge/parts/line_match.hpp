@@ -41,24 +41,24 @@ MatchTolerance match_tolerance(const P& p) {
 /// A segment that represents one or more lines, with the sums that determine it.
 struct Representative {
   Segment segment;
-  double weight = 0.0;          ///< summed length
-  Vec2 doubled = Vec2::Zero();  ///< summed length * (cos 2 theta, sin 2 theta)
-  Vec2 middle = Vec2::Zero();   ///< mean midpoint, weighted with length
+  double weight = 0.0;          ///< sum of the lengths
+  Vec2 doubled = Vec2::Zero();  ///< sum of length * (cos 2 theta, sin 2 theta)
+  Vec2 middle = Vec2::Zero();   ///< length-weighted mean midpoint
 };
 
 Representative representative_of(const Segment& segment, double multiplicity);
 
-/// The segment that represents both. Its direction is the length-weighted mean of the undirected directions, its place
-/// the length-weighted mean of the midpoints, its extent that of the projections of both.
+/// The segment that represents both. Its direction is the length-weighted mean of the undirected directions, its
+/// position is the length-weighted mean of the midpoints, and its extent covers the projections of both.
 Representative united(const Representative& a, const Representative& b);
 
 /// Mismatch of the two, from 0 (collinear) to 2; nothing if they do not match. Symmetric.
 std::optional<double> match_cost(const Representative& a, const Representative& b, const MatchTolerance& rules);
 
-/// The usable lines without repetitions, in an order that does not depend on the order given.
+/// The usable lines without repetitions, in an order that does not depend on the given order.
 struct DistinctLines {
   std::vector<Representative> representatives;
-  std::vector<int> of_line;  ///< per input line its representative, -1: unusable
+  std::vector<int> of_line;  ///< representative of each input line; -1: unusable
 };
 DistinctLines distinct_lines(std::span<const MapLine> lines);
 
@@ -67,7 +67,7 @@ class NearSegments {
  public:
   NearSegments(std::span<const Representative> segments, const MatchTolerance& rules);
 
-  /// Calls visit(j) for every j > i that may match i; possibly several times for the same j.
+  /// Calls visit(j) for every j > i that may match i. The same j may be visited several times.
   template <class Visit>
   void for_each_after(std::size_t i, Visit&& visit) const {
     for (std::size_t k = first_[i]; k < first_[i + 1]; ++k)
@@ -84,7 +84,7 @@ class NearSegments {
   std::optional<PointGrid> grid_;
 };
 
-/// The map and the labels, if representative r is in group[r] (numbered from 0) and groups[g] represents group g.
+/// The map and the labels. Representative r is in group[r] (numbered from 0), and groups[g] represents group g.
 MergeResult result_of(std::span<const MapLine> lines, const DistinctLines& distinct, const std::vector<int>& group,
                       const std::vector<Representative>& groups);
 

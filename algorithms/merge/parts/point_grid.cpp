@@ -1,4 +1,4 @@
-// Sorting of the points into columns.
+// Construction of the grid: sorts the points into columns.
 #include "algorithms/merge/parts/point_grid.hpp"
 
 #include "core/error.hpp"

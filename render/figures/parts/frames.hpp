@@ -10,7 +10,8 @@
 
 namespace scanbench::render {
 
-/// The frame to show: `wanted`, -1 for the middle one, the last one if there are fewer. The recording has frames.
+/// The index of the frame to show: `wanted`; the middle one for -1; the last one if there is no frame `wanted`. The
+/// recording must have frames.
 std::size_t shown_frame(const Recording& recording, int wanted);
 
 /// True if the poses differ by more than the rounding of files.
@@ -19,8 +20,8 @@ bool differ(std::span<const Pose2> a, std::span<const Pose2> b);
 enum class PoseSource { aligned, odometry, truth, recorded };
 std::string to_string(PoseSource source);  ///< "as aligned", "odometry", "true poses", "recorded poses"
 
-/// World poses of all frames: those of the result if it has any, aligned if they are not the recording's own, else true
-/// ones, else those of the log. `result` may be nullptr.
+/// World poses of all frames: the result's, if it has any (`aligned` if they differ from the recording's own); else the
+/// true ones; else those of the log. `result` may be nullptr.
 struct PlacedFrames {
   PoseSource source = PoseSource::recorded;
   std::vector<Pose2> world_from_sensor;

@@ -35,7 +35,7 @@ const std::map<std::string, Answer> kAnswers = {
     {"em", {5, false, 4, 1}},
     {"fuzzy_lines", {5, true, {}, {}}},
     {"hough", {8, false, 4, 1}},
-    {"iepf", {2, true, 4, 2}},
+    {"iepf", {5, true, 4, 2}},
     {"incremental", {5, true, 4, 1}},
     {"kovesi", {5, true, 0, 2}},
     {"line_regression", {5, true, 4, 1}},

@@ -51,7 +51,8 @@ std::vector<std::pair<int, int>> groups_by_hand(const OwnedScan& scan, double t)
 
 // Breaks as beams, from the module: every beam has a return in these scans.
 std::vector<int> breaks(const OwnedScan& scan, double t) {
-  const ScanLines lines = testing::extract("iepf", scan, {{"threshold_m", t}, {"min_points", kOne}});
+  const ScanLines lines =
+      testing::extract("iepf", scan, {{"threshold_m", t}, {"min_points", kOne}, {"max_gap_m", 0.0}});
   std::vector<int> result;
   for (const auto& line : lines.lines)
     if (line.first_beam > 0) result.push_back(line.first_beam);
@@ -63,7 +64,8 @@ TEST(Iepf, GroupsAreThoseOfTheTextbookRecursion) {
     const OwnedScan scan = random_scan(seed);
     for (const double t : {0.0, 0.02, 0.1, 0.4}) {
       const auto expected = groups_by_hand(scan, t);
-      const ScanLines lines = testing::extract("iepf", scan, {{"threshold_m", t}, {"min_points", kOne}});
+      const ScanLines lines =
+          testing::extract("iepf", scan, {{"threshold_m", t}, {"min_points", kOne}, {"max_gap_m", 0.0}});
       ASSERT_EQ(lines.lines.size(), expected.size());
       for (std::size_t k = 0; k < expected.size(); ++k) {
         EXPECT_EQ(lines.lines[k].first_beam, expected[k].first);
@@ -111,8 +113,10 @@ TEST(Iepf, BreaksDoNotDependOnTheSenseOfRotation) {
 
 TEST(Iepf, ThresholdZeroGivesAllPairsAndAHugeOneASingleGroup) {
   const OwnedScan scan = random_scan(3);
-  EXPECT_EQ(testing::extract("iepf", scan, {{"threshold_m", 0.0}, {"min_points", kOne}}).lines.size(), 360u);
-  EXPECT_EQ(testing::extract("iepf", scan, {{"threshold_m", 1e9}}).lines.size(), 1u);
+  EXPECT_EQ(
+      testing::extract("iepf", scan, {{"threshold_m", 0.0}, {"min_points", kOne}, {"max_gap_m", 0.0}}).lines.size(),
+      360u);
+  EXPECT_EQ(testing::extract("iepf", scan, {{"threshold_m", 1e9}, {"max_gap_m", 0.0}}).lines.size(), 1u);
 }
 
 TEST(Iepf, AnIdealPolygonBreaksAtItsVerticesForAnyThresholdBelowTheSmallestDeviation) {
@@ -135,6 +139,22 @@ TEST(Iepf, LinesOfAnIdealRoomAreItsWallsAndReachTheBreakPoints) {
   EXPECT_THAT(lines.lines[2].line, testing::LineNear(PolarLine{2, kPi / 2}, 2e-3, 2e-3));
   EXPECT_THAT(lines.lines[0].segment.b, testing::PointNear(Vec2(2, -2), 0.02));
   EXPECT_THAT(lines.lines[1].segment.a, testing::PointNear(Vec2(2, -2), 0.02));
+}
+
+// A wall 2 m ahead with 17 beams that return nothing: an opening of 0.6 m.
+TEST(Iepf, DoesNotBridgeAnOpeningUnlessRequested) {
+  OwnedScan scan = testing::cast(testing::fan_sensor(41, radians(40)), {{{2, -9}, {2, 9}}});
+  for (std::size_t i = 12; i < 29; ++i) scan.ranges[i] = kInf;
+  EXPECT_EQ(testing::extract("iepf", scan).lines.size(), 2u);
+  EXPECT_EQ(testing::extract("iepf", scan, {{"max_gap_m", 0.0}}).lines.size(), 1u);
+}
+
+TEST(Iepf, ThreeStrayReturnsAreNoLineUnlessRequested) {
+  OwnedScan scan = testing::cast(testing::fan_sensor(41, radians(40)), {{{2, -9}, {2, 9}}});
+  for (std::size_t i = 0; i < 41; ++i)
+    if (i < 18 || i > 20) scan.ranges[i] = kInf;
+  EXPECT_TRUE(testing::extract("iepf", scan).lines.empty());
+  EXPECT_EQ(testing::extract("iepf", scan, {{"min_points", std::int64_t{2}}}).lines.size(), 1u);
 }
 
 TEST(Iepf, UnsharedBreaksAreFittedByTheSecondLineOnly) {

@@ -13,7 +13,7 @@
 #include "harness/report/ranking_table.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/scenario_file.hpp"
-#include "harness/store/run_files.hpp"
+#include "harness/store/run_scenarios.hpp"
 #include "harness/store/summary.hpp"
 #include "tests/support/inputs.hpp"
 
@@ -186,6 +186,72 @@ TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
     EXPECT_THAT(page, HasSubstr("1 of 2 cells ok"));
     EXPECT_THAT(page, HasSubstr("after 3 s"));
   }
+}
+
+std::string matching_scene(const std::string& metrics) {
+  return std::string(kScene).substr(0, std::string(kScene).find("pipelines")) + R"(pipelines:
+  - {name: a, extract: {module: iepf}, match: {module: icp}}
+  - {name: b, extract: {module: iepf}, match: {module: plicp}}
+metrics: )" +
+         metrics + "\n";
+}
+
+TEST(Benchmark, RanksMatchersByTheLowestErrorOverBound) {
+  const std::string scene = matching_scene("[{name: pose_efficiency, params: {errors: true}}, trajectory, timing]");
+  const std::vector<Scenario> scenarios{parse_scenario(scene, "x.yaml"), parse_scenario(scene, "y.yaml")};
+  std::vector<SummaryRow> rows;
+  add_rows(rows, "a", "pose_efficiency", {4, 1, 8, 2});
+  add_rows(rows, "b", "pose_efficiency", {2, 2, 1, 1});
+  add_rows(rows, "a", "t_match", {2, 8, 4, 4});
+  add_rows(rows, "b", "t_match", {1, 4, 8, 8});
+  for (const char* name : {"a", "b"}) add_rows(rows, name, "pose_unmatched", {0, 0, 0, 0});
+  const BenchmarkSpec spec{"what", "a", "x", "match"};
+  const auto ranking = rank_pipelines(scenarios, rows, spec);
+  ASSERT_EQ(ranking.size(), 2u);
+  EXPECT_EQ(ranking[0].name, "b");
+  EXPECT_NEAR(ranking[0].values.at("pose_efficiency").mean, 1.5, 1e-12);  // of 2 and 1
+  EXPECT_NEAR(ranking[1].values.at("pose_efficiency").mean, 3.0, 1e-12);  // of 2 and 4, each a geometric mean
+  EXPECT_NEAR(ranking[0].next_difference, 0.5 * (std::log(2.0 / 2.0) + std::log(1.0 / 4.0)), 1e-12);
+  EXPECT_EQ(ranking[0].conditions_won, 2);  // y is a tie: both have the geometric mean of 2 and 1
+  EXPECT_EQ(ranking[1].conditions_won, 1);
+  EXPECT_NEAR(ranking[0].values.at("t_ratio").mean, 0.5 * (0.5 + 2.0), 1e-12);
+  const Table table = ranking_table(ranking, spec);
+  EXPECT_EQ(table.columns[0].head, "MSE / bound");
+  EXPECT_TRUE(table.rows[0].cells[0].best);
+  EXPECT_FALSE(table.rows[1].cells[0].best);
+  ReportInput input;
+  input.title = "small";
+  input.scenarios = scenarios;
+  input.rows = rows;
+  EXPECT_THAT(benchmark_html(input, spec), HasSubstr("2 matchers on 2 conditions"));
+}
+
+TEST(Benchmark, AMatcherThatLeavesOutManyPairsHasNoMark) {
+  const std::string scene = matching_scene("[{name: pose_efficiency, params: {errors: true}}, trajectory, timing]");
+  const std::vector<Scenario> scenarios{parse_scenario(scene, "x.yaml"), parse_scenario(scene, "y.yaml")};
+  std::vector<SummaryRow> rows;
+  add_rows(rows, "a", "pose_efficiency", {2, 2, 2, 2});
+  add_rows(rows, "b", "pose_efficiency", {1, 1, 1, 1});
+  add_rows(rows, "a", "pose_unmatched", {0.02, 0.02, 0.02, 0.02});
+  add_rows(rows, "b", "pose_unmatched", {0.08, 0.08, 0.08, 0.08});
+  const BenchmarkSpec spec{"what", "a", "x", "match"};
+  const auto ranking = rank_pipelines(scenarios, rows, spec);
+  const Table table = ranking_table(ranking, spec);
+  EXPECT_EQ(ranking[0].name, "b");
+  EXPECT_FALSE(table.rows[0].cells[0].best);
+  EXPECT_TRUE(table.rows[1].cells[0].best);
+}
+
+TEST(Benchmark, OfMatchersNeedsMatchSlotsAndTheirMetrics) {
+  const auto refusal = [](const std::string& scene, const std::string& text) {
+    const std::vector<Scenario> scenarios{parse_scenario(scene, "x.yaml")};
+    return config_refusal([&] { read_benchmark(parse_yaml(text), scenarios); });
+  };
+  const std::string good = matching_scene("[{name: pose_efficiency, params: {errors: true}}, trajectory, timing]");
+  EXPECT_THAT(refusal(kScene, "{of: match, baseline: a}"), HasSubstr("has no slot match"));
+  EXPECT_THAT(refusal(matching_scene("[pose_efficiency, trajectory, timing]"), "{of: match, baseline: a}"),
+              HasSubstr("no metric pose_efficiency with errors"));
+  EXPECT_THAT(refusal(good, "{of: poses, baseline: a}"), HasSubstr("extract"));
 }
 
 TEST(ErrorBins, RootMeanSquareOfEverySeedAndTheirGeometricMean) {

@@ -50,6 +50,24 @@ TEST(CarmenLog, TheFirstTripleIsTheLasersPoseAndTheSecondTheOdometrys) {
   EXPECT_EQ(carmen(text, {{"poses", std::string("odometry")}}).observed.frames[0].odom_from_sensor, Pose2(3, 4, 0.25));
 }
 
+TEST(CarmenLog, WithoutPosesTheScansHaveNoOdometry) {
+  const Recording log = carmen(flaser(180, 2.5, kTail), {{"poses", std::string("none")}});
+  EXPECT_EQ(log.observed.frames[0].odom_from_sensor, Pose2());
+}
+
+TEST(CarmenLog, PosesToCompareWithAreKeptApartFromThoseThatAlgorithmsSee) {
+  const std::string text = flaser(180, 2.5, kTail) + flaser(180, 2.5, kTail);
+  EXPECT_FALSE(carmen(text).reference);
+  const Recording log = carmen(text, {{"poses", std::string("odometry")}, {"compare_poses", std::string("reference")}});
+  ASSERT_TRUE(log.reference);
+  EXPECT_EQ(log.reference->world_from_sensor, std::vector<Pose2>(2, Pose2(1, 2, 0.5)));
+  EXPECT_EQ(log.observed.frames[0].odom_from_sensor, Pose2(3, 4, 0.25));
+  EXPECT_THAT(config_refusal([&] {
+                carmen(text, {{"compare_poses", std::string("vertex")}});
+              }),
+              HasSubstr("l.log:1:1: no VERTEX2 line before this scan"));
+}
+
 TEST(CarmenLog, BeamAnglesFollowTheStatedRule) {
   const auto angles = [](int n) {
     const Recording r = carmen(flaser(n, 1, kTail));

@@ -83,6 +83,33 @@ TEST(CellFiles, GiveBackAResult) {
   }
 }
 
+TEST(CellFiles, GiveBackMatchesOfPoses) {
+  const testing::TemporaryFolder folder;
+  const Recording recording = testing::random_recording(2, 5, 16, true);
+  PipelineSpec pipeline = testing::extract_with("p", "test_line");
+  pipeline.slots.push_back({"match", "test_ahead", {}});
+  PipelineResult saved = run_pipeline(pipeline, recording.observed).result;
+  ASSERT_EQ(saved.matches.size(), 4u);
+  Eigen::Matrix3d covariance;
+  covariance << 1.0 / 3, 2, 3, 2, 5, 6, 3, 6, 7;
+  saved.matches[2].match = {Status::degenerate, {0.1, -2.0 / 3, 0.25}, covariance};
+  write_result(folder.path(), pipeline, saved);
+  const PipelineResult loaded = load_result(folder.path());
+  ASSERT_EQ(loaded.matches.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(loaded.matches[k].frame, saved.matches[k].frame);
+    EXPECT_EQ(loaded.matches[k].reference, saved.matches[k].reference);
+    EXPECT_EQ(loaded.matches[k].match.status, saved.matches[k].match.status);
+    EXPECT_EQ(loaded.matches[k].match.covariance, saved.matches[k].match.covariance);
+    const Pose2 &a = loaded.matches[k].match.reference_from_current, &b = saved.matches[k].match.reference_from_current;
+    EXPECT_EQ(a.translation(), b.translation());
+    EXPECT_NEAR(wrap_angle(a.yaw() - b.yaw()), 0.0, 1e-15);
+  }
+  const std::string text = read_file(folder.path() / "pose_matches.csv");
+  EXPECT_EQ(text.substr(0, text.find('\n')),
+            "frame,reference,x_m,y_m,yaw_rad,cov_xx_m2,cov_xy_m2,cov_xyaw_m,cov_yy_m2,cov_yyaw_m,cov_yaw_rad2,status");
+}
+
 TEST(CellFiles, HaveTheNamesAndColumnsOfTheContract) {
   const testing::TemporaryFolder folder;
   const Recording recording = testing::random_recording(2, 5, 16, true);

@@ -194,6 +194,26 @@ TEST(Pipeline, ChainsMatchesAndFallsBackOnOdometryWhereThereIsNone) {
     EXPECT_NEAR((run.result.map.lines[k].segment.a - expected.translation()).norm(), 0.0, 1e-12) << k;
   }
   EXPECT_EQ(run.remarks, "match: 1 no_match");
+  ASSERT_EQ(run.result.matches.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(run.result.matches[k].frame, static_cast<int>(k) + 1);
+    EXPECT_EQ(run.result.matches[k].reference, static_cast<int>(k));
+    EXPECT_EQ(run.result.matches[k].match.status, k == 1 ? Status::no_match : Status::converged);
+  }
+}
+
+TEST(Pipeline, TakesASensorWithoutOdometryToGoOnAsItWent) {
+  ScanSet scans = recording().observed;
+  for (Frame& frame : scans.frames) frame.odom_from_sensor = Pose2(1, 2, 0.5);
+  PipelineSpec pipeline;
+  pipeline.name = "p";
+  pipeline.slots = {{"extract", "test_line", {}}, {"match", "test_ahead", {}}};
+  const PipelineResult result = run_pipeline(pipeline, scans).result;
+  // The second match fails: its guess, the metre ahead of the first one, takes its place.
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Pose2 expected = Pose2(1, 2, 0.5) * Pose2(static_cast<double>(k), 0, 0);
+    EXPECT_NEAR((result.world_from_sensor[k].translation() - expected.translation()).norm(), 0.0, 1e-12) << k;
+  }
 }
 
 TEST(Pipeline, JournalHasARowForEveryWriteWithItsSlotFrameAndStage) {

@@ -10,7 +10,7 @@
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
-#include "harness/store/run_files.hpp"
+#include "harness/store/run_scenarios.hpp"
 #include "tests/support/inputs.hpp"
 
 namespace scanbench::harness {

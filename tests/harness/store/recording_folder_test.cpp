@@ -58,6 +58,26 @@ TEST(RecordingFolder, GivesBackEveryBitOfARecording) {
   }
 }
 
+TEST(RecordingFolder, GivesBackEveryBitOfThePosesToCompareWith) {
+  const testing::TemporaryFolder folder;
+  Recording saved = testing::random_recording(7, 3, 5, false);
+  saved.reference = ReferencePoses{{{0.1, 0.2, 0.3}, {1.0 / 3, -2.0 / 7, 3.1}, {0, 0, -1.1}},
+                                   {{2, 0, {1.0 / 7, 0.3, 2.2}}, {0, 1, {1, 1, -0.7}}}};
+  save_recording(folder.path() / "r", saved);
+  const Recording loaded = load_recording(folder.path() / "r");
+  ASSERT_TRUE(loaded.reference);
+  EXPECT_EQ(loaded.reference->world_from_sensor, saved.reference->world_from_sensor);
+  ASSERT_EQ(loaded.reference->relations.size(), 2U);
+  EXPECT_EQ(loaded.reference->relations[0].first, 2);
+  EXPECT_EQ(loaded.reference->relations[0].second, 0);
+  EXPECT_EQ(loaded.reference->relations[0].first_from_second, saved.reference->relations[0].first_from_second);
+
+  const std::string relations = read_file(folder.path() / "r" / "relations.csv");
+  write_file_atomically(folder.path() / "r" / "relations.csv", relations + "0,3,0,0,1,0\n");
+  EXPECT_THAT(config_refusal([&] { load_recording(folder.path() / "r"); }),
+              HasSubstr("relations.csv:4: frame 3 is not in frames.csv"));
+}
+
 TEST(RecordingFolder, HasTheFilesAndColumnsOfTheContract) {
   const testing::TemporaryFolder folder;
   const fs::path r = folder.path() / "r";

@@ -39,9 +39,9 @@ TEST(RunFile, IsATableOfAMetricFamilyInACellOnly) {
 
 TEST(RunFolder, HoldsFilesOfARun) {
   for (const char* path : {"cells", "cells/s", "cells/s/p", "cells/s/p/1", "recordings/s/1", "effective"})
-    EXPECT_TRUE(is_run_folder(path)) << path;
+    EXPECT_TRUE(holds_run_files(path)) << path;
   for (const char* path : {"", "notes", "cells/s/p/1/x", "recordings/s/1/x", "manifest.json"})
-    EXPECT_FALSE(is_run_folder(path)) << path;
+    EXPECT_FALSE(holds_run_files(path)) << path;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-// manifest.json, scenario.yaml, effective.yaml (or a folder of each), benchmark.json of a run, and copies of its input.
-#include "harness/store/run_files.hpp"
+// scenario.yaml and effective.yaml (or a folder of each), benchmark.json, and copies of the input of a run.
+#include "harness/store/run_scenarios.hpp"
 
+#include <algorithm>
 #include <variant>
 
 #include <nlohmann/json.hpp>
@@ -58,8 +59,11 @@ StoredInputs store_inputs(const fs::path& run, const Scenario& scenario, const s
     sources["lines"] = copy_input(lines->file, folder / kLinesCopy, lines->file_name);
     stored.lines = prefix + kLinesCopy.name();
   }
-  if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
+  if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input)) {
     sources["log"] = source_json(recorded->log, sha256_of_file(recorded->log));
+    if (!recorded->relations.empty())
+      sources["relations"] = source_json(recorded->relations, sha256_of_file(recorded->relations));
+  }
   if (sources.empty()) return stored;
   make_folders(folder);
   write_file_atomically(folder / kSourcesFile, sources.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -73,50 +77,34 @@ void add_sources(const fs::path& run, Scenario& scenario) {
   with_json_of(file, [&](const Json& sources) {
     if (auto* lines = std::get_if<LinesInput>(&scenario.input); lines != nullptr && sources.contains("lines"))
       lines->file_name = sources.at("lines").at("file").get<std::string>();
-    if (auto* recorded = std::get_if<RecordedInput>(&scenario.input); recorded != nullptr && sources.contains("log"))
-      recorded->log_sha256 = sources.at("log").at("sha256").get<std::string>();
+    if (auto* recorded = std::get_if<RecordedInput>(&scenario.input); recorded != nullptr) {
+      const auto hash_of = [&](const char* key) {
+        return sources.contains(key) ? sources.at(key).at("sha256").get<std::string>() : std::string();
+      };
+      recorded->log_sha256 = hash_of("log");
+      recorded->relations_sha256 = hash_of("relations");
+    }
   });
-}
-
-void write_scenarios(const fs::path& run, const RunStart& start) {
-  if (start.scenarios.size() == 1) {
-    const Scenario& scenario = start.scenarios.front();
-    const StoredInputs stored = store_inputs(run, scenario, "");
-    write_file_atomically(run / kScenarioFile, scenario.text);
-    write_file_atomically(run / kEffectiveFile, start.effective_yaml(scenario, stored));
-    return;
-  }
-  make_folders(run / "scenarios");
-  make_folders(run / "effective");
-  for (const auto& scenario : start.scenarios) {
-    const StoredInputs stored = store_inputs(run, scenario, "../");
-    write_file_atomically(run / "scenarios" / (scenario.name + ".yaml"), scenario.text);
-    write_file_atomically(run / "effective" / (scenario.name + ".yaml"), start.effective_yaml(scenario, stored));
-  }
 }
 
 }  // namespace
 
-Manifest start_run(const RunTarget& target, const RunStart& start) {
-  const fs::path& run = target.path();
-  make_folders(run);
-  Manifest manifest{"running", utc_now(), "", start.argv, {}, start.cells};
-  for (const auto& scenario : start.scenarios) manifest.scenarios.push_back(scenario.name);
-  write_manifest(run, manifest);  // with it the folder is ours
-  if (start.benchmark)
-    write_file_atomically(run / kBenchmarkFile, benchmark_json(*start.benchmark));
-  else
-    remove_file(run / kBenchmarkFile);
-  write_scenarios(run, start);
-  return manifest;
-}
-
-void end_run(RunTarget& target, Manifest& manifest, const std::string& state, bool reports_follow) {
-  manifest.state = state;
-  manifest.end = utc_now();
-  write_manifest(target.path(), manifest);
-  if (reports_follow) set_run_state(target.path(), "running");
-  target.finish();
+void write_run_scenarios(const fs::path& run, const std::vector<Scenario>& scenarios,
+                         const EffectiveText& effective_yaml) {
+  if (scenarios.size() == 1) {
+    const Scenario& scenario = scenarios.front();
+    const StoredInputs stored = store_inputs(run, scenario, "");
+    write_file_atomically(run / kScenarioFile, scenario.text);
+    write_file_atomically(run / kEffectiveFile, effective_yaml(scenario, stored));
+    return;
+  }
+  make_folders(run / "scenarios");
+  make_folders(run / "effective");
+  for (const auto& scenario : scenarios) {
+    const StoredInputs stored = store_inputs(run, scenario, "../");
+    write_file_atomically(run / "scenarios" / (scenario.name + ".yaml"), scenario.text);
+    write_file_atomically(run / "effective" / (scenario.name + ".yaml"), effective_yaml(scenario, stored));
+  }
 }
 
 std::vector<Scenario> load_run_scenarios(const fs::path& run) {
@@ -132,12 +120,22 @@ std::vector<Scenario> load_run_scenarios(const fs::path& run) {
   return scenarios;
 }
 
+void write_benchmark(const fs::path& run, const std::optional<BenchmarkSpec>& benchmark) {
+  if (benchmark)
+    write_file_atomically(run / kBenchmarkFile, benchmark_json(*benchmark));
+  else
+    remove_file(run / kBenchmarkFile);
+}
+
 std::optional<BenchmarkSpec> load_benchmark(const fs::path& run) {
   const fs::path path = run / kBenchmarkFile;
   if (!fs::exists(path)) return std::nullopt;
   const auto json = load_json_object(path);
   try {
-    return BenchmarkSpec{json.at("about"), json.at("baseline"), json.at("example")};
+    const BenchmarkSpec spec{json.at("about"), json.at("baseline"), json.at("example"), json.value("of", "extract")};
+    if (const auto slots = benchmark_slots(); std::ranges::find(slots, spec.of) == slots.end())
+      throw ConfigError(path.string() + ": no benchmark ranks modules of the kind " + spec.of);
+    return spec;
   } catch (const nlohmann::json::exception& error) {
     refuse_json(path, error);
   }

@@ -1,5 +1,5 @@
 // Names of statuses in files.
-#include "core/modules.hpp"
+#include "core/match.hpp"
 
 namespace scanbench {
 

@@ -1,0 +1,104 @@
+// Iterates pairs and steps until a step is small.
+#include "algorithms/map/parts/registration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "algorithms/align/parts/pose_equations.hpp"
+#include "algorithms/align/parts/register_scan.hpp"
+#include "core/number_text.hpp"
+
+namespace scanbench::mapping {
+namespace {
+
+constexpr double kSearchStep = radians(10.0);  // less than the angles up to which lines are partners
+
+double residual_of(const PointOnLine& pair, const Pose2& pose) {
+  return pair.normal.dot(pose * pair.point) - pair.offset_m;
+}
+
+/// The normal equations of one step, in metres (x, y, lever * yaw).
+struct Equations {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+};
+
+Equations equations_of(const std::vector<PointOnLine>& pairs, const Pose2& pose, double gate, double lever) {
+  Equations equations;
+  for (const PointOnLine& pair : pairs) {
+    const double residual = residual_of(pair, pose);
+    const double weight = pair.weight * align::tukey_weight(residual, gate);
+    const Eigen::Vector3d row = align::row_of(pair.normal, pose * pair.point, pose.translation(), lever);
+    equations.matrix += weight * row * row.transpose();
+    equations.right -= weight * residual * row;
+  }
+  return equations;
+}
+
+}  // namespace
+
+Registration register_on_lines(const FindPairs& find_pairs, const Pose2& predicted, double total_weight, double lever_m,
+                               const RegistrationRule& rule) {
+  const align::Gates gates{.wide_m = rule.wide_gate_m, .narrow_m = rule.narrow_gate_m};
+  Registration result{.map_from_sensor = predicted};
+  bool settled = false;
+  for (; result.iterations < rule.max_iterations && !settled; ++result.iterations) {
+    const double gate = gates.at(result.iterations);
+    const Equations equations =
+        equations_of(find_pairs(result.map_from_sensor, gate), result.map_from_sensor, 2 * gate, lever_m);
+    const align::Observable known = align::observable(equations.matrix);
+    result.rank = known.rank();
+    if (result.rank == 0) break;
+    const Eigen::Vector3d motion =
+        known.motions * (known.motions.transpose() * equations.right).cwiseQuotient(known.eigenvalues);
+    settled = align::move_by(motion, lever_m, result.map_from_sensor).small() && gates.narrow(result.iterations);
+  }
+  double weight = 0.0, squares = 0.0;
+  for (const PointOnLine& pair : find_pairs(result.map_from_sensor, rule.narrow_gate_m)) {
+    const double residual = residual_of(pair, result.map_from_sensor);
+    weight += pair.weight;
+    squares += pair.weight * residual * residual;
+  }
+  if (total_weight > 0) result.share = weight / total_weight;
+  if (weight > 0) result.rms_m = std::sqrt(squares / weight);
+  if (result.rank == 0 || result.share < rule.least_share) {
+    result.status = Status::no_match;
+    result.map_from_sensor = predicted;
+  } else if (result.rank < 3) {
+    result.status = Status::degenerate;
+  } else if (!settled) {
+    result.status = Status::max_iterations;
+  }
+  return result;
+}
+
+Registration with_search(const Locate& locate, const Pose2& predicted, const RegistrationRule& rule) {
+  Registration best = locate(predicted);
+  const int steps = static_cast<int>(rule.search_rad / kSearchStep + 1e-9);
+  for (int k = 1; k <= steps && best.share < rule.good_share; ++k)
+    for (const double side : {1.0, -1.0}) {
+      const Registration found = locate(predicted * Pose2(0, 0, side * k * kSearchStep));
+      if (found.status != Status::no_match && found.share > best.share) best = found;
+    }
+  if (best.status == Status::no_match) best.map_from_sensor = predicted;
+  return best;
+}
+
+std::string explained(const Registration& registration, const RegistrationRule& rule) {
+  switch (registration.status) {
+    case Status::converged:
+      break;
+    case Status::no_match:
+      return number_text(std::round(100 * registration.share)) + " % of the scan meets the map; at least " +
+             number_text(std::round(100 * rule.least_share)) + " % must";
+    case Status::degenerate:
+      return "the scan determines " + std::to_string(registration.rank) +
+             " of 3 motions; along the others poses are as predicted";
+    case Status::max_iterations:
+      return "poses still moved after " + std::to_string(registration.iterations) + " iterations";
+  }
+  return "";
+}
+
+}  // namespace scanbench::mapping

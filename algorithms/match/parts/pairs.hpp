@@ -1,0 +1,62 @@
+// Pairs of returns of two scans, and which of them count.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "algorithms/match/parts/nearest_return.hpp"
+#include "algorithms/match/parts/pose_information.hpp"
+#include "algorithms/match/parts/scan_points.hpp"
+
+namespace scanbench::matching {
+
+/// A return of the current scan and the return of the reference that is nearest to it.
+struct Pair {
+  std::size_t current = 0;
+  std::size_t reference = 0;
+  Vec2 point = Vec2::Zero();  ///< the current return, in the reference frame
+  double residual = 0.0;      ///< distance that the matcher minimises [m]
+};
+
+/// The nearest return within `gate_m` of every current one, or of every `stride`-th. `hints`, one per current return,
+/// carry the partners from call to call; any values at first.
+std::vector<Pair> nearest_pairs(const ReturnedPoints& current, const Pose2& reference_from_current, double gate_m,
+                                NearestReturn& reference, std::vector<std::size_t>& hints, std::size_t stride = 1);
+
+/// The stride of nearest_pairs() that is enough while the pose is far: 4, or 1 for scans of fewer than 80 returns and
+/// for fewer than 4 iterations.
+std::size_t stride_while_far(const ReturnedPoints& current, int max_iterations);
+
+/// Removes pairs without a local line at both ends and pairs whose lines differ by more than 20 degrees: their ends are
+/// on two sides of a corner.
+void keep_aligned(std::vector<Pair>& pairs, const std::vector<LocalLine>& lines,
+                  const std::vector<LocalLine>& current_lines, const Pose2& reference_from_current);
+
+/// The least ratio of a motion's information to the information that errors of the normals give an open motion. For an
+/// open motion the ratio has the mean 1, over the dozens of independent windows of a scan.
+inline constexpr double kLeastRatioOfPoints = 5.0;
+
+/// Keeps the `share` of the pairs with the smallest |residual|.
+void keep_nearest(std::vector<Pair>& pairs, double share);
+
+/// Keeps the pairs whose |residual| is at most `times` the median. More than half remain if times >= 1.
+void trim(std::vector<Pair>& pairs, double times);
+
+/// The information about the pose in pairs whose reference has a local line, by the noise of the current scan alone.
+struct PairInformation {
+  PoseEquations equations;
+  double misfit = 0.0;  ///< sum of squared residuals from the local lines, in standard deviations of both scans
+  int count = 0;
+};
+PairInformation pair_information(const std::vector<Pair>& pairs, const ReturnedPoints& current,
+                                 const std::vector<LocalLine>& lines, const Pose2& reference_from_current);
+
+/// The result for scans that have too little in common.
+Match no_match(const Pose2& guess);
+
+/// The result of a matcher of points: status, pose with open motions as in the guess, covariance. `settled`: the
+/// iterations converged.
+Match conclusion(const PairInformation& information, const Pose2& reference_from_current, const Pose2& guess,
+                 double lever_m, bool settled);
+
+}  // namespace scanbench::matching

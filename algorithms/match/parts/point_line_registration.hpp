@@ -1,0 +1,25 @@
+// Point-to-line registration of two scans: the matcher `plicp`, and the start of `optimal_match`.
+#pragma once
+
+#include "algorithms/match/parts/pairs.hpp"
+#include "core/trace/trace.hpp"
+
+namespace scanbench::matching {
+
+struct RegistrationRules {
+  double gate_m = 0.5;       ///< farthest partner
+  double keep = 0.9;         ///< share of the pairs, the nearest ones, that counts until the pose is near
+  double trim = 3.0;         ///< then pairs count up to so many times the median residual
+  double min_overlap = 0.3;  ///< share of the current returns that must have a partner
+  int max_iterations = 30;
+};
+
+/// Gauss-Newton on the distances of the current returns, each moved onto its own local line, from the local lines of
+/// their nearest returns in the reference. The weights follow from the noise across the lines. Pairs whose local lines
+/// differ by more than 20 degrees are on two sides of a corner and are left out. Motions that the lines leave open stay
+/// as in the guess.
+Match register_points_on_lines(const ReturnedPoints& reference, const std::vector<LocalLine>& lines,
+                               const ReturnedPoints& current, const std::vector<LocalLine>& current_lines,
+                               const Pose2& guess, const RegistrationRules& rules, Trace& trace);
+
+}  // namespace scanbench::matching

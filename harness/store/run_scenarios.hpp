@@ -1,0 +1,35 @@
+// The scenarios of a run folder, and the benchmark that a suite asks for.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/scenario/benchmark_spec.hpp"
+#include "harness/scenario/effective.hpp"
+#include "harness/scenario/scenario.hpp"
+
+namespace scanbench::harness {
+
+/// The text of an effective scenario whose input is copied into the run folder.
+using EffectiveText = std::function<std::string(const Scenario&, const StoredInputs&)>;
+
+/// Writes one scenario as scenario.yaml and effective.yaml, several as files in scenarios/ and effective/. What is
+/// needed of the scenarios' own files is copied to inputs/<scenario>/, so that reports, scores and figures need nothing
+/// outside the run folder: published values, a set of lines, and the name and hash of a log. Throws ConfigError.
+void write_run_scenarios(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
+                         const EffectiveText& effective_yaml);
+
+/// The scenarios of a run folder, from effective.yaml or effective/*.yaml, in the order of its manifest. Reads
+/// nothing outside the folder.
+std::vector<Scenario> load_run_scenarios(const std::filesystem::path& run);
+
+/// Writes benchmark.json; removes that of an earlier run if there is no benchmark.
+void write_benchmark(const std::filesystem::path& run, const std::optional<BenchmarkSpec>& benchmark);
+
+/// Reads benchmark.json; nothing if the run is a plain one. Throws ConfigError.
+std::optional<BenchmarkSpec> load_benchmark(const std::filesystem::path& run);
+
+}  // namespace scanbench::harness

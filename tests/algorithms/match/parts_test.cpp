@@ -1,0 +1,164 @@
+// Parts of scan matchers: nearest returns by brute force, local lines of known walls, equations by numerical
+// derivatives.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+#include "algorithms/match/optimal/wall_pairs.hpp"
+#include "algorithms/match/parts/nearest_return.hpp"
+#include "algorithms/match/parts/pose_information.hpp"
+#include "algorithms/match/parts/scan_points.hpp"
+#include "tests/support/scan_builder.hpp"
+
+namespace scanbench::matching {
+namespace {
+
+using testing::cast;
+using testing::fan_sensor;
+using testing::OwnedScan;
+using testing::ring_sensor;
+using testing::with_noise;
+
+void expect_nearest_by_brute_force(const OwnedScan& owned) {
+  const Scan scan = owned.view();
+  const ReturnedPoints points = returned_points(scan);
+  NearestReturn nearest(points);
+  CounterRng rng(7, RngStream::pose);
+  std::size_t hint = points.size();
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec2 p(12.0 * rng.uniform() - 6.0, 12.0 * rng.uniform() - 6.0);
+    const double gate = trial % 3 == 0 ? 0.2 : 20.0;
+    double least = gate;
+    for (const Vec2& q : points.points) least = std::min(least, (q - p).norm());
+    const auto found = nearest.find(p, gate, trial % 2 == 0 ? hint : points.size());
+    if (found) {
+      EXPECT_DOUBLE_EQ((points.points[*found] - p).norm(), least);
+      hint = *found;
+    } else {
+      EXPECT_EQ(least, gate);
+    }
+  }
+}
+
+TEST(NearestReturn, IsThatOfBruteForce) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto room = testing::random_room(seed);
+    expect_nearest_by_brute_force(with_noise(cast(ring_sensor(360), room), 0.05, seed));
+    expect_nearest_by_brute_force(with_noise(cast(fan_sensor(451, radians(270)), room), 0.05, seed));
+    expect_nearest_by_brute_force(with_noise(cast(fan_sensor(181, kPi), room), 0.3, seed));
+    OwnedScan clockwise = cast(fan_sensor(361, radians(270)), room);
+    SensorModel sensor;
+    sensor.geometry = ScanGeometry(radians(135), radians(-0.75), 361);
+    expect_nearest_by_brute_force(with_noise(cast(sensor, room), 0.05, seed));
+    OwnedScan holes = with_noise(cast(ring_sensor(360), room), 0.02, seed);
+    for (std::size_t i = 0; i < holes.ranges.size(); ++i)
+      if (i % 7 == 0 || (i > 100 && i < 200)) holes.ranges[i] = testing::kInf;
+    expect_nearest_by_brute_force(holes);
+  }
+}
+
+TEST(LocalLines, OfAWallAreTheWall) {
+  const OwnedScan scan = cast(fan_sensor(181, radians(120)), {{{2, -9}, {2, 9}}});
+  const Scan view = scan.view();
+  const ReturnedPoints points = returned_points(view);
+  for (const LocalLine& line : local_lines(points)) {
+    ASSERT_TRUE(line.known());
+    EXPECT_NEAR(std::fabs(line.normal.x()), 1.0, 1e-9);
+    EXPECT_NEAR(line.centre.x(), 2.0, 1e-9);
+  }
+}
+
+TEST(LocalLines, HaveTheAngleVarianceOfTheirErrors) {
+  // A wall seen obliquely too: along-beam noise must not turn its lines to one side.
+  double sum = 0.0, mean = 0.0;
+  int count = 0;
+  for (std::uint32_t frame = 0; frame < 200; ++frame) {
+    const OwnedScan scan = with_noise(cast(fan_sensor(181, radians(120)), {{{1, -9}, {1, 9}}}), 0.05, 3, frame);
+    const Scan view = scan.view();
+    const ReturnedPoints points = returned_points(view);
+    const std::vector<LocalLine> lines = local_lines(points);
+    const LocalLine& line = lines[points.size() / 4];
+    if (!line.known()) continue;
+    const double angle = wrap_direction(std::atan2(line.normal.y(), line.normal.x()));
+    sum += angle * angle / line.angle_variance;
+    mean += angle / std::sqrt(line.angle_variance);
+    ++count;
+  }
+  ASSERT_GT(count, 150);
+  EXPECT_NEAR(mean / count, 0.0, 0.3);
+  EXPECT_GT(sum / count, 0.5);
+  EXPECT_LT(sum / count, 1.6);
+}
+
+TEST(Motions, GoFromOnePoseToTheOther) {
+  const Pose2 a(1, 2, 3.0), b(-2, 0.5, -3.0);
+  const Pose2 back = moved(a, motion_between(a, b));
+  EXPECT_NEAR((back.translation() - b.translation()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(wrap_angle(back.yaw() - b.yaw()), 0.0, 1e-12);
+  EXPECT_NEAR(motion_between(a, b).z(), kTwoPi - 6.0, 1e-12);
+}
+
+TEST(Determined, LeavesOpenWhatErrorsOfNormalsWouldMakeOfNothing) {
+  // Two parallel walls whose normals are off by 0.01 rad, the standard deviation that they are said to have.
+  PoseEquations equations;
+  for (const double y : {-1.0, 1.0})
+    for (const double x : {-2.0, 0.0, 2.0}) {
+      const double turn = 0.01 * (x > 0 ? 1 : -1);
+      equations.add({std::sin(turn), std::cos(turn)}, {x, y}, 0.02, 1e4, 1e-4);
+    }
+  const Determined determined(equations, 2.0, 3.0);
+  EXPECT_EQ(determined.rank(), 2);
+  EXPECT_NEAR(determined.solve(equations.rhs).x(), 0.0, 1e-3);
+  EXPECT_NEAR(determined.solve(equations.rhs).y(), 0.02, 1e-3);
+  const Eigen::Matrix3d covariance = determined.covariance(1.0);
+  EXPECT_NEAR(std::sqrt(covariance(0, 0)), kOpenMotionM, 0.01 * kOpenMotionM);
+  EXPECT_LT(std::sqrt(covariance(1, 1)), 1.1);  // the open motion leans by a hundredth at most
+  EXPECT_NEAR((determined.project({5, 1, 0.1}) - Motion(0, 1, 0.1)).norm(), 0.0, 0.06);
+
+  // Walls across are measured, not guessed: the same normals with a wall at the end determine all.
+  equations.add({1, 0}, {4, 0}, 0.0, 1e4, 1e-4);
+  EXPECT_EQ(Determined(equations, 2.0, 3.0).rank(), 3);
+}
+
+TEST(WallEquations, AreThoseOfNumericalDerivatives) {
+  // The misfit of one pair is quadratic near its least: its derivatives are those of the equations.
+  Eigen::Matrix2d c1, c2;
+  c1 << 4e-6, 1e-6, 1e-6, 9e-6;
+  c2 << 3e-6, -2e-6, -2e-6, 8e-6;
+  const Vec2 normal(std::cos(0.4), std::sin(0.4));
+  const std::vector<MeasuredLine> reference{{2.0 * normal + 0.3 * perpendicular(normal), normal, 1.0, c1}};
+  const Pose2 pose(0.5, -0.3, 0.7);
+  const std::vector<MeasuredLine> current{
+      moved(pose.inverse(), {2.001 * normal - 0.2 * perpendicular(normal), normal, 0.8, c2})};
+  const std::vector<WallPair> pairs{{{0}, {0}}};
+  const auto misfit = [&](const Motion& motion) {
+    return wall_equations(pairs, reference, current, moved(pose, motion)).misfit;
+  };
+  const WallEquations found = wall_equations(pairs, reference, current, pose);
+  ASSERT_GT(found.walls, 0.99);
+  const double h = 1e-6;
+  for (int k = 0; k < 3; ++k) {
+    const Motion e = h * Motion::Unit(k);
+    const double slope = (misfit(e) - misfit(-e)) / (2 * h);
+    EXPECT_NEAR(-0.5 * slope, found.equations.rhs(k), 2e-3 * found.equations.rhs.norm()) << k;
+  }
+}
+
+TEST(PairWalls, JoinsWhatAnObstacleCutsInTwo) {
+  const Eigen::Matrix2d c = 1e-6 * Eigen::Matrix2d::Identity();
+  const Vec2 up(0, 1);
+  const std::vector<MeasuredLine> pieces{{{-2, 3}, up, 1.0, c}, {{2, 3}, up, 1.0, c}, {{2, 3.3}, up, 1.0, c}};
+  const std::vector<MeasuredLine> whole{{{0, 3}, up, 3.0, c}};
+  const PoseBelief belief{{}, 1e-6 * Eigen::Matrix3d::Identity()};
+  const auto one = pair_walls(pieces, whole, belief);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].reference, (std::vector<std::size_t>{0, 1}));
+  const auto other = pair_walls(whole, pieces, belief);
+  ASSERT_EQ(other.size(), 1u);
+  EXPECT_EQ(other[0].current, (std::vector<std::size_t>{0, 1}));
+}
+
+}  // namespace
+}  // namespace scanbench::matching
