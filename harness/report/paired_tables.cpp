@@ -136,7 +136,7 @@ std::vector<Table> paired_tables(const Scenario& scenario, const ComparableRows&
                                  const std::vector<CellLine>& cells) {
   std::vector<Table> tables;
   if (results.seeds.size() < 2 || results.pipelines.size() < 2) return tables;
-  for (const char* metric : {"position_error", "relation_position"})
+  for (const char* metric : {"position_error", "relations_position"})
     if (Table table = pairs_by(metric, scenario, results); !table.rows.empty()) tables.push_back(std::move(table));
   if (Table table = unplaced_seeds(scenario, results, cells); !table.rows.empty()) tables.push_back(std::move(table));
   return tables;

@@ -60,8 +60,8 @@ TEST(PairedTables, MarkIntervalsThatExcludeEquality) {
   Made made = two_pipelines(5);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const double a = 0.1 + 0.01 * static_cast<double>(seed);
-    made.add("a", seed, "relation_position", a);
-    made.add("b", seed, "relation_position", 0.5 * a);
+    made.add("a", seed, "relations_position", a);
+    made.add("b", seed, "relations_position", 0.5 * a);
   }
   const auto tables = paired_tables(made.scenario, made.results, {});
   ASSERT_THAT(tables, SizeIs(1));
