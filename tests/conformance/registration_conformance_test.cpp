@@ -157,23 +157,5 @@ TEST_P(AlignerConformance, TheAnswerIsTheSameTwice) {
   EXPECT_EQ(align(scans, believed()).world_from_sensor, align(scans, believed()).world_from_sensor);
 }
 
-class MapperConformance : public ::testing::TestWithParam<std::string> {};
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(MapperConformance);
-INSTANTIATE_TEST_SUITE_P(All, MapperConformance, ::testing::ValuesIn(Registry<Mapper>::names()),
-                         [](const auto& test) { return test.param; });
-
-TEST_P(MapperConformance, AMapWithoutScansIsEmptyAndAScanWithoutReturnsAddsNothing) {
-  const auto module = Registry<Mapper>::make(GetParam());
-  Trace silent;
-  EXPECT_TRUE(module->map().lines.empty());
-  const Seen empty(nothing());
-  module->insert(empty.view(), {}, silent);
-  EXPECT_TRUE(module->map().lines.empty());
-  const Seen full(room({0, 0, 0}));
-  module->insert(full.view(), {}, silent);
-  EXPECT_FALSE(module->map().lines.empty());
-  for (const MapLine& line : module->map().lines) EXPECT_TRUE(line.segment.a.allFinite() && line.segment.b.allFinite());
-}
-
 }  // namespace
 }  // namespace scanbench

@@ -22,7 +22,7 @@ std::vector<PoseRelation> relations(const std::string& text, const Pose2& robot_
 }
 
 std::string refusal(const std::string& text) {
-  return testing::config_refusal([&] { relations(text); });
+  return config_refusal([&] { relations(text); });
 }
 
 TEST(PoseRelations, AreBetweenTheFramesWithTheirStamps) {

@@ -13,6 +13,7 @@
 #include "harness/store/run_file.hpp"
 #include "harness/store/run_folder.hpp"
 #include "sim/line_copies.hpp"
+#include "tests/support/inputs.hpp"
 #include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
