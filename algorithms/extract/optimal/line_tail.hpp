@@ -2,8 +2,8 @@
 // docs/algorithms/optimal.md, section 5.
 #pragma once
 
-#include <array>
 #include <span>
+#include <vector>
 
 #include "algorithms/extract/parts/beam_line.hpp"
 
@@ -17,14 +17,14 @@ struct Tail {
 };
 
 inline constexpr int kLongestTail = 6;
-using Tails = std::array<Tail, kLongestTail + 1>;  ///< by number of readings
+using Tails = std::vector<Tail>;  ///< by number of readings, from none
 
 enum class End { first, last };
 
 /// Reading k of an end, counted from the outermost.
 const BeamReading& reading_from_end(std::span<const BeamReading> readings, End end, std::size_t k);
 
-/// The tails of up to `longest` readings; longer tails stay empty.
+/// The tails of none to `longest` readings.
 Tails tails_of(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise, End end,
                int longest);
 
