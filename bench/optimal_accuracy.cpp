@@ -1,14 +1,17 @@
 // Compares the accuracy of an extractor on simulated rooms with that of an oracle that knows which beams see which
 // wall. The difference is the cost of not knowing. Prints the table of docs/algorithms/optimal.md.
 //
-//   optimal_accuracy [--seeds FIRST COUNT] [--sigma CM] [--scene PART_OF_NAME] [--extractor NAME] [--why]
+//   optimal_accuracy [--seeds FIRST COUNT] [--sigma CM] [--scene PART_OF_NAME] [--world FILE]... [--scans N]
+//                    [--extractor NAME] [--why]
 //
+// --world takes files of worlds (vector maps, for example) in place of the scenes; --scans is per seed.
 // Uses the metrics `segments` and `efficiency` with their defaults: a run of beams on one wall is a true line from 9
 // returns and 0.5 m on. The second F1 ignores correct lines on smaller pieces. --why classifies all wrong lines. Seeds
 // below 100 are for development.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <span>
 #include <string>
@@ -189,6 +192,8 @@ struct Options {
   std::uint64_t seeds = 3;
   std::vector<double> sigmas_m = {0.01, 0.05};
   std::string scene;
+  std::vector<std::filesystem::path> worlds;
+  int scans = 0;  ///< per seed; 0: as many as the scene says
   std::string extractor = "optimal";
   bool why = false;
 };
@@ -217,6 +222,18 @@ void measure(const Scene& scene, double sigma_m, const Options& options) {
   if (options.why) reasons.print();
 }
 
+std::vector<Scene> scenes_of(const Options& options) {
+  std::vector<Scene> result;
+  for (const std::filesystem::path& file : options.worlds) {
+    const std::string name = file.filename().string();
+    result.push_back({.name = name.substr(0, name.find('.')), .file = file.string()});
+  }
+  if (!result.empty()) return result;
+  for (const Scene& scene : scenes())
+    if (scene.name.find(options.scene) != std::string::npos) result.push_back(scene);
+  return result;
+}
+
 int run(std::span<char*> args) {
   Options options;
   for (std::size_t i = 1; i < args.size(); ++i) {
@@ -231,12 +248,16 @@ int run(std::span<char*> args) {
       options.sigmas_m = {0.01 * std::strtod(args[++i], nullptr)};
     } else if (arg == "--scene" && left >= 1) {
       options.scene = args[++i];
+    } else if (arg == "--world" && left >= 1) {
+      options.worlds.emplace_back(std::filesystem::absolute(args[++i]));
+    } else if (arg == "--scans" && left >= 1) {
+      options.scans = std::atoi(args[++i]);
     } else if (arg == "--extractor" && left >= 1) {
       options.extractor = args[++i];
     } else {
       fmt::print(stderr,
-                 "{}: unknown argument; allowed: --seeds FIRST COUNT, --sigma CM, --scene PART_OF_NAME, "
-                 "--extractor NAME, --why\n",
+                 "{}: unknown argument; allowed: --seeds FIRST COUNT, --sigma CM, --scene PART_OF_NAME, --world FILE, "
+                 "--scans N, --extractor NAME, --why\n",
                  arg);
       return 2;
     }
@@ -247,8 +268,10 @@ int run(std::span<char*> args) {
       "|\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|\n");
   for (const double sigma_m : options.sigmas_m)
-    for (const Scene& scene : scenes())
-      if (scene.name.find(options.scene) != std::string::npos) measure(scene, sigma_m, options);
+    for (Scene scene : scenes_of(options)) {
+      if (options.scans > 0) scene.scans = options.scans;
+      measure(scene, sigma_m, options);
+    }
   return 0;
 }
 

@@ -33,14 +33,14 @@ struct BeamDraws {
 // `random` has the numbers of this reading, dropout() and normal(), and sigma(range) of the gaussian error.
 template <class Random>
 double reading(const SensorModel& sensor, double true_range_m, double cos_incidence, const BeamAddress& address,
-               const Random& random) {
+               const Random& random, double loss) {
   const SensorNoise& noise = sensor.noise;
   double range = true_range_m;
   if (!(range <= sensor.range_max_m)) return kInf;
   if (range < sensor.range_min_m) return -kInf;
-  if (noise.dropout_probability > 0 || noise.dropout_grazing > 0) {
+  if (noise.dropout_probability > 0 || noise.dropout_grazing > 0 || loss > 0) {
     const double slant = 1.0 - cos_incidence;
-    const double probability = noise.dropout_probability + noise.dropout_grazing * slant * slant;
+    const double probability = noise.dropout_probability + noise.dropout_grazing * slant * slant + loss;
     if (random.dropout() < probability) return kInf;
   }
   if (noise.spurious_probability > 0) {
@@ -85,9 +85,9 @@ double mixed_range(double range_a_m, double range_b_m, const BeamAddress& addres
   return range_a_m + draws(address, RngStream::mixed_pixel).uniform() * (range_b_m - range_a_m);
 }
 
-double observed_range(const SensorModel& sensor, double true_range_m, double cos_incidence,
-                      const BeamAddress& address) {
-  return reading(sensor, true_range_m, cos_incidence, address, BeamDraws{sensor.noise, address});
+double observed_range(const SensorModel& sensor, double true_range_m, double cos_incidence, const BeamAddress& address,
+                      double loss) {
+  return reading(sensor, true_range_m, cos_incidence, address, BeamDraws{sensor.noise, address}, loss);
 }
 
 ScanNoise::ScanNoise(const SensorModel& sensor, std::uint64_t seed, Isa isa)
@@ -126,12 +126,13 @@ std::size_t ScanNoise::list_returns(std::span<const double> true_ranges, std::sp
 }
 
 void ScanNoise::observe(std::uint32_t frame, std::span<const double> true_ranges, std::span<const double> cos_incidence,
-                        std::span<double> readings) {
+                        std::span<double> readings, std::span<const double> losses) {
   const SensorNoise& noise = sensor_.noise;
   const std::size_t count = list_returns(true_ranges, readings);
   const bool gaussian = noise.sigma_m > 0 || noise.sigma_relative > 0;
   if (gaussian) draw(kernels_.normals, seed_, RngStream::range, frame, beams_, normals_);
-  if (needs_incidence(noise)) draw(kernels_.uniforms, seed_, RngStream::dropout, frame, beams_, dropouts_);
+  if (needs_incidence(noise) || !losses.empty())
+    draw(kernels_.uniforms, seed_, RngStream::dropout, frame, beams_, dropouts_);
   struct ScanDraws {
     const ScanNoise& scan;
     std::size_t place;
@@ -147,8 +148,9 @@ void ScanNoise::observe(std::uint32_t frame, std::span<const double> true_ranges
   const double sigma = noise.gaussian_sigma(0.0);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = beams_[k];
-    readings[i] = reading(sensor_, true_ranges[i], cos_incidence.empty() ? 0.0 : cos_incidence[i],
-                          {seed_, frame, beams_[k]}, ScanDraws{*this, k, constant, sigma});
+    readings[i] =
+        reading(sensor_, true_ranges[i], cos_incidence.empty() ? 0.0 : cos_incidence[i], {seed_, frame, beams_[k]},
+                ScanDraws{*this, k, constant, sigma}, losses.empty() ? 0.0 : losses[i]);
   }
 }
 

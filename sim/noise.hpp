@@ -34,13 +34,14 @@ double bearing_error(const SensorNoise& noise, const BeamAddress& address);
 double mixed_range(double range_a_m, double range_b_m, const BeamAddress& address);
 
 /// The reading of a beam that hits a surface at `true_range_m` (finite or +inf, never negative) under an angle
-/// with cosine `cos_incidence` to its normal. In this order:
+/// with cosine `cos_incidence` to its normal. `loss` is the surface's own (World::losses). In this order:
 ///   nothing within range_max: +inf, no noise; closer than range_min: -inf;
-///   drop-out, with probability min(1, dropout_probability + dropout_grazing (1 - cos)^2): +inf;
+///   drop-out, with probability min(1, dropout_probability + dropout_grazing (1 - cos)^2 + loss): +inf;
 ///   short return, with spurious_probability: the range becomes uniform between range_min and the true one;
 ///   gaussian error with SensorNoise::gaussian_sigma of that range; rounding to multiples of the quantum;
 ///   a reading below range_min or not positive: -inf, above range_max: +inf (REP-117).
-double observed_range(const SensorModel& sensor, double true_range_m, double cos_incidence, const BeamAddress& address);
+double observed_range(const SensorModel& sensor, double true_range_m, double cos_incidence, const BeamAddress& address,
+                      double loss = 0.0);
 
 /// The same for whole scans: the random numbers of all beams are drawn at once. The readings are equal to the bit.
 class ScanNoise {
@@ -54,9 +55,10 @@ class ScanNoise {
   /// bearing_error() of every beam of a frame; empty without bearing noise. Valid until the next call.
   std::span<const double> bearing_errors(std::uint32_t frame, std::size_t beams);
 
-  /// observed_range() of every beam of a frame. `cos_incidence` may be empty if needs_incidence() is false.
+  /// observed_range() of every beam of a frame. `cos_incidence` may be empty if needs_incidence() is false, `losses` if
+  /// no surface has one.
   void observe(std::uint32_t frame, std::span<const double> true_ranges, std::span<const double> cos_incidence,
-               std::span<double> readings);
+               std::span<double> readings, std::span<const double> losses = {});
 
  private:
   std::size_t list_returns(std::span<const double> true_ranges, std::span<double> readings);

@@ -100,6 +100,18 @@ class Worker {
     }
   }
 
+  // The losses of the walls that the nominal beams of a frame hit; empty if no wall has one.
+  std::span<const double> losses(std::size_t k) {
+    const std::vector<double>& of_wall = input_.world.losses;
+    if (of_wall.empty()) return {};
+    const std::size_t n = beams();
+    losses_.assign(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i)
+      if (const std::int32_t wall = recording_.truth->wall_ids[k * n + i]; wall >= 0)
+        losses_[i] = of_wall[static_cast<std::size_t>(wall)];
+    return losses_;
+  }
+
   void observe(std::size_t k, std::size_t first) {
     const std::size_t n = beams();
     const auto frame = static_cast<std::uint32_t>(k);
@@ -107,7 +119,7 @@ class Worker {
     if (!real_) {
       const std::span<const double> incidence(cos_incidence_);
       noise_.observe(frame, std::span(recording_.truth->ranges).subspan(k * n, n),
-                     incidence_ ? incidence.subspan((k - first) * n, n) : incidence, readings);
+                     incidence_ ? incidence.subspan((k - first) * n, n) : incidence, readings, losses(k));
       return;
     }
     if (!input_.sweep) {
@@ -119,7 +131,7 @@ class Worker {
     real_cos_.resize(n);
     real_beams_.meet({frame, start(k), input_.sweep, std::span<const Ray>(rays_).subspan(at, n)},
                      noise_.bearing_errors(frame, n), real_ranges_, real_cos_);
-    noise_.observe(frame, real_ranges_, real_cos_, readings);
+    noise_.observe(frame, real_ranges_, real_cos_, readings, losses(k));
   }
 
   const SimulationInput& input_;
@@ -129,7 +141,7 @@ class Worker {
   RealBeams real_beams_;
   bool real_;
   bool incidence_;
-  std::vector<double> stamps_, cos_incidence_, real_ranges_, real_cos_;
+  std::vector<double> stamps_, cos_incidence_, real_ranges_, real_cos_, losses_;
   std::vector<Ray> rays_;
 };
 

@@ -69,6 +69,13 @@ Vec2 center(const World& world) {
 
 void validate(const World& world) {
   if (world.walls.empty()) throw ConfigError("the world '" + world.name + "' has no walls; it needs at least one");
+  if (!world.losses.empty() && world.losses.size() != world.walls.size())
+    throw ConfigError("the world '" + world.name + "' has losses of " + std::to_string(world.losses.size()) +
+                      " walls; it needs one for each of its " + std::to_string(world.walls.size()) + " walls, or none");
+  for (std::size_t i = 0; i < world.losses.size(); ++i)
+    if (!(world.losses[i] >= 0 && world.losses[i] <= 1))
+      throw ConfigError("wall '" + world.walls[i].label + "' has a loss of " + number_text(world.losses[i]) +
+                        "; allowed: a probability, 0 .. 1");
   std::set<std::string> labels;
   for (std::size_t i = 0; i < world.walls.size(); ++i) {
     const Wall& wall = world.walls[i];

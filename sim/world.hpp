@@ -33,6 +33,9 @@ struct World {
   std::string name;
   std::string about;
   std::vector<Wall> walls;
+  /// Per wall the probability that a beam on it returns nothing, added to the sensor's own: black surfaces, glass (1).
+  /// Empty if it is 0 for all walls.
+  std::vector<double> losses;
   std::vector<Circle> circles;
   std::vector<MovingBody> moving;
 };
@@ -41,7 +44,8 @@ struct World {
 inline constexpr double kMaxWorldExtentM = 1e5;
 
 /// Throws ConfigError for a world without walls, a wall or path without length, a radius or speed that is not positive,
-/// a number that is not finite, a label given to two walls, a world larger than kMaxWorldExtentM. Names the wall.
+/// a number that is not finite, a label given to two walls, a loss
+/// that is not a probability, a world larger than kMaxWorldExtentM. Names the wall.
 void validate(const World& world);
 
 /// The middle of the bounding box of all surfaces; the origin for an empty world.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/extract/optimal/hidden_break.hpp"
 #include "algorithms/extract/optimal/line_ends.hpp"
 #include "algorithms/extract/optimal/segmentation.hpp"
 #include "algorithms/extract/parts/beam_line.hpp"
@@ -24,7 +25,13 @@ struct DescriptionRow {
   static constexpr auto columns() { return std::tuple{column("length_nats", &DescriptionRow::length_nats)}; }
 };
 
-constexpr int kMinReadings = 3;  // fewest readings of a line; two readings are always on one line
+// The share of lines that are two walls nearly on one line, before the scan is seen, and the number of lines that this
+// share counts for.
+constexpr double kBreakShare = 0.1;
+constexpr double kBreakLines = 1.0;
+constexpr int kBreakRounds = 10;   // rounds of the estimate of that share
+constexpr int kBreakReadings = 4;  // fewest readings of each of the two walls
+constexpr int kMinReadings = 3;    // fewest readings of a line; two readings are always on one line
 
 struct Line {
   PointRun run;
@@ -53,6 +60,7 @@ class Extraction {
     fit();
     place_corners();
     average_over_ends();
+    average_over_breaks();
     trace.row(DescriptionRow{cost_});
     return result(rules);
   }
@@ -177,6 +185,29 @@ class Extraction {
       lines_[k].run.first += line.foreign[0];
       lines_[k].run.last -= line.foreign[1];
     }
+  }
+
+  // Averages every line over whether it is two walls nearly on one line. As with sides, the probability of that is
+  // estimated from the scan: a scan of a plain room shows no breaks, a scan of facets shows many.
+  void average_over_breaks() {
+    std::vector<std::optional<HiddenBreak>> breaks(lines_.size());
+    int possible = 0;
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      if (!lines_[k].fit) continue;
+      const std::optional<BeamLine> whole = fit(lines_[k].run, lines_[k].fit->theta);
+      if (!whole) continue;
+      breaks[k].emplace(*whole, readings(lines_[k].run), noise_, kBreakReadings);
+      possible += breaks[k]->possible() ? 1 : 0;
+    }
+    double share = kBreakShare;
+    for (int round = 0; round < kBreakRounds; ++round) {
+      double broken = kBreakShare * kBreakLines;
+      for (const auto& b : breaks)
+        if (b && b->possible()) broken += b->probability(share);
+      share = broken / (kBreakLines + possible);
+    }
+    for (std::size_t k = 0; k < lines_.size(); ++k)
+      if (breaks[k]) lines_[k].fit = breaks[k]->average(*lines_[k].fit, share);
   }
 
   ScanLines result(SupportRules rules) {

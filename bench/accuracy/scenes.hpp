@@ -15,7 +15,7 @@ namespace scanbench::accuracy {
 /// A world. With an empty `file` it is the L-shaped room or random rooms.
 struct Scene {
   std::string name;
-  std::string file;            ///< in scenarios/worlds
+  std::string file;            ///< in scenarios/worlds, or a whole path
   bool random_rooms = false;   ///< a new room for every 25 scans
   double least_returns = 0.9;  ///< share of directions that must hit a wall; distinguishes inside from outside
   int scans = 300;             ///< number of scans per seed

@@ -42,6 +42,7 @@ class WorldReader {
     read_chains("polygons", 3, true);
     read_circles();
     read_moving();
+    read_losses();
     if (world_.walls.empty())
       throw PlacedError(map.mark(), "the world has no walls; allowed: at least one in segments, polylines or polygons");
   }
@@ -123,6 +124,26 @@ class WorldReader {
       const double radius = unit_m_ * read_number(v[3], "radius");
       if (!(radius > 0)) throw PlacedError(v[3].mark, fmt::format("radius is {}; allowed: a number > 0", v[3].text));
       world_.circles.push_back({read_label(v[0], "a circle's label"), point(v[1], v[2], "x or y"), radius});
+    }
+  }
+
+  void read_losses() {
+    const YamlNode* node = map_.find("losses");
+    if (node == nullptr) return;
+    if (node->kind != YamlKind::map)
+      throw PlacedError(node->mark,
+                        fmt::format("losses is {}; allowed: a map, wall: probability", describe_node(*node)));
+    world_.losses.assign(world_.walls.size(), 0.0);
+    for (const auto& entry : node->entries) {
+      const auto wall = std::ranges::find(world_.walls, entry.key, &Wall::label);
+      if (wall == world_.walls.end())
+        throw PlacedError(entry.mark, fmt::format("losses names a wall {}, which the world does not have; allowed: the "
+                                                  "label of a segment, or name.number of a polyline or polygon",
+                                                  quoted_excerpt(entry.key)));
+      const double loss = read_number(entry.value, "a loss");
+      if (!(loss >= 0 && loss <= 1))
+        throw PlacedError(entry.value.mark, fmt::format("a loss is {}; allowed: a probability, 0 .. 1", loss));
+      world_.losses[static_cast<std::size_t>(wall - world_.walls.begin())] = loss;
     }
   }
 
@@ -269,6 +290,11 @@ YamlNode to_yaml(const sim::World& world) {
   for (const auto& wall : world.walls)
     segments.items.push_back(
         row({wall.segment.a.x(), wall.segment.a.y(), wall.segment.b.x(), wall.segment.b.y()}, wall.label));
+  if (!world.losses.empty()) {
+    YamlNode& losses = yaml_add(map, "losses", yaml_map());
+    for (std::size_t i = 0; i < world.losses.size(); ++i)
+      if (world.losses[i] > 0) yaml_add(losses, world.walls[i].label, yaml_number(world.losses[i]));
+  }
   if (!world.circles.empty()) {
     YamlNode& circles = yaml_add(map, "circles", yaml_sequence());
     for (const auto& c : world.circles) circles.items.push_back(row({c.center.x(), c.center.y(), c.radius_m}, c.label));

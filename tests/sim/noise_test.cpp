@@ -143,6 +143,32 @@ TEST(Noise, DropOutHasItsFrequencyAndGrowsWithIncidence) {
   expect_frequency(count_of(readings(sensor, 5.0, 0.0), kInf), 0.78);
 }
 
+TEST(Noise, TheLossOfASurfaceIsAddedToTheDropOutOfTheSensor) {
+  SensorModel sensor = quiet_sensor();
+  sensor.noise.dropout_probability = 0.18;
+  const auto lost = [&](double loss) {
+    return count_of(million([&](const BeamAddress& a) { return observed_range(sensor, 5.0, 1.0, a, loss); }), kInf);
+  };
+  expect_frequency(lost(0.5), 0.68);
+  EXPECT_EQ(lost(1.0), kCount);
+  sensor.noise.dropout_probability = 0.0;
+  expect_frequency(lost(0.3), 0.3);
+}
+
+TEST(Noise, LossesOfAWholeScanAreThoseOfItsReadings) {
+  SensorModel sensor = quiet_sensor();
+  sensor.noise.sigma_m = 0.02;
+  const std::vector<double> ranges(kBeams, 5.0), losses{[] {
+    std::vector<double> values(kBeams);
+    for (std::size_t i = 0; i < kBeams; ++i) values[i] = static_cast<double>(i % 3) / 2.0;
+    return values;
+  }()};
+  std::vector<double> values(kBeams);
+  ScanNoise(sensor, 7).observe(2, ranges, {}, values, losses);
+  for (std::uint32_t i = 0; i < kBeams; ++i)
+    EXPECT_EQ(values[i], observed_range(sensor, 5.0, 0.0, {7, 2, i}, losses[i])) << i;
+}
+
 TEST(Noise, ShortReturnsHaveTheirFrequencyAndAreUniformUpToTheTruth) {
   SensorModel sensor = quiet_sensor();
   sensor.noise.spurious_probability = 0.1;

@@ -39,6 +39,23 @@ Trajectory drive_through_rooms(int scans) {
   return drive(poses);
 }
 
+TEST(Simulate, APaneReturnsNothingAndTheOtherWallsReadAsBefore) {
+  SimulationInput input;
+  input.world.walls = {{"wall", {{3, -4}, {3, 0}}}, {"pane", {{3, 0}, {3, 4}}}, {"behind", {{6, -9}, {6, 9}}}};
+  input.sensor = make_sensor("ladar_2d30", {{"sigma_m", 0.02}});
+  input.trajectory = drive({{0, 0, 0}, {0.2, 0.1, 0.1}});
+  const Recording plain = simulate(input);
+  input.world.losses = {0.0, 1.0, 0.0};
+  const Recording glazed = simulate(input);
+  EXPECT_EQ(plain.truth->ranges, glazed.truth->ranges);
+  EXPECT_EQ(plain.truth->wall_ids, glazed.truth->wall_ids);
+  const std::size_t n = plain.observed.frames[0].ranges.size();
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < n; ++i)
+      EXPECT_EQ(glazed.observed.frames[k].ranges[i],
+                glazed.truth->wall_ids[k * n + i] == 1 ? kInf : plain.observed.frames[k].ranges[i]);
+}
+
 SimulationInput noisy_rooms(int scans) {
   SimulationInput input;
   input.world = test::rooms_world(3, 3, {0, 0});

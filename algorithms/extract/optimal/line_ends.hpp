@@ -28,7 +28,7 @@ struct UncertainLine {
 /// The readings at one end that may be foreign: up to six.
 struct UncertainEnd {
   int longest = 0;
-  Tails tails;
+  Tails tails = Tails(1);
   /// Density of the foreign readings, by their number, divided by the density of normal errors of 0: with a side that
   /// joins the line with the next one, and without. The former is a sum over where the side ends, with equal
   /// probabilities.

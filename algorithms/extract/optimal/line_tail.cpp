@@ -14,7 +14,7 @@ const BeamReading& reading_from_end(std::span<const BeamReading> readings, End e
 
 Tails tails_of(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise, End end,
                int longest) {
-  Tails tails;
+  Tails tails(as_index(longest) + 1);
   for (std::size_t j = 1; j <= as_index(longest); ++j) {
     const BeamReading& b = reading_from_end(readings, end, j - 1);
     const double r = fit.range(b.direction);

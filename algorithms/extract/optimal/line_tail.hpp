@@ -2,8 +2,8 @@
 // docs/algorithms/optimal.md, section 5.
 #pragma once
 
-#include <array>
 #include <span>
+#include <vector>
 
 #include "algorithms/extract/parts/beam_line.hpp"
 
@@ -17,14 +17,14 @@ struct Tail {
 };
 
 inline constexpr int kLongestTail = 6;
-using Tails = std::array<Tail, kLongestTail + 1>;  ///< indexed by the number of readings
+using Tails = std::vector<Tail>;  ///< indexed by the number of readings, from 0
 
 enum class End { first, last };
 
 /// Reading k of an end, counted from the outermost one.
 const BeamReading& reading_from_end(std::span<const BeamReading> readings, End end, std::size_t k);
 
-/// The tails of up to `longest` readings. Longer tails are empty.
+/// The tails of 0 to `longest` readings.
 Tails tails_of(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise, End end,
                int longest);
 

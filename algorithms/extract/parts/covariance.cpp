@@ -1,9 +1,32 @@
 // First-order propagation of the noise of the readings through a line fit.
 #include "algorithms/extract/parts/covariance.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
+#include <Eigen/LU>
+
+#include "core/geometry/portable_math.hpp"
 #include "core/index.hpp"
 
 namespace scanbench::extract {
+
+namespace {
+
+constexpr std::size_t kMostTrimmed = 5;  // points at each end, and at most a fifth of all
+// Squared Mahalanobis distance (two degrees of freedom) between the lines with and without the ends, from which on the
+// ends count as foreign. Noise alone exceeds it in one line of seven.
+constexpr double kForeign = 4.0;
+
+// Offset at a point along the normal of `reference`, and angle, of a line from `reference`.
+Eigen::Vector2d shift(const LineFit& line, const PolarLine& reference, const Vec2& at) {
+  const Vec2 m = reference.normal();
+  const double side = line.normal.dot(m) < 0 ? -1.0 : 1.0;
+  const Vec2 n = side * line.normal;
+  return {side * line.offset - n.dot(at), portable::atan2(cross(m, n), m.dot(n))};
+}
+
+}  // namespace
 
 std::optional<Eigen::Matrix2d> tls_covariance(const Scan& scan, const ScanPoints& points, std::span<const int> support,
                                               const PolarLine& line, const Vec2& at) {
@@ -41,6 +64,23 @@ std::optional<Eigen::Matrix2d> tls_covariance(const Scan& scan, const ScanPoints
   return result;
 }
 
+std::optional<Eigen::Matrix2d> checked_covariance(const Scan& scan, const ScanPoints& points,
+                                                  std::span<const int> support, const PolarLine& line, const Vec2& at) {
+  const auto whole = tls_covariance(scan, points, support, line, at);
+  const std::size_t n = support.size();
+  const std::size_t trim = std::min(kMostTrimmed, n / 5);
+  if (!whole || trim == 0) return whole;
+  const auto inner = support.subspan(trim, n - 2 * trim);
+  const LineFit fit = fit_line(moments_of(points.points, inner));
+  const auto trimmed = tls_covariance(scan, points, inner, line, at);
+  if (fit.degenerate || !trimmed) return std::nullopt;
+  const Eigen::Vector2d d = shift(fit, line, at);
+  // The fit to all points is the more exact one, so the difference of the two has the difference of their covariances.
+  const Eigen::Matrix2d expected = *trimmed - *whole;
+  if (expected(0, 0) > 0 && expected.determinant() > 0 && d.dot(expected.inverse() * d) <= kForeign) return whole;
+  return *trimmed + d * d.transpose();
+}
+
 void add_covariances(const Scan& scan, const ScanPoints& points, ScanLines& lines) {
   std::vector<std::vector<int>> supports(lines.lines.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -49,7 +89,10 @@ void add_covariances(const Scan& scan, const ScanPoints& points, ScanLines& line
   }
   for (std::size_t k = 0; k < supports.size(); ++k) {
     LineFeature& f = lines.lines[k];
-    f.covariance = tls_covariance(scan, points, supports[k], f.line, f.segment.midpoint());
+    // By place along the line: in a full turn the scan may begin in the middle of it.
+    std::ranges::stable_sort(supports[k], {},
+                             [&](int i) { return perpendicular(f.line.normal()).dot(points.points[as_index(i)]); });
+    f.covariance = checked_covariance(scan, points, supports[k], f.line, f.segment.midpoint());
   }
 }
 

@@ -27,6 +27,14 @@ namespace scanbench::extract {
 std::optional<Eigen::Matrix2d> tls_covariance(const Scan& scan, const ScanPoints& points, std::span<const int> support,
                                               const PolarLine& line, const Vec2& at);
 
+/// tls_covariance() if the points at both ends of the support agree with the others. At a corner an extractor admits
+/// points of the next wall that happen to be within its tolerance, and no noise model includes them. The line is
+/// therefore fitted again without up to a fifth of its points at each end. If it moves by more than the noise explains,
+/// the ends are foreign: the covariance is then that of the trimmed line plus the square of the movement. Absent also
+/// if the trimmed support determines no line. `support` is in order along the line.
+std::optional<Eigen::Matrix2d> checked_covariance(const Scan& scan, const ScanPoints& points,
+                                                  std::span<const int> support, const PolarLine& line, const Vec2& at);
+
 /// Sets the covariance of each line at its segment's midpoint. The lines must be total-least-squares fits to the points
 /// with their labels.
 void add_covariances(const Scan& scan, const ScanPoints& points, ScanLines& lines);

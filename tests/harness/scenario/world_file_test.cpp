@@ -40,6 +40,27 @@ TEST(WorldFile, PolygonsAreClosedAndPolylinesAreNot) {
   EXPECT_EQ(world.walls[4].segment.b, Vec2(3, 0));
 }
 
+TEST(WorldFile, LossesAreOfTheWallsThatTheyName) {
+  const std::string walls = "segments: [[a, 0, 0, 4, 0]]\npolygons: {g: [[3, 1], [4, 1], [4, 2]]}\n";
+  EXPECT_TRUE(world_of(walls).losses.empty());
+  const sim::World world = world_of(walls + "losses: {g.2: 0.6, a: 1}\n");
+  EXPECT_EQ(world.losses, (std::vector<double>{1, 0, 0.6, 0}));
+  const YamlNode again = to_yaml(world);
+  EXPECT_EQ(parse_world("schema: 1\n" + write_yaml(again), "w.yaml").losses, world.losses);
+  const auto message_of = [&](const std::string& losses) {
+    try {
+      world_of(walls + losses);
+      return std::string();
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_THAT(message_of("losses: {b: 1}\n"), HasSubstr("w.yaml:4:10: losses names a wall"));
+  EXPECT_THAT(message_of("losses: {a: 1.5}\n"),
+              HasSubstr("w.yaml:4:13: a loss is 1.5; allowed: a probability, 0 .. 1"));
+  EXPECT_THAT(message_of("losses: [a]\n"), HasSubstr("w.yaml:4:9: losses is"));
+}
+
 TEST(WorldFile, NumericLabelsAreWords) {
   EXPECT_EQ(world_of("segments: [[15, 0, 0, 1, 0]]\n").walls[0].label, "15");
 }
