@@ -159,7 +159,7 @@ TEST_F(Verbs, QuietRunsStillSayThatCellsFailed) {
   const auto outcome = here({"run", "slow.yaml", "--out", "slow", "-q", "--no-figures"});
   EXPECT_EQ(outcome.code, 3);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("1 of 1 cells failed"), HasSubstr("room/iepf/1")));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("1 of 1 cells failed"), HasSubstr("slow/iepf/1")));
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
