@@ -16,8 +16,8 @@
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
-#include "harness/store/run_start.hpp"
 #include "harness/store/run_folder.hpp"
+#include "harness/store/run_start.hpp"
 #include "harness/store/run_target.hpp"
 
 namespace scanbench::app {
@@ -111,6 +111,7 @@ std::vector<fs::path> folders_of(const fs::path& folder) {
 
 int export_recordings(const Options& options) {
   const fs::path folder = fs::path(options.run) / "recordings";
+  if (!fs::exists(options.run)) throw ConfigError(options.run + ": no such folder");
   if (!fs::exists(folder)) throw ConfigError(options.run + ": not a run folder: it has no recordings/");
   const std::string ending = options.format == "carmen" ? ".log" : options.format == "csv" ? ".csv" : ".txt";
   const fs::path out = options.out.empty() ? fs::path(options.run) / "export" : fs::path(options.out);

@@ -17,9 +17,9 @@
 #include "harness/run/runner.hpp"
 #include "harness/run/score.hpp"
 #include "harness/store/manifest.hpp"
-#include "harness/store/run_scenarios.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_lock.hpp"
+#include "harness/store/run_scenarios.hpp"
 
 namespace scanbench::app {
 namespace {

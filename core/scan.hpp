@@ -15,8 +15,8 @@
 
 namespace scanbench {
 
-/// A view of one scan: the sensor's data sheet and one range in metres per beam. Special values as in ROS REP-117: +inf nothing in range, -inf
-/// too close, NaN faulty.
+/// A view of one scan: the sensor's data sheet and one range in metres per beam. Special values as in ROS REP-117: +inf
+/// nothing in range, -inf too close, NaN faulty.
 struct Scan {
   const SensorModel& sensor;
   std::span<const double> ranges;

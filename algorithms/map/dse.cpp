@@ -53,7 +53,7 @@ class Dse final : public Mapper {
     PredictionKind prediction = PredictionKind::odometry;
     double gate_m = 0.5;
     double min_share = 0.3;
-    double search_deg = 40.0;
+    double search_deg = 0.0;
     double min_length_m = 0.0;
     int min_members = 1;
     static auto fields();

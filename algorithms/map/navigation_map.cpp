@@ -34,7 +34,7 @@ class NavigationMap final : public Mapper {
     Correlation correlation = Correlation::segment_point;
     double gate_m = 0.5;
     double min_share = 0.3;
-    double search_deg = 40.0;
+    double search_deg = 0.0;
     double unite_angle_deg = 10.0;
     double unite_offset_m = 0.10;
     double unite_gap_m = 0.20;

@@ -7,7 +7,8 @@
 
 namespace scanbench {
 
-/// A part of a module's work; before the colon, the kinds of module that have it. A new part is one more enumerator here and its name in stage.cpp.
+/// A part of a module's work; before the colon, the kinds of module that have it. A new part is one more enumerator
+/// here and its name in stage.cpp.
 enum class Stage {
   pre,         ///< extract, match: scans are prepared
   segment,     ///< extract: points are grouped into lines

@@ -28,8 +28,8 @@
 #include "harness/store/json_file.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
-#include "harness/store/run_scenarios.hpp"
 #include "harness/store/run_folder.hpp"
+#include "harness/store/run_scenarios.hpp"
 #include "harness/store/summary.hpp"
 
 namespace scanbench::harness {

@@ -45,7 +45,8 @@ TEST(Bytes, OneJobTwoJobsAndAnInterruptedRunThatIsResumedGiveTheSame) {
   ASSERT_EQ(run(abcdef_run(folder / "cut", more)).code, 0);
 
   const auto expected = results(folder / "one");
-  EXPECT_EQ(expected.size(), 8U * 6U + 24U * 3U + 4U);  // recordings; labels, lines, metrics; summary, published
+  EXPECT_EQ(expected.size(),
+            8U * 6U + 24U * 4U + 5U);  // recordings; labels, lines, scans, metrics; summary, published, input
   EXPECT_THAT(differences(expected, results(folder / "two")), IsEmpty());
   EXPECT_THAT(differences(expected, results(folder / "cut")), IsEmpty());
 }
@@ -79,6 +80,7 @@ TEST(Bytes, TheEffectiveScenarioRunAgainElsewhereGivesTheSame) {
   ASSERT_EQ(run(abcdef_run(folder / "a", {})).code, 0);
   fs::create_directories(folder / "elsewhere");
   fs::copy_file(folder / "a/effective.yaml", folder / "elsewhere/effective.yaml");
+  fs::copy(folder / "a/inputs", folder / "elsewhere/inputs", fs::copy_options::recursive);
   const auto again = run({"run", "effective.yaml", "--no-figures", "-q", "--out", "b"}, {}, folder / "elsewhere");
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_THAT(differences(results(folder / "a"), results(folder / "elsewhere/b")), IsEmpty());

@@ -18,11 +18,14 @@ namespace {
 using testing::OwnedScan;
 using testing::ScanSeries;
 
+// Every return is in a line, as in the papers.
+const ParamSet kAllReturns{{"max_gap_m", 0.0}, {"min_points", std::int64_t{2}}};
+
 // An observation that owns its scan, with the lines of an extractor that always exists.
 struct Seen {
   explicit Seen(OwnedScan s) : scan(std::move(s)), scan_view(scan.view()) {
     Trace silent;
-    lines = Registry<LineExtractor>::make("iepf")->extract(scan_view, silent);
+    lines = Registry<LineExtractor>::make("iepf", kAllReturns)->extract(scan_view, silent);
   }
   Seen(const Seen&) = delete;
   Observation view() const { return {scan_view, lines}; }
@@ -75,7 +78,7 @@ std::vector<Pose2> believed() {
 
 ScanSeries of_each(const std::vector<OwnedScan>& scans) {
   ScanSeries series;
-  for (const OwnedScan& scan : scans) series.add_extracted(scan, "iepf");
+  for (const OwnedScan& scan : scans) series.add_extracted(scan, "iepf", kAllReturns);
   return series;
 }
 

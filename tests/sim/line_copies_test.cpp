@@ -16,8 +16,12 @@
 namespace scanbench::sim {
 namespace {
 
-const World kTwoWalls{
-    .name = "w", .about = "", .walls = {{"a", {{0, 0}, {1, 0}}}, {"b", {{2, 3}, {2, 5}}}}, .circles = {}, .moving = {}};
+const World kTwoWalls{.name = "w",
+                      .about = "",
+                      .walls = {{"a", {{0, 0}, {1, 0}}}, {"b", {{2, 3}, {2, 5}}}},
+                      .losses = {},
+                      .circles = {},
+                      .moving = {}};
 
 TEST(LineCopies, AreTheWallsAtPosesThatDiffer) {
   const Recording r = line_copies(kTwoWalls, {.copies = 5, .rotation_sigma_rad = 0.02, .shift_sigma_m = 0.03}, 7);

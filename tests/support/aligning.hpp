@@ -46,9 +46,9 @@ class ScanSeries {
     add(std::move(scan), std::move(lines));
   }
   /// Adds a scan with the lines that an extractor finds.
-  void add_extracted(OwnedScan scan, std::string_view extractor = "kovesi") {
+  void add_extracted(OwnedScan scan, std::string_view extractor = "kovesi", const ParamSet& params = {}) {
     Trace silent;
-    ScanLines lines = Registry<LineExtractor>::make(extractor)->extract(scan.view(), silent);
+    ScanLines lines = Registry<LineExtractor>::make(extractor, params)->extract(scan.view(), silent);
     add(std::move(scan), std::move(lines));
   }
 

@@ -37,8 +37,8 @@ struct Shift {
   Float3 step;
 };
 
-/// The mean shift; the kernel-weighted covariance about m(t); and the density that eq. 1 climbs if the kernel is cut off
-/// at c: the sum of exp(-d^2/2) - exp(-c^2/2). I - covariance is minus the Hessian of the log density.
+/// The mean shift; the kernel-weighted covariance about m(t); and the density that eq. 1 climbs if the kernel is cut
+/// off at c: the sum of exp(-d^2/2) - exp(-c^2/2). I - covariance is minus the Hessian of the log density.
 struct ShiftAndCovariance {
   Shift shift;
   float density = 0.0F;

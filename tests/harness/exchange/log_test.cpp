@@ -191,7 +191,8 @@ TEST(CsvLog, RefusalsNamePlaceAndFinding) {
   EXPECT_THAT(refusal("1,,3\n"), HasSubstr("l.csv:1:3: a range is ''"));
   EXPECT_THAT(refusal("1\n", {{"columns", std::string("t_s x_m ranges")}}),
               HasSubstr("a row of 1 fields; allowed: at least 3"));
-  EXPECT_THAT(refusal("1\n", {{"columns", std::string("t_s x")}}), HasSubstr("columns has 'x'; allowed: t_s"));
+  EXPECT_THAT(refusal("1\n", {{"columns", std::string("t_s x")}}),
+              HasSubstr("columns has 'x'; did you mean 'x_m'? allowed: t_s"));
   EXPECT_THAT(refusal("1\n", {{"columns", std::string("t_s t_ms ranges")}}), HasSubstr("a second time"));
   EXPECT_THAT(refusal("1\n", {{"columns", std::string("t_s")}}), HasSubstr("columns has no 'ranges'"));
   EXPECT_THAT(refusal("# nothing\n"), HasSubstr("no row with a scan"));

@@ -62,10 +62,10 @@ TEST(Forecast, CountsTheSelectionOnly) {
 TEST(Forecast, NamesPipelinesThatFailAndThoseThatGrowFasterThanTheScans) {
   const std::vector<Scenario> scenarios{
       room("{name: good, extract: {module: iepf}, merge: {module: greedy_pairs}}, "
-           "{name: bad, extract: {module: test_throw}}")};
+           "{name: bad, extract: {module: test_faulty_line, params: {fault: 1}}}")};
   const ScenarioForecast room = forecast_run(scenarios, {.out = "unused"}).scenarios[0];
   EXPECT_FALSE(room.in_proportion);
-  EXPECT_THAT(room.faults, ElementsAre(HasSubstr("bad: failed: ")));
+  EXPECT_THAT(room.faults, ElementsAre(HasSubstr("bad: invalid: ")));
 }
 
 TEST(Forecast, OfFewScansIsTheirRun) {

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <iostream>
 
+#include "harness/files/atomic_file.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/run/cell_address.hpp"
 #include "harness/run/make_recording.hpp"
@@ -205,6 +208,10 @@ TEST(ShippedSuites, LoadWithTheirSeeds) {
   for (const auto& file : yaml_files(source_dir() / "scenarios/suites")) {
     SCOPED_TRACE(file);
     EXPECT_TRUE(is_suite(file));
+    if (read_file(file).find("../logs/") != std::string::npos && std::getenv("SCANBENCH_DATA") == nullptr) {
+      std::cout << "SCANBENCH_DATA is not set: " << file << " is not read\n";
+      continue;
+    }
     EXPECT_FALSE(load_suite(file).scenarios.empty());
   }
   EXPECT_FALSE(is_suite(source_dir() / "scenarios/abcdef.yaml"));

@@ -76,13 +76,13 @@ TEST(Registration, WithTooFewPartnersIsNoMatchAtThePredictedPose) {
 
 TEST(Search, FindsATurnThatIsTooLargeForTheGates) {
   const Walls room(testing::box(-3, -2, 4, 2), {0.5, 0.3, 0.2});
-  const Pose2 slipped(0.5, 0.3, 0.2 - radians(27));
+  const Pose2 slipped(0.5, 0.3, 0.2 - radians(38));
   const RegistrationRule rule{.search_rad = radians(40)};
   const Locate locate = [&](const Pose2& from) { return room.on(from, rule); };
   const Registration found = with_search(locate, slipped, rule);
   EXPECT_EQ(found.status, Status::converged);
   EXPECT_NEAR(found.map_from_sensor.yaw(), 0.2, 1e-9);
-  EXPECT_LT(locate(slipped).share, found.share);
+  EXPECT_NE(locate(slipped).status, Status::converged);
 }
 
 TEST(Search, IsNotMadeWhereThePredictionFitsWell) {
