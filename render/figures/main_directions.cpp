@@ -76,7 +76,24 @@ struct Adoption {
   double angle_rad = 0.0;
 };
 
-/// The last direction that appears for the first time.
+/// The first frame of the longest run of frames in which the direction is a main one: before, it may come and go.
+int lasting_from(const History& history, double angle_rad) {
+  int best = 0, best_length = 0, begin = 0, length = 0;
+  for (const auto& [frame, angles] : history.directions) {
+    if (std::ranges::none_of(angles, [&](double other) { return same(angle_rad, other); })) {
+      length = 0;
+      continue;
+    }
+    if (length++ == 0) begin = frame;
+    if (length > best_length) {
+      best = begin;
+      best_length = length;
+    }
+  }
+  return best;
+}
+
+/// The last direction that appears for the first time, from where it lasts.
 std::optional<Adoption> last_adoption(const History& history) {
   std::optional<Adoption> last;
   std::vector<double> known;
@@ -86,6 +103,7 @@ std::optional<Adoption> last_adoption(const History& history) {
       if (!known.empty()) last = {frame, angle};
       known.push_back(angle);
     }
+  if (last) last->frame = lasting_from(history, last->angle_rad);
   return last;
 }
 
@@ -185,15 +203,21 @@ class MainDirections : public Figure {
     return panel;
   }
 
+  /// A direction in -45 .. 135 degrees.
+  static double shown_deg(double angle_rad) {
+    const double deg = degrees(wrap_direction(angle_rad));
+    return deg < -45.0 ? deg + 180.0 : deg;
+  }
+
   static NamedScene over_time(const FigureInput& input, const NamedResult& shown, const History& history) {
     Scene scene{.width_in = kDoubleColumnIn, .title = input.title + ": main directions over time"};
     Panel panel{.x = {.label = "scan"}, .y = {.label = "direction [deg]"}, .equal_aspect = false};
     Points strongest{.color = kBlue, .size_pt = 1.6}, others{.color = kVermillion, .size_pt = 1.6};
     for (const auto& [frame, angles] : history.directions)
       for (std::size_t k = 0; k < angles.size(); ++k)
-        (k == 0 ? strongest : others).points.emplace_back(frame, degrees(wrap_direction(angles[k])));
-    panel.y.range = {-90.0, 90.0};
-    panel.y.ticks = {{-90, "-90"}, {-45, "-45"}, {0, "0"}, {45, "45"}, {90, "90"}};
+        (k == 0 ? strongest : others).points.emplace_back(frame, shown_deg(angles[k]));
+    panel.y.range = {-50.0, 140.0};  // 0 and 90 degrees, the usual ones, are inside
+    panel.y.ticks = {{-45, "-45"}, {0, "0"}, {45, "45"}, {90, "90"}, {135, "135"}};
     panel.items.emplace_back(std::move(others));
     panel.items.emplace_back(std::move(strongest));
     scene.panels.push_back(std::move(panel));
