@@ -155,7 +155,7 @@ TEST_F(Verbs, ExportListsSeedsInTheirOrder) {
 }
 
 TEST_F(Verbs, QuietRunsStillSayThatCellsFailed) {
-  folder_.write("slow.yaml", room() + "limits: {seconds: 0.001}\n");
+  folder_.write("slow.yaml", room() + "limits: {seconds: 0.000001}\n");
   const auto outcome = here({"run", "slow.yaml", "--out", "slow", "-q", "--no-figures"});
   EXPECT_EQ(outcome.code, 3);
   EXPECT_EQ(outcome.out, "");
