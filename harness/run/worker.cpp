@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <iterator>
 #include <new>
-#include <thread>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -91,7 +90,7 @@ void set_limits(const WorkerLimits& limits) {
   limit(RLIMIT_CORE, 0);
   // CPU time is limited above the limit of wall time, in case the parent cannot act. SIGXCPU comes first, SIGKILL at
   // the margin.
-  const double cores = std::max(1U, std::thread::hardware_concurrency());
+  const double cores = std::max(1.0, static_cast<double>(::sysconf(_SC_NPROCESSORS_ONLN)));
   limit(RLIMIT_CPU, std::ceil(limits.seconds) * cores + 2.0, 2.0);
   // Each thread reserves address space for its stack and its heap arena without using it.
   const double reserve = 144.0 * 1024 * 1024 * (limits.threads > 1 ? limits.threads : 0);
@@ -247,7 +246,11 @@ struct WorkerPool::Worker {
       return result;
     }
     const bool exited = WIFEXITED(wait_status) && WEXITSTATUS(wait_status) == 0 && !report_text.empty();
-    if (exited) {
+    if (exited && result.wall_seconds > seconds) {
+      // It ended before the parent saw that its time was over. Which comes first must not change the result.
+      result.status = CellStatus::timeout;
+      result.message = over_time();
+    } else if (exited) {
       result.message = report_text.substr(1);
       switch (report_text.front()) {
         case 'o':
@@ -276,10 +279,12 @@ struct WorkerPool::Worker {
     return result;
   }
 
+  std::string over_time() const { return "took longer than the limit of " + number_text(seconds) + " s"; }
+
   void describe_signal(int signal, WorkerOutcome& result) const {
     if (killed_for_time) {
       result.status = CellStatus::timeout;
-      result.message = "killed after the limit of " + number_text(seconds) + " s";
+      result.message = over_time();
     } else if (signal == SIGXCPU) {
       result.status = CellStatus::timeout;
       result.message = "used up the limit of CPU time";

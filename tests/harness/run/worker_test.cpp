@@ -120,7 +120,7 @@ TEST(Worker, KillsAHangWithAllThatItStarted) {
       },
       {.seconds = 0.2});
   EXPECT_EQ(outcome.status, CellStatus::timeout);
-  EXPECT_EQ(outcome.message, "killed after the limit of 0.2 s");
+  EXPECT_EQ(outcome.message, "took longer than the limit of 0.2 s");
   EXPECT_TRUE(alive.is_released());
 }
 
