@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "harness/report/aligner_ranking.hpp"
 #include "harness/report/html_page.hpp"
 #include "harness/report/plain_text.hpp"
 #include "harness/report/scenario_tables.hpp"
@@ -46,8 +45,6 @@ std::vector<FigureFile> figures_of(const ReportInput& input, const std::string& 
 
 std::string report_html(const ReportInput& input) {
   std::string out = html_status(input.cells);
-  for (const auto& table : aligner_ranking(input.scenarios, input.rows))
-    for (const auto& part : parts_of_width(table, kPageWidth)) out += to_html(part);
   for (const auto& scenario : input.scenarios) {
     out += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n<p class=\"faint\">{2}</p>\n", html_escaped(scenario.name),
                        html_escaped(scenario.about), html_escaped(input_text(input, scenario)));
@@ -64,7 +61,6 @@ std::string report_html(const ReportInput& input) {
 
 std::string report_markdown(const ReportInput& input) {
   std::string out = "# " + input.title + "\n\n" + markdown_status(input.cells);
-  for (const auto& table : aligner_ranking(input.scenarios, input.rows)) out += "\n" + to_markdown(table);
   for (const auto& scenario : input.scenarios) {
     out += "\n## " + scenario.name + "\n\n" + markdown_escaped(scenario.about) + "\n\n" +
            markdown_escaped(input_text(input, scenario)) + "\n";
