@@ -87,6 +87,8 @@ class PointToLine final : public Aligner {
   Alignment align_shapes(std::span<const align::ScanShape> shapes, std::span<const Pose2> initial, Trace& trace) const;
   std::vector<Pose2> one_after_the_other(std::span<const align::ScanShape> scans, std::span<const Pose2> initial,
                                          double longest_m) const;
+  std::vector<Pose2> best_start(std::span<const align::ScanShape> scans, std::span<const Pose2> initial,
+                                double longest_m) const;
 
   align::OdometryError odometry_;
   align::Gates gates_;
@@ -107,6 +109,18 @@ std::vector<Pose2> PointToLine::one_after_the_other(std::span<const align::ScanS
     before.add(static_cast<int>(k), poses[k], scans[k].lines);
   }
   return poses;
+}
+
+/// Odometry drifts, but its steps are good; poses that were set by hand or estimated are each a little wrong, and so is
+/// every step, so that errors add up from scan to scan. The scans themselves show which of both the given poses are: in
+/// a map that is nearly right, more points agree with the lines of other scans.
+std::vector<Pose2> PointToLine::best_start(std::span<const align::ScanShape> scans, std::span<const Pose2> initial,
+                                           double longest_m) const {
+  std::vector<Pose2> chain = one_after_the_other(scans, initial, longest_m), given;
+  for (const Pose2& pose : initial) given.push_back(initial.front().inverse() * pose);
+  const bool chain_agrees =
+      align::agreement(scans, rules_, longest_m, chain) >= align::agreement(scans, rules_, longest_m, given);
+  return chain_agrees ? chain : given;
 }
 
 PointToLine PointToLine::with_gate(double wide_m) const {
@@ -139,7 +153,7 @@ Alignment PointToLine::align_shapes(std::span<const align::ScanShape> shapes, st
     for (const Segment& line : shape.lines) longest = std::max(longest, line.length());
 
   trace.stage(Stage::one_by_one);
-  std::vector<Pose2> poses = one_after_the_other(shapes, initial, longest);
+  std::vector<Pose2> poses = best_start(shapes, initial, longest);
 
   trace.stage(Stage::joint);
   align::JointStep last;
