@@ -11,7 +11,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "metrics/surface_view.hpp"
+#include "metrics/line_bound.hpp"
 
 namespace scanbench::metrics {
 namespace {

@@ -43,7 +43,7 @@ render::FacetChart basin_chart(const std::vector<Scenario>& scenarios, const std
   }
   sensors.resize(std::min(sensors.size(), kMostSensors));
   render::FacetChart chart{.title = column.head + " against the error of the given poses",
-                           .x = {.label = "σ of position [cm] / heading [°]"},
+                           .x = {.label = "start error, σ [cm/°]"},
                            .y = {.label = column.head, .range = std::pair(-4.0, 104.0)},
                            .curve_names = sensors};
   for (const auto& [start, by_sensor] : names)

@@ -146,15 +146,13 @@ std::string answer_text(const std::vector<RankedPipeline>& ranking, const Benchm
   };
   if (first.missing > 0 || !std::isfinite(first.values.at(rank.metric).mean))
     return fmt::format("No {} has a result in every cell, so the ranking has no winner.", subject.noun);
-  std::string text = fmt::format("{} ranks first of {} {}s: {} is {}", first.name, ranking.size(), subject.noun,
+  std::string text = fmt::format("{} ranks first of {} {}s, with {} {}", first.name, ranking.size(), subject.noun,
                                  rank.head, value(first));
-  if (ranking.size() > 1) {
-    const RankedPipeline& next = ranking[1];
-    text += next.missing > 0 ? fmt::format("; {} has no result in {} cells", next.name, next.missing)
-                             : fmt::format(", that of {} {}", next.name, value(next));
-    if (std::isfinite(first.next_p) && next.missing == 0)
-      text += first.next_p < 0.05 ? "" : ", a difference that may be chance";
-  }
+  if (ranking.size() == 1) return text + ".";
+  const RankedPipeline& next = ranking[1];
+  if (next.missing > 0) return text + fmt::format("; {} has no result in {} cells.", next.name, next.missing);
+  text += fmt::format("; {} is next with {}", next.name, value(next));
+  if (std::isfinite(first.next_p) && first.next_p >= 0.05) text += ", a difference that may be chance";
   return text + ".";
 }
 

@@ -177,8 +177,8 @@ TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
   input.rows = made_up_rows();
   input.cells = {{"x", "a", 1, "ok", "", 0, 0}, {"x", "b", 1, "timeout", "after 3 s", 0, 0}};
   for (const std::string& page : {benchmark_html(input, kSpec), benchmark_markdown(input, kSpec)}) {
-    EXPECT_THAT(page, HasSubstr("b ranks first of 3 extractors: F1 [%] is 85.00, that of a 80.00, a difference that "
-                                "may be chance."));
+    EXPECT_THAT(page, HasSubstr("b ranks first of 3 extractors, with F1 [%] 85.00; a is next with 80.00, a difference "
+                                "that may be chance."));
     EXPECT_THAT(page, HasSubstr("3 extractors on 2 conditions"));
     EXPECT_THAT(page, HasSubstr("2 seeds make 4 recordings with 40 scans"));
     EXPECT_THAT(page, HasSubstr("noise of 2 cm"));
@@ -196,7 +196,7 @@ TEST(Benchmark, PageBeginsWithTheFirstInRankAndNamesMissingCells) {
   input.scenarios = two_scenarios();
   input.rows = made_up_rows();
   std::erase_if(input.rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
-  EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr("<p><b>a ranks first of 3 extractors: F1 [%] is 80.00"));
+  EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr("<p><b>a ranks first of 3 extractors, with F1 [%] 80.00"));
   std::erase_if(input.rows, [](const SummaryRow& r) { return r.scenario == "y" && r.seed == 2; });
   EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr("<p><b>No extractor has a result in every cell"));
 }
@@ -294,8 +294,8 @@ TEST(Benchmark, RanksAlignersByTheShareOfScansPlacedAndAnAlignerThatFailsLast) {
   ReportInput input;
   input.scenarios = scenarios;
   input.rows = rows;
-  EXPECT_THAT(benchmark_html(input, spec), HasSubstr("<b>b ranks first of 2 aligners: scans placed [%] is 95.0, that "
-                                                     "of a 75.0"));
+  EXPECT_THAT(benchmark_html(input, spec), HasSubstr("<b>b ranks first of 2 aligners, with scans placed [%] 95.0; a is "
+                                                     "next with 75.0"));
   std::erase_if(rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
   EXPECT_EQ(rank_pipelines(scenarios, rows, spec)[0].name, "a");
 }

@@ -22,7 +22,7 @@ Scenario scenario(const std::string& name, const std::string& preset, double sig
   return made;
 }
 
-const BenchmarkColumn kColumn{.metric = "all_placed", .head = "all placed [%]", .scale = 100};
+const BenchmarkColumn kColumn{.metric = "all_placed", .head = "all placed [%]", .scale = 100, .definition = ""};
 
 TEST(BasinChart, AveragesScenariosOfOneSensorAndOneStartError) {
   const std::vector<Scenario> scenarios{scenario("far", "fov360", 0.4, 6), scenario("near", "fov360", 0.1, 1),
