@@ -50,8 +50,73 @@ figure { margin: 1rem 0; } figure img { max-width: 100%; height: auto; } figcapt
 .beside figure { display: grid; grid-template-columns: minmax(0, 43rem) minmax(12rem, 1fr); gap: 1.4rem; align-items: center; }
 .figures { display: flex; flex-wrap: wrap; gap: 1.2rem; align-items: flex-start; }
 .status { display: inline-block; padding: 0 .5rem; border-radius: .3rem; border: 1px solid currentColor; font-size: .85rem; }
+.verdict { font-size: 1.15rem; font-weight: 600; padding: .6rem .9rem; border-left: .5rem solid; max-width: none; background: var(--tint); }
+.verdict.good { border-color: #0072b2; } .verdict.bad { border-color: #d55e00; }
+nav { display: flex; flex-wrap: wrap; gap: .2rem 1.1rem; margin: .8rem 0; } th[aria-sort] { cursor: pointer; }
+th[aria-sort=ascending]::after { content: " ▲"; } th[aria-sort=descending]::after { content: " ▼"; }
+input.filter { font: inherit; padding: .1rem .5rem; margin: .3rem 0; border: 1px solid var(--rule); background: var(--paper); color: var(--ink); }
+.spark { vertical-align: middle; color: var(--accent); } figure img { cursor: zoom-in; }
+.pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr)); gap: 1.2rem; }
+dialog { max-width: 96vw; max-height: 96vh; padding: .5rem; border: 0; background: #fff; } dialog img { max-width: 92vw; max-height: 88vh; }
+@media print { nav, input.filter { display: none; } body { max-width: none; } .scroll { overflow: visible; } }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; font-size: .86rem; } dt { color: var(--faint); } dd { margin: 0; overflow-wrap: anywhere; }
 )css";
+
+// Tables sort by a click or Enter on a heading and filter by text; a figure opens large. The page reads without it.
+constexpr std::string_view kScript = R"js(
+for (const table of document.querySelectorAll('table')) {
+  const body = table.tBodies[0];
+  if (!body || body.rows.length < 3) continue;
+  const heads = [...table.tHead.rows[table.tHead.rows.length - 1].cells];
+  const value = (row, c) => {
+    const text = row.cells[c] ? row.cells[c].textContent.trim() : '';
+    const number = parseFloat(text.replace('−', '-'));
+    return isNaN(number) ? text : number;
+  };
+  heads.forEach((head, c) => {
+    head.tabIndex = 0;
+    head.setAttribute('aria-sort', 'none');
+    head.title = 'sort';
+    const sort = () => {
+      const up = head.getAttribute('aria-sort') === 'descending';
+      heads.forEach(h => h.setAttribute('aria-sort', 'none'));
+      head.setAttribute('aria-sort', up ? 'ascending' : 'descending');
+      const rows = [...body.rows].sort((a, b) => {
+        const x = value(a, c), y = value(b, c);
+        const order = typeof x === 'number' && typeof y === 'number' ? x - y : String(x).localeCompare(String(y));
+        return up ? order : -order;
+      });
+      body.append(...rows);
+    };
+    head.addEventListener('click', sort);
+    head.addEventListener('keydown', e => { if (e.key === 'Enter') sort(); });
+  });
+  if (body.rows.length < 9) continue;
+  const filter = document.createElement('input');
+  filter.className = 'filter';
+  filter.type = 'search';
+  filter.placeholder = 'filter rows';
+  filter.setAttribute('aria-label', 'filter rows');
+  filter.addEventListener('input', () => {
+    for (const row of body.rows) row.hidden = !row.textContent.toLowerCase().includes(filter.value.toLowerCase());
+  });
+  table.parentElement.before(filter);
+}
+for (const image of document.querySelectorAll('figure img')) {
+  image.tabIndex = 0;
+  const open = () => {
+    const dialog = document.createElement('dialog');
+    const large = image.cloneNode();
+    dialog.append(large);
+    document.body.append(dialog);
+    dialog.addEventListener('click', () => dialog.close());
+    dialog.addEventListener('close', () => dialog.remove());
+    dialog.showModal();
+  };
+  image.addEventListener('click', open);
+  image.addEventListener('keydown', e => { if (e.key === 'Enter') open(); });
+}
+)js";
 
 constexpr std::size_t kLargestList = 200;  ///< rows of a table of cells
 constexpr std::size_t kMostRemarks = 24;   ///< rows before scenarios are taken together
@@ -172,8 +237,15 @@ std::string html_page(const std::string& title, const std::string& body) {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
       "content=\"width=device-width\">\n"
-      "<title>{0}</title><style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n{2}</body></html>\n",
-      html_escaped(title), kStyle, body);
+      "<title>{0}</title><style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n{2}<script>{3}</script></body></html>\n",
+      html_escaped(title), kStyle, body, kScript);
+}
+
+std::string contents(const std::vector<std::pair<std::string, std::string>>& parts) {
+  std::string out = "<nav>";
+  for (const auto& [id, title] : parts)
+    out += fmt::format("<a href=\"#{}\">{}</a>", html_escaped(id), html_escaped(title));
+  return out + "</nav>\n";
 }
 
 std::string html_status(const std::vector<CellLine>& cells) {
@@ -201,7 +273,7 @@ std::string html_figure(const std::filesystem::path& run, const FigureFile& figu
 }
 
 std::string html_facts(const std::vector<std::pair<std::string, std::string>>& facts) {
-  std::string out = "<h2>How to get these numbers again</h2>\n<dl>\n";
+  std::string out = "<h2 id=\"facts\">How to get these numbers again</h2>\n<dl>\n";
   for (const auto& [name, value] : facts)
     out += "<dt>" + html_escaped(name) + "</dt><dd>" + html_escaped(value) + "</dd>\n";
   return out + "</dl>\n";

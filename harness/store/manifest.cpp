@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/store/json_file.hpp"
@@ -154,23 +155,33 @@ std::string version_text() {
          version::kBuildType + ")";
 }
 
+Provenance load_provenance(const fs::path& run) try {
+  const Json json = manifest_json(run);
+  const auto text = [&](const char* key) { return json.value(key, std::string()); };
+  std::vector<std::string> words = json.value("argv", std::vector<std::string>());
+  std::vector<std::string> used;
+  const Json libraries = json.value("libraries", Json::object());  // items() keeps a reference to it
+  for (const auto& [name, number] : libraries.items()) used.push_back(name + " " + number.get<std::string>());
+  return {.commit = text("git_commit"),
+          .compiler = text("compiler") + ", " + text("build_type") + ", " + text("flags"),
+          .libraries = join(used),
+          .processor = text("cpu"),
+          .start = text("start"),
+          .command = join(words, " ")};
+} catch (const Json::exception& e) {
+  refuse_json(run / kManifestFile, e);
+}
+
 std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& run) try {
   const Json json = manifest_json(run);
-  std::string command;
-  for (const auto& word : json.value("argv", Json::array()))
-    command += (command.empty() ? "" : " ") + word.get<std::string>();
-  std::string used;
-  const Json libraries = json.value("libraries", Json::object());  // items() keeps a reference to it
-  for (const auto& [name, number] : libraries.items())
-    used += (used.empty() ? "" : ", ") + name + " " + number.get<std::string>();
-  const auto text = [&](const char* key) { return json.value(key, std::string()); };
-  return {{"command", command},
-          {"version", text("version") + ", commit " + text("git_commit")},
-          {"started", text("start")},
-          {"ended", text("end")},
-          {"compiler", text("compiler") + ", " + text("build_type") + ", " + text("flags")},
-          {"libraries", used},
-          {"processor", text("cpu")},
+  const Provenance made_by = load_provenance(run);
+  return {{"command", made_by.command},
+          {"version", json.value("version", std::string()) + ", commit " + made_by.commit},
+          {"started", made_by.start},
+          {"ended", json.value("end", std::string())},
+          {"compiler", made_by.compiler},
+          {"libraries", made_by.libraries},
+          {"processor", made_by.processor},
           {"files", "effective.yaml holds every parameter; manifest.json the SHA-256 of every file"}};
 } catch (const Json::exception& e) {
   refuse_json(run / kManifestFile, e);
