@@ -3,8 +3,8 @@
 // docs/algorithms/point_to_line.md has the objective and the departures from the text.
 //
 // Results for difficult input: no scan or a single scan is converged, with its pose unchanged. A scan without partners
-// (no returns, or no lines near them) keeps its odometry step from the scan before it, and the status is degenerate. If
-// no scan has partners, the poses are those given and the status is no_match.
+// (no returns, or no lines near them) keeps its place in the start, and the status is degenerate. If no scan has
+// partners, the poses are those given and the status is no_match.
 #include <algorithm>
 #include <cmath>
 
@@ -57,14 +57,13 @@ class PointToLine final : public Aligner {
                 "standard deviation of a given position, each axis"),
           field("odometry_sigma_deg", &Params::odometry_sigma_deg, between(0, 180), "deg",
                 "standard deviation of a given heading"),
-          field(
-              "gate_m", &Params::gate_m, between(0, 1e6), "m",
-              "largest distance of a point from its line at first; halves from step to step; 0: what the error of the "
-              "given poses asks for"),
+          field("gate_m", &Params::gate_m, between(0, 1e6), "m",
+                "largest distance of a point from its line at first; halves from step to step; 0 derives it from the "
+                "error of the given poses"),
           field("final_gate_m", &Params::final_gate_m, between(1e-6, 1e6), "m",
                 "down to this; weights of pairs fall to 0 there (Tukey)"),
           field("margin_m", &Params::margin_m, between(0, 1e6), "m",
-                "how far a point may lie beyond the ends of its line"),
+                "how far a point may be beyond the ends of its line"),
           field("max_angle_deg", &Params::max_angle_deg, between(0, 180), "deg",
                 "largest angle between a line and the line that the point supports in its own scan; 180: any"),
           field("max_rounds", &Params::max_rounds, between(1, 1e6), "",

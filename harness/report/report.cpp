@@ -29,9 +29,13 @@ std::string input_text(const ReportInput& input, const Scenario& scenario) {
   }
   const auto& recorded = std::get<RecordedInput>(scenario.input);
   const auto source = input.sources.find(scenario.name);
-  return fmt::format("Recorded log {} ({}{}). There is no truth: metrics that need it are absent.",
+  const std::string errors = recorded.odometry.any()
+                                 ? fmt::format(" Its poses get errors that follow the seed, {} seed{}.",
+                                               scenario.seeds.size(), scenario.seeds.size() == 1 ? "" : "s")
+                                 : "";
+  return fmt::format("Recorded log {} ({}{}).{} There is no truth: metrics that need it are absent.",
                      recorded.log.filename().string(), recorded.format,
-                     source == input.sources.end() ? "" : "; " + source->second);
+                     source == input.sources.end() ? "" : "; " + source->second, errors);
 }
 
 std::vector<FigureFile> figures_of(const ReportInput& input, const std::string& scenario) {

@@ -87,8 +87,8 @@ void HypothesisJournal::follow(const CurrentMap& map, std::vector<Hypothesis>& h
     std::size_t before = last_.size();
     for (std::size_t k = 0; k < last_.size(); ++k) {
       if (taken[k] || last_[k].shape != h.shape) continue;
-      const double way = moved(last_[k], h);
-      if (way <= nearest) nearest = way, before = k;
+      const double distance = moved(last_[k], h);
+      if (distance <= nearest) nearest = distance, before = k;
     }
     const bool known = before < last_.size();
     if (known) taken[before] = true;
