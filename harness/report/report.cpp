@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "harness/report/aligner_ranking.hpp"
 #include "harness/report/html_page.hpp"
 #include "harness/report/plain_text.hpp"
 #include "harness/report/scenario_tables.hpp"
@@ -34,9 +33,13 @@ std::string input_text(const ReportInput& input, const Scenario& scenario) {
   }
   const auto& recorded = std::get<RecordedInput>(scenario.input);
   const auto source = input.sources.find(scenario.name);
-  return fmt::format("Recorded log {} ({}{}). There is no truth: metrics that need it are absent.",
+  const std::string errors = recorded.odometry.any()
+                                 ? fmt::format(" Its poses get errors that follow the seed, {} seed{}.",
+                                               scenario.seeds.size(), scenario.seeds.size() == 1 ? "" : "s")
+                                 : "";
+  return fmt::format("Recorded log {} ({}{}).{} There is no truth: metrics that need it are absent.",
                      recorded.log.filename().string(), recorded.format,
-                     source == input.sources.end() ? "" : "; " + source->second);
+                     source == input.sources.end() ? "" : "; " + source->second, errors);
 }
 
 std::vector<FigureFile> figures_of(const ReportInput& input, const std::string& scenario) {
@@ -75,8 +78,6 @@ std::string html_contents(const std::vector<Table>& tables, const Scenario& scen
 
 std::string report_html(const ReportInput& input) {
   std::string out = html_status(input.cells);
-  for (const auto& table : aligner_ranking(input.scenarios, input.rows))
-    for (const auto& part : parts_of_width(table, kPageWidth)) out += to_html(part);
   out += html_overview(input);
   for (const auto& scenario : input.scenarios) {
     out += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n<p class=\"faint\">{2}</p>\n", html_escaped(scenario.name),
@@ -97,7 +98,6 @@ std::string report_html(const ReportInput& input) {
 
 std::string report_markdown(const ReportInput& input) {
   std::string out = "# " + input.title + "\n\n" + markdown_status(input.cells);
-  for (const auto& table : aligner_ranking(input.scenarios, input.rows)) out += "\n" + to_markdown(table);
   for (const auto& scenario : input.scenarios)
     if (const auto table = scenario_overview(scenario, input.rows, input.cells))
       out += "\n" + markdown_escaped(overview_sentence(*table)) + "\n\n" + to_markdown(*table);
