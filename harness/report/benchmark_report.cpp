@@ -136,6 +136,26 @@ Table modules_table(const ReportInput& input, const BenchmarkSpec& spec, const s
   return table;
 }
 
+/// The sentence that answers which pipeline to take.
+std::string answer_text(const std::vector<RankedPipeline>& ranking, const BenchmarkSpec& spec) {
+  const BenchmarkSubject& subject = spec.subject();
+  const BenchmarkColumn& rank = subject.rank_column();
+  const RankedPipeline& first = ranking.front();
+  const auto value = [&](const RankedPipeline& ranked) {
+    return fmt::format("{:.{}f}", rank.scale * ranked.values.at(rank.metric).mean, rank.decimals);
+  };
+  if (first.missing > 0 || !std::isfinite(first.values.at(rank.metric).mean))
+    return fmt::format("No {} has a result in every cell, so the ranking has no winner.", subject.noun);
+  std::string text = fmt::format("{} ranks first of {} {}s, with {} {}", first.name, ranking.size(), subject.noun,
+                                 rank.head, value(first));
+  if (ranking.size() == 1) return text + ".";
+  const RankedPipeline& next = ranking[1];
+  if (next.missing > 0) return text + fmt::format("; {} has no result in {} cells.", next.name, next.missing);
+  text += fmt::format("; {} is next with {}", next.name, value(next));
+  if (std::isfinite(first.next_p) && first.next_p >= 0.05) text += ", a difference that may be chance";
+  return text + ".";
+}
+
 /// Adjacent ranks that differ significantly over the seeds, and those that do not.
 std::string significance_text(const std::vector<RankedPipeline>& ranking) {
   std::vector<std::string> ties;
@@ -177,6 +197,7 @@ std::string figure_html(const ReportInput& input, const std::string& name, const
 }
 
 std::vector<std::pair<std::string, std::string>> numbered_figures(const BenchmarkSpec& spec) {
+  if (!spec.subject().over_start.empty()) return {{"benchmark_basin", "Figure 1"}};
   if (!spec.subject().shows_example)
     return {{"benchmark_" + spec.subject().rank_column().metric + "_noise", "Figure 1"},
             {"benchmark_error_bound", "Figure 2"}};
@@ -191,7 +212,9 @@ std::vector<std::pair<std::string, std::string>> numbered_figures(const Benchmar
 
 std::string benchmark_html(const ReportInput& input, const BenchmarkSpec& spec) {
   const auto ranking = rank_pipelines(input.scenarios, input.rows, spec);
-  std::string out = fmt::format("<p>{}</p>\n", html_escaped(spec.about)) + html_status(input.cells);
+  std::string out =
+      fmt::format("<p><b>{}</b> {}</p>\n", html_escaped(answer_text(ranking, spec)), html_escaped(spec.about)) +
+      html_status(input.cells);
   out += fmt::format("<h2>What was run</h2>\n<p>{}</p>\n", html_escaped(run_text(input, spec)));
   out += "<div class=\"figures compact plain\">\n" + to_html(worlds_table(input)) + to_html(sensors_table(input)) +
          "</div>\n";
@@ -212,7 +235,8 @@ std::string benchmark_markdown(const ReportInput& input, const BenchmarkSpec& sp
   const auto ranking = rank_pipelines(input.scenarios, input.rows, spec);
   Table ranks = ranking_table(ranking, spec);
   ranks.title = "Ranking";
-  std::string out = "# " + input.title + "\n\n" + markdown_escaped(spec.about) + "\n\n" + markdown_status(input.cells);
+  std::string out = "# " + input.title + "\n\n" + markdown_escaped(answer_text(ranking, spec) + " " + spec.about) +
+                    "\n\n" + markdown_status(input.cells);
   out += "\n" + run_text(input, spec) + "\n\n" + to_markdown(worlds_table(input)) + "\n" +
          to_markdown(sensors_table(input)) + "\n" + to_markdown(ranks) + "\n" + significance_text(ranking) + "\n";
   for (const auto& [name, number] : numbered_figures(spec))

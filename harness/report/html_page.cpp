@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -118,6 +119,7 @@ for (const image of document.querySelectorAll('figure img')) {
 )js";
 
 constexpr std::size_t kLargestList = 200;  ///< rows of a table of cells
+constexpr std::size_t kMostRemarks = 24;   ///< rows before scenarios are taken together
 
 /// "all 6 cells ok", "4 of 6 cells ok", "1 of 38 cells selected, all ok".
 std::string outcome_text(const std::vector<CellLine>& cells) {
@@ -164,32 +166,68 @@ std::optional<Table> failures(const std::vector<CellLine>& cells) {
   return table;
 }
 
-/// Table of remarks on cells that are ok, for example that an algorithm has not converged; one row for all seeds with
-/// the same remark.
-std::optional<Table> remarks(const std::vector<CellLine>& cells) {
-  std::vector<std::pair<std::vector<std::string>, std::size_t>> rows;
-  std::size_t left_out = 0;
+/// Remarks of one kind, for example "align: 1 degenerate", whose details differ from seed to seed.
+struct Remark {
+  std::string scenario, pipeline, kind;
+  std::string first;  ///< in full
+  std::size_t cells = 0;
+  std::set<std::string> scenarios{};
+  bool same = true;  ///< all are the first
+};
+
+/// A remark without what is in parentheses.
+std::string kind_of(std::string_view remark) {
+  std::string kind;
+  int depth = 0;
+  for (const char c : remark) {
+    if (c == '(') ++depth;
+    if (depth == 0) kind += c;
+    if (c == ')') depth = std::max(0, depth - 1);
+  }
+  return kind;
+}
+
+std::vector<Remark> remarks_of(const std::vector<CellLine>& cells, bool by_scenario) {
+  std::vector<Remark> remarks;
   for (const auto& cell : cells) {
     if (cell.status != "ok" || cell.message.empty()) continue;
-    const std::vector<std::string> heads{cell.scenario, cell.pipeline, cell.message};
-    const auto same = std::ranges::find(rows, heads, &decltype(rows)::value_type::first);
-    if (same != rows.end())
-      ++same->second;
-    else if (rows.size() < kLargestList)
-      rows.emplace_back(heads, 1);
-    else
-      ++left_out;
+    const std::string kind = kind_of(cell.message), scenario = by_scenario ? cell.scenario : "";
+    auto found = std::ranges::find_if(remarks, [&](const Remark& r) {
+      return r.scenario == scenario && r.pipeline == cell.pipeline && r.kind == kind;
+    });
+    if (found == remarks.end()) found = remarks.insert(found, Remark{scenario, cell.pipeline, kind, cell.message});
+    ++found->cells;
+    found->scenarios.insert(cell.scenario);
+    found->same = found->same && cell.message == found->first;
   }
+  return remarks;
+}
+
+/// Table of remarks on cells that are ok, for example that an algorithm has not converged. A row has all seeds with a
+/// remark of the same kind; if that makes too many rows, also all scenarios.
+std::optional<Table> remarks(const std::vector<CellLine>& cells) {
+  std::vector<Remark> rows = remarks_of(cells, true);
+  if (rows.size() > kMostRemarks) rows = remarks_of(cells, false);
   if (rows.empty()) return std::nullopt;
   Table table{"remarks",
               "Remarks on cells that are ok",
               "An aligner or matcher in this table has not converged on that many scans or recordings; its result is "
-              "its last estimate.",
+              "its last estimate. Where the remarks of a row differ in their details, the first is shown.",
               {"scenario", "pipeline", "remark"},
               {{"", "cells", false}},
               {}};
-  if (left_out > 0) table.caption += fmt::format(" And {} more cells with other remarks.", left_out);
-  for (const auto& [heads, count] : rows) table.rows.push_back({heads, {{std::to_string(count)}}, false});
+  if (rows.size() > kLargestList) {
+    std::size_t left_out = 0;
+    for (std::size_t k = kLargestList; k < rows.size(); ++k) left_out += rows[k].cells;
+    table.caption += fmt::format(" And {} more cells with other remarks.", left_out);
+    rows.resize(kLargestList);
+  }
+  for (const Remark& row : rows) {
+    const std::string scenario =
+        row.scenario.empty() ? fmt::format("{} scenarios", row.scenarios.size()) : row.scenario;
+    const std::string remark = row.same ? row.first : "for example " + row.first;
+    table.rows.push_back({{scenario, row.pipeline, remark}, {{std::to_string(row.cells)}}, false});
+  }
   return table;
 }
 

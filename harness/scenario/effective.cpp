@@ -60,6 +60,7 @@ void add_input(YamlNode& root, const RecordedInput& input, const StoredInputs&) 
   if (!input.relations.empty())
     yaml_add(recording, "relations", path_node(input.relations, input.relations_as_written));
   add_params(recording, input.params);
+  if (input.odometry.any()) yaml_add(recording, "odometry", to_yaml(input.odometry_params));
   YamlNode& sensor = yaml_add(root, "sensor", yaml_map());
   yaml_add(sensor, "preset", yaml_text(input.sensor_preset));
   for (const auto& spec : recorded_sensor_specs())
