@@ -89,7 +89,8 @@ MeanInterval mean_interval(std::span<const double> all) {
   const auto count = static_cast<std::int64_t>(values.size());
   if (values.empty()) return {kNaN, kNaN, kNaN, 0};
   const double mean = mean_of(values);
-  if (values.size() < 2) return {mean, mean, mean, count};
+  const bool constant = std::ranges::all_of(values, [&](double v) { return v == values.front(); });
+  if (constant) return {values.front(), values.front(), values.front(), count};
   const Ends t = student_t(values, mean);
   const Ends bootstrap = bca_bootstrap(values, mean);
   return {mean, std::min(t.low, bootstrap.low), std::max(t.high, bootstrap.high), count};

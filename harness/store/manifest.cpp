@@ -2,7 +2,9 @@
 #include "harness/store/manifest.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <ctime>
+#include <map>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -41,7 +43,13 @@ Json libraries() {
   return json;
 }
 
-Json artefacts(const fs::path& run) {
+/// Hashes that are known, and since when: a file that was written before then has not changed.
+struct KnownHashes {
+  std::map<std::string, std::string> hashes;
+  fs::file_time_type since = fs::file_time_type::min();
+};
+
+Json artefacts(const fs::path& run, const KnownHashes& known = {}) {
   std::set<std::string> paths;  // in a fixed order
   for (const auto& entry : fs::recursive_directory_iterator(run)) {
     const fs::path relative = entry.path().lexically_relative(run);
@@ -49,7 +57,11 @@ Json artefacts(const fs::path& run) {
       paths.insert(relative.generic_string());
   }
   Json list = Json::array();
-  for (const auto& path : paths) list.push_back({{"path", path}, {"sha256", sha256_of_file(run / path)}});
+  for (const auto& path : paths) {
+    const auto hash = known.hashes.find(path);
+    const bool is_known = hash != known.hashes.end() && fs::last_write_time(run / path) < known.since;
+    list.push_back({{"path", path}, {"sha256", is_known ? hash->second : sha256_of_file(run / path)}});
+  }
   return list;
 }
 
@@ -63,6 +75,14 @@ Json manifest_json(const fs::path& run) {
   if (json.value("schema", Json()) != 1)
     throw ConfigError(file.string() + ": schema is " + json.value("schema", Json()).dump() + "; allowed: 1");
   return json;
+}
+
+std::map<std::string, std::string> hashes_in(const Json& manifest, const fs::path& run) try {
+  std::map<std::string, std::string> hashes;
+  for (const auto& file : manifest.at("artefacts")) hashes.emplace(file.at("path"), file.at("sha256"));
+  return hashes;
+} catch (const Json::exception& e) {
+  refuse_json(run / kManifestFile, e);
 }
 
 void write_json(const fs::path& run, const Json& json) {
@@ -125,19 +145,14 @@ Manifest load_manifest(const fs::path& run) {
 }
 
 std::map<std::string, std::string> listed_hashes(const fs::path& run) {
-  const Json json = manifest_json(run);
-  try {
-    std::map<std::string, std::string> hashes;
-    for (const auto& file : json.at("artefacts")) hashes.emplace(file.at("path"), file.at("sha256"));
-    return hashes;
-  } catch (const Json::exception& e) {
-    refuse_json(run / kManifestFile, e);
-  }
+  return hashes_in(manifest_json(run), run);
 }
 
 void refresh_manifest(const fs::path& run) {
+  constexpr auto kClock = std::chrono::seconds(1);  // more than the grain of any file system's times
   Json json = manifest_json(run);
-  json["artefacts"] = artefacts(run);
+  const KnownHashes known{hashes_in(json, run), fs::last_write_time(run / kManifestFile) - kClock};
+  json["artefacts"] = artefacts(run, known);
   write_json(run, json);
 }
 
