@@ -28,7 +28,7 @@ struct PoseErrors {
 
 /// Minimiser of the sum above, in closed form: the angle of the summed cross and dot products about the centroids.
 Pose2 common_motion(std::span<const Pose2> estimated, std::span<const Pose2> truth, double lever_m) {
-  const double n = static_cast<double>(estimated.size());
+  const auto n = static_cast<double>(estimated.size());
   Vec2 from = Vec2::Zero(), to = Vec2::Zero();
   for (std::size_t k = 0; k < estimated.size(); ++k) {
     from += estimated[k].translation() / n;

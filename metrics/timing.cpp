@@ -22,6 +22,7 @@ std::vector<double> seconds_per_scan(const std::vector<StageTime>& times, std::s
   for (const StageTime& t : times)
     if (t.frame >= 0 && t.slot == slot) per_frame[t.frame] += t.seconds;
   std::vector<double> seconds;
+  seconds.reserve(per_frame.size());
   for (const auto& [frame, s] : per_frame) seconds.push_back(s);
   return seconds;
 }

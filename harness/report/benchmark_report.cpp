@@ -48,24 +48,32 @@ std::string run_text(const ReportInput& input, const BenchmarkSpec& spec) {
   const auto& scenarios = input.scenarios;
   const BenchmarkSubject& subject = spec.subject();
   const std::size_t seeds = seeds_of(input.rows).size();
+  const std::string counted =
+      subject.counted.empty()
+          ? ""
+          : fmt::format(" and {} {}", observations(input.rows, spec.baseline, subject.count_metric), subject.counted);
   return fmt::format(
       "{} {}s on {} conditions: {} worlds, {} sensors, noise of {:.3g} cm. {} seeds make {} recordings with "
-      "{} scans and {} {} in total; every {} gets the same recordings.",
+      "{} scans{} in total; every {} gets the same recordings.",
       scenarios.front().pipelines.size(), subject.noun, scenarios.size(), worlds.size(), sensors.size(),
       fmt::join(noise_levels(scenarios), ", "), seeds, scenarios.size() * seeds,
-      observations(input.rows, spec.baseline, "t_scan"), observations(input.rows, spec.baseline, subject.count_metric),
-      subject.counted, subject.noun);
+      observations(input.rows, spec.baseline, "t_scan"), counted, subject.noun);
 }
 
 Table worlds_table(const ReportInput& input) {
   Table table{"worlds", "Worlds", "", {"world", "what it is"}, {{"", "walls"}, {"", "scans per recording"}}, {}};
+  std::map<std::string, std::set<std::size_t>> scans;
+  for (const auto& scenario : input.scenarios)
+    scans[simulated(scenario).world.name].insert(
+        simulation_input(scenario, scenario.seeds.front()).trajectory.poses.size());
   std::set<std::string> seen;
   for (const auto& scenario : input.scenarios) {
     const auto& world = simulated(scenario).world;
     if (!seen.insert(world.name).second) continue;
-    const auto scans = simulation_input(scenario, scenario.seeds.front()).trajectory.poses.size();
     table.rows.push_back(
-        {{world.name, scenario.about}, {{std::to_string(world.walls.size())}, {std::to_string(scans)}}, false});
+        {{world.name, scenario.about},
+         {{std::to_string(world.walls.size())}, {fmt::format("{}", fmt::join(scans[world.name], ", "))}},
+         false});
   }
   return table;
 }

@@ -43,7 +43,7 @@ struct BenchmarkSubject {
   std::string slot;                      ///< kind of the modules that are ranked
   std::string noun;                      ///< "extractor"
   std::string time_metric;               ///< numerator of the column t_ratio, and its denominator for the baseline
-  std::string counted;                   ///< what count_metric counts: "true lines"
+  std::string counted;                   ///< what count_metric counts: "true lines"; empty: nothing but scans
   std::string count_metric;              ///< its rows of the baseline have the counts
   std::vector<BenchmarkColumn> columns;  ///< the first one decides the rank
   std::vector<RequiredMetric> required;

@@ -190,6 +190,16 @@ TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
   }
 }
 
+TEST(Benchmark, PageShowsAllNumbersOfScansOfAWorld) {
+  std::string longer = kScene;
+  longer.replace(longer.find("scans: 4"), 8, "scans: 6");
+  ReportInput input;
+  input.scenarios = {parse_scenario(kScene, "x.yaml"), parse_scenario(longer, "y.yaml")};
+  for (Scenario& scenario : input.scenarios) std::get<SimulatedInput>(scenario.input).world.name = "room";
+  input.rows = made_up_rows();
+  EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr(">4, 6<"));
+}
+
 TEST(Benchmark, PageBeginsWithTheFirstInRankAndNamesMissingCells) {
   ReportInput input;
   input.title = "small";

@@ -99,12 +99,12 @@ double mean_deviation_m(const std::string& name, std::size_t frames, std::size_t
 // The provenance of the data states that the poses of the log and the relations agree to 2.9 cm on average.
 TEST(RecordedLog, OfTheIntelLabHasRelationsBetweenSparseScans) {
   if (!std::filesystem::exists(data_dir() / "intel-graph")) GTEST_SKIP() << "intel-graph is not there";
-  EXPECT_LT(mean_deviation_m("lakaemper2010_intel", 268, 100), 0.05);
+  EXPECT_LT(mean_deviation_m("lakaemper2010_intel", 268, 90), 0.05);  // 90: counted in the files
 }
 
 TEST(RecordedLog, OfCsailHasRelationsBetweenSparseScans) {
   if (!std::filesystem::exists(data_dir() / "csail-graph")) GTEST_SKIP() << "csail-graph is not there";
-  EXPECT_LT(mean_deviation_m("lakaemper2010_csail", 211, 100), 0.05);
+  EXPECT_LT(mean_deviation_m("lakaemper2010_csail", 211, 50), 0.05);
 }
 
 }  // namespace
