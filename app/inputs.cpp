@@ -55,7 +55,7 @@ std::string nearest_file(const fs::path& path) {
 }
 
 std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
-                                           std::string* name, std::optional<harness::BenchmarkSpec>* benchmark) {
+                                           std::string* name, harness::SuiteRules* rules) {
   std::vector<harness::Scenario> scenarios;
   for (const auto& file : files) {
     check_exists(file);
@@ -63,7 +63,7 @@ std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files
     if (harness::is_suite(file)) {
       harness::Suite suite = harness::load_suite(file, sets);
       for (auto& scenario : suite.scenarios) scenarios.push_back(std::move(scenario));
-      if (benchmark != nullptr && files.size() == 1) *benchmark = suite.benchmark;
+      if (rules != nullptr && files.size() == 1) *rules = suite.rules;
     } else {
       scenarios.push_back(harness::load_scenario(file, sets));
       if (name != nullptr && files.size() == 1) *name = scenarios.back().name;
@@ -75,6 +75,12 @@ std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files
         throw ConfigError("two scenarios are called '" + scenarios[i].name + "': " + scenarios[j].path.string() +
                           " and " + scenarios[i].path.string() + "; their results would share a folder");
   return scenarios;
+}
+
+void check_run_exists(const fs::path& run) {
+  if (fs::exists(run)) return;
+  const std::string near = nearest_file(run);
+  throw ConfigError(run.string() + ": no such folder" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
 }
 
 void give_seeds(std::vector<harness::Scenario>& scenarios, const std::vector<std::string>& texts) {

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/scenario.hpp"
+#include "harness/scenario/suite_rules.hpp"
 
 namespace scanbench::app {
 
@@ -16,10 +15,12 @@ namespace scanbench::app {
 std::string nearest_file(const std::filesystem::path& path);
 
 /// Scenarios of scenario and suite files, in order; `name` receives the first file's name without extension,
-/// `benchmark` the specification of a suite that is the only file.
+/// `rules` those of a suite that is the only file.
 std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
-                                           std::string* name = nullptr,
-                                           std::optional<harness::BenchmarkSpec>* benchmark = nullptr);
+                                           std::string* name = nullptr, harness::SuiteRules* rules = nullptr);
+
+/// Throws ConfigError, with the nearest name, for a folder that does not exist.
+void check_run_exists(const std::filesystem::path& run);
 
 /// Replaces the scenarios' seeds by those of `--seed`, if there are any. Throws ConfigError for a seed that a scenario
 /// file could not have, and for one that is given twice.

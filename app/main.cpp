@@ -9,8 +9,10 @@
 #include <system_error>
 #include <vector>
 
+#include "app/compare.hpp"
 #include "app/inspection.hpp"
 #include "app/new_module.hpp"
+#include "app/nightly.hpp"
 #include "app/progress.hpp"
 #include "app/recordings.hpp"
 #include "app/results.hpp"
@@ -92,6 +94,8 @@ int run_program(int argc, char** argv) {
   app::add_inspection(context);
   app::add_recordings(context);
   app::add_results(context);
+  app::add_compare(context);
+  app::add_nightly(context);
   app::add_new_module(context);
   app::add_shell_help(context);
   app::add_show(context);

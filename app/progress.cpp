@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -108,6 +109,12 @@ void Progress::finish() {
 Progress::Style progress_style(bool quiet) {
   if (quiet) return Progress::Style::silent;
   return isatty(STDERR_FILENO) ? Progress::Style::bar : Progress::Style::lines;
+}
+
+std::size_t terminal_width() {
+  winsize size{};
+  if (isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 40) return size.ws_col;
+  return 120;
 }
 
 bool use_color() {

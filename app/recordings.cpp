@@ -57,8 +57,7 @@ int simulate(const Options& options, const std::vector<std::string>& argv) {
   std::size_t total = 0;
   for (const auto& scenario : scenarios) total += scenario.seeds.size();
   try {
-    harness::Manifest manifest =
-        harness::start_run(target, {scenarios, {}, argv, std::nullopt, harness::effective_yaml});
+    harness::Manifest manifest = harness::start_run(target, {scenarios, {}, argv, {}, harness::effective_yaml});
     for (const auto& scenario : scenarios)
       for (const auto seed : scenario.seeds) {
         const std::string what = fmt::format("recording {}/{}", scenario.name, seed);

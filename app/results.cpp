@@ -1,4 +1,4 @@
-// The verbs score, figures, report and compare, which work on existing run folders.
+// The verbs score, figures and report, which work on existing run folders.
 #include "app/results.hpp"
 
 #include <fmt/format.h>
@@ -9,11 +9,7 @@
 #include "app/inputs.hpp"
 #include "app/progress.hpp"
 #include "core/error.hpp"
-#include "core/number_text.hpp"
-#include "harness/analysis/compare.hpp"
-#include "harness/files/atomic_file.hpp"
 #include "harness/report/run_report.hpp"
-#include "harness/report/table.hpp"
 #include "harness/run/runner.hpp"
 #include "harness/run/score.hpp"
 #include "harness/store/manifest.hpp"
@@ -25,13 +21,6 @@ namespace scanbench::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Throws ConfigError, with the nearest name, for a folder that does not exist.
-void check_run_exists(const fs::path& run) {
-  if (fs::exists(run)) return;
-  const std::string near = nearest_file(run);
-  throw ConfigError(run.string() + ": no such folder" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
-}
 
 // Scenarios of the run, or of files that replace them (to score with other metrics, to draw other figures).
 std::vector<harness::Scenario> scenarios_for(const fs::path& run, const std::vector<std::string>& files) {
@@ -96,49 +85,13 @@ int report(const fs::path& run) {
   return kGood;
 }
 
-std::string shown(double value) {
-  return std::isnan(value) ? "–" : fmt::format("{:.6g}", value);
-}
-
-int compare(const fs::path& a, const fs::path& b, const std::string& csv, bool all) {
-  check_run_exists(a);
-  check_run_exists(b);
-  const harness::Comparison comparison = harness::compare_runs(a, b);
-  harness::Table table{
-      "compare",
-      "B " + b.string() + " against A " + a.string(),
-      "",
-      {"scenario", "pipeline", "seed", "metric", "subject", "verdict"},
-      {{"", "A", false}, {"", "B", false}, {"", "B - A", false}, {"", "tolerance", false}, {"", "unit", false}},
-      {}};
-  for (const auto& row : comparison.rows) {
-    const bool quiet = row.verdict == harness::Verdict::same || row.verdict == harness::Verdict::within ||
-                       row.verdict == harness::Verdict::timing;
-    if (quiet && !all) continue;
-    table.rows.push_back({{row.cell.scenario, row.cell.pipeline, std::to_string(row.cell.seed), row.metric, row.subject,
-                           std::string(to_string(row.verdict))},
-                          {{shown(row.a)}, {shown(row.b)}, {shown(row.difference)}, {shown(row.tolerance)}, {row.unit}},
-                          false});
-  }
-  for (const auto& note : comparison.notes) fmt::print("note: {}\n", note);
-  if (!table.rows.empty()) fmt::print("{}\n", harness::to_terminal(table, use_color()));
-  std::string counts;
-  for (const auto& [verdict, count] : comparison.counts)
-    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, to_string(verdict));
-  const bool worse = comparison.counts.contains(harness::Verdict::worse);
-  fmt::print("{}{}{}\n", counts.empty() ? "nothing to compare" : counts, worse ? "; WORSE" : "",
-             comparison.incomplete ? "; INCOMPLETE" : "");
-  if (!csv.empty()) harness::write_file_atomically(csv, harness::comparison_csv(comparison));
-  return comparison.exit_code();
-}
-
 }  // namespace
 
 void add_results(Context& context) {
   struct Options {
-    std::string run, other, csv;
+    std::string run;
     std::vector<std::string> files;
-    bool pdf = false, quiet = false, all = false;
+    bool pdf = false, quiet = false;
   };
   auto options = std::make_shared<Options>();
 
@@ -162,16 +115,6 @@ void add_results(Context& context) {
   auto* report_verb = context.app.add_subcommand("report", "Writes report.html and report.md of a run again");
   report_verb->add_option("RUN", options->run, "a run folder")->required();
   report_verb->callback([&context, options] { context.action = [options] { return report(options->run); }; });
-
-  auto* compare_verb = context.app.add_subcommand(
-      "compare", "Compares two runs cell by cell; exit code 1 if B is worse, 4 if incomplete, 5 if both");
-  compare_verb->add_option("A", options->run, "the run folder to compare with")->required();
-  compare_verb->add_option("B", options->other, "the run folder that is judged")->required();
-  compare_verb->add_option("--csv", options->csv, "write all rows to this file");
-  compare_verb->add_flag("--all", options->all, "also show unchanged values");
-  compare_verb->callback([&context, options] {
-    context.action = [options] { return compare(options->run, options->other, options->csv, options->all); };
-  });
 }
 
 }  // namespace scanbench::app

@@ -1,4 +1,4 @@
-// The verbs score, compare, figures, report.
+// The verbs score, figures and report.
 #pragma once
 
 #include "app/context.hpp"

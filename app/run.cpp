@@ -2,30 +2,21 @@
 #include "app/run.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <optional>
 
 #include <nlohmann/json.hpp>
 
-#include "app/drawing.hpp"
-#include "app/fault_notes.hpp"
 #include "app/forecast.hpp"
 #include "app/inputs.hpp"
 #include "app/option_checks.hpp"
 #include "app/progress.hpp"
-#include "core/error.hpp"
-#include "harness/report/page_input.hpp"
+#include "app/running.hpp"
 #include "harness/report/plain_text.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/report/scenario_tables.hpp"
 #include "harness/run/run_options.hpp"
-#include "harness/run/runner.hpp"
-#include "harness/scenario/benchmark_spec.hpp"
 #include "harness/store/cell_status.hpp"
-#include "harness/store/run_scenarios.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -38,12 +29,6 @@ struct Options {
   int jobs = 1;
   bool resume = false, quiet = false, json = false, journal = false, no_figures = false, dry_run = false;
 };
-
-std::size_t terminal_width() {
-  winsize size{};
-  if (isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 40) return size.ws_col;
-  return 120;
-}
 
 void print_tables(const harness::ReportInput& input) {
   for (const auto& table : harness::closing_tables(input))
@@ -63,35 +48,9 @@ void print_json(const harness::RunResult& result) {
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-void note_cell(Progress& progress, FaultNotes& faults, const harness::CellResult& cell) {
-  if (cell.record.outcome.status == harness::CellStatus::ok) return;
-  progress.failure();
-  if (const std::string note = faults.note(cell); !note.empty()) progress.note(note);
-}
-
 void note_absent_figures(const harness::ReportInput& report) {
   for (const auto& figure : report.figures)
     if (figure.name.empty()) say(fmt::format("{}: note: {}\n", figure.scenario, figure.caption));
-}
-
-/// Draws the figures of a run, unless the user wants none, and writes its report. `failure`: why they were not drawn.
-harness::ReportInput write_report(const harness::RunResult& result, const Options& options, Progress& progress,
-                                  std::string& failure) {
-  const auto scenarios = harness::load_run_scenarios(result.out);
-  if (!options.no_figures) failure = draw_within_limits(result.out, scenarios, false, progress);
-  auto report = harness::load_report_input(result.out, scenarios);
-  harness::write_reports(result.out, report);
-  return report;
-}
-
-/// The message about missing cells: their number, the reason of the first, and whether an earlier run remains.
-std::string missing_text(const harness::RunResult& result) {
-  const auto is_missing = [](const harness::CellResult& cell) { return !cell.done; };
-  const auto first = std::ranges::find_if(result.cells, is_missing);
-  return fmt::format("scanbench: {} of {} cells are missing; {}: {}{}\n",
-                     std::ranges::count_if(result.cells, is_missing), result.cells.size(),
-                     harness::to_string(first->key), harness::plain_line(first->record.outcome.message),
-                     result.old_run_kept ? "; the earlier run in " + result.out.string() + " is unchanged" : "");
 }
 
 /// How many cells did not end well, and why the first one did not; empty if all did.
@@ -108,49 +67,24 @@ std::string failed_text(const harness::RunResult& result) {
 
 int run(const Options& options, const std::vector<std::string>& argv) {
   std::string name;
-  std::optional<harness::BenchmarkSpec> benchmark;
-  auto scenarios = load_inputs(options.files, options.sets, &name, &benchmark);
+  harness::RunOptions run_options;
+  auto scenarios = load_inputs(options.files, options.sets, &name, &run_options.rules);
   give_seeds(scenarios, options.seeds);
   for (const auto& scenario : scenarios)
     for (const auto& note : scenario.notes)
       if (!options.quiet) say(fmt::format("{}: note: {}\n", scenario.name, note));
 
-  harness::RunOptions run_options;
   run_options.out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
   run_options.jobs = options.jobs;
   run_options.only = options.only;
   run_options.resume = options.resume;
   run_options.journal = options.journal;
   run_options.argv = argv;
-  run_options.benchmark = benchmark;
   if (options.dry_run) return print_forecast(scenarios, run_options, options.quiet);
-  Progress progress(progress_style(options.quiet));
-  FaultNotes faults;
-  run_options.progress = [&](const harness::RunProgress& now) {
-    if (now.cell != nullptr) note_cell(progress, faults, *now.cell);
-    const double total = static_cast<double>(now.total);
-    progress.update(total > 0 ? 0.95 * static_cast<double>(now.done) / total : 0.0, now.what);
-  };
-  std::optional<harness::ReportInput> report;
-  std::string figure_failure;
-  run_options.finish = [&](const harness::RunResult& result) {
-    const InterruptGuard guard;
-    try {
-      report = write_report(result, options, progress, figure_failure);
-    } catch (const ConfigError& error) {
-      if (result.exit_code() != kIncomplete) throw;  // else the report fails for the same reason
-      say(fmt::format("scanbench: {}\n", error.what()));
-    }
-  };
-  const harness::RunResult result = harness::run(scenarios, run_options);
-  for (const auto& line : faults.repeated()) progress.note(line);
-  progress.finish();
-  if (result.interrupted) {
-    say(fmt::format("scanbench: interrupted; the finished cells of a new run stay in {} (--resume continues)\n",
-                    result.out.string()));
-    return kInterrupted;
-  }
-  if (result.exit_code() == kIncomplete) say(missing_text(result));
+  const auto [result, report, figure_failure] =
+      run_and_report(scenarios, run_options, {.quiet = options.quiet, .figures = !options.no_figures});
+  say(unfinished_text(result));
+  if (result.interrupted) return kInterrupted;
   if (options.quiet) say(failed_text(result));
   if (!figure_failure.empty()) say("scanbench: " + figure_failure + "\n");
 

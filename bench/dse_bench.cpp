@@ -74,7 +74,7 @@ void report(benchmark::State& state, std::vector<Reading> readings) {
 /// One scan extracted and inserted: only the insertion is timed.
 class Drive {
  public:
-  explicit Drive(const char* mapper) : mapper_(Registry<Mapper>::make(mapper)) {}
+  explicit Drive(const char* mapper, const ParamSet& params = {}) : mapper_(Registry<Mapper>::make(mapper, params)) {}
   void insert(const Scan& scan, const Pose2& guess) {
     const ScanLines lines = extractor_->extract(scan, silent_);
     const double begun = cpu_seconds();
@@ -114,7 +114,7 @@ void log(benchmark::State& state, const char* mapper, const char* name) {
   const harness::Scenario scenario = harness::load_scenario(file);
   const Recording recording = harness::make_recording(scenario, 1, 1);
   for (auto _ : state) {
-    Drive drive(mapper);
+    Drive drive(mapper, {{"step_matcher", "icp"}, {"search_deg", 60.0}});  // as in the scenario
     for (std::size_t k = 0; k < recording.observed.frames.size(); ++k)
       drive.insert(recording.observed.scan(k), recording.observed.frames[k].odom_from_sensor);
     report(state, drive.readings());

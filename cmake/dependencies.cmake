@@ -14,5 +14,6 @@ find_package(nanoflann REQUIRED)
 pkg_check_modules(OSMESA REQUIRED osmesa)  # headers; the library is loaded when the first picture is drawn
 find_path(OSMESA_INCLUDE_DIR GL/osmesa.h REQUIRED)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo cairo-svg cairo-pdf cairo-ft freetype2)
+pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 find_package(Boost 1.74 REQUIRED)

@@ -1,6 +1,7 @@
-// The Cramer-Rao bound of a line seen by the beams of one scan.
+// The information of the beams of one scan about lines and surfaces, and the Cramer-Rao bound of a line.
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include <Eigen/Core>
@@ -18,5 +19,20 @@ std::optional<Eigen::Matrix2d> beam_information(const SensorModel& sensor, int b
 /// angle counter-clockwise, as in LineFeature::covariance. Absent if there is no bound: the sensor has no noise, or the
 /// beams do not determine the line.
 std::optional<Eigen::Matrix2d> line_bound(const Scan& scan, const TrueLine& truth);
+
+/// What the beams of one scan say of the place of a surface, sensor frame.
+struct SurfaceView {
+  PolarLine line;                                         ///< true
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< Fisher information of (rho, alpha)
+  Vec2 middle = Vec2::Zero();                             ///< mean of the true points
+  int beams = 0;
+};
+
+/// The views of a frame by surface, from the valid returns whose beams truly end on one. The input must satisfy
+/// has_beam_truth(), and the sensor must have noise.
+std::map<int, SurfaceView> views_of(const MetricInput& input, const Surfaces& surfaces, std::size_t frame);
+
+/// Information of (offset along `normal`, angle) at `point` of the line, all in the scan's frame.
+Eigen::Matrix2d information_at(const SurfaceView& view, const Vec2& point, const Vec2& normal);
 
 }  // namespace scanbench::metrics

@@ -1,6 +1,6 @@
-// Information of beams about surfaces, and of surfaces about poses. A surface seen by both scans has the information A1
-// and A2 about (offset, angle) at one of its points; the difference of the two places has the covariance
-// A1^-1 + A2^-1, whose inverse is A1 (A1 + A2)^-1 A2: it exists also where one beam alone sees the surface.
+// Information of surfaces about poses. A surface seen by both scans has the information A1 and A2 about (offset, angle)
+// at one of its points; the difference of the two places has the covariance A1^-1 + A2^-1, whose inverse is
+// A1 (A1 + A2)^-1 A2: it exists also where one beam alone sees the surface.
 #include "metrics/pose_bound.hpp"
 
 #include <cmath>
@@ -13,57 +13,13 @@
 #include "metrics/line_bound.hpp"
 
 namespace scanbench::metrics {
-namespace {
-
-/// What one scan says of one surface, in its sensor frame.
-struct View {
-  PolarLine line;
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  // of (rho, alpha)
-  Vec2 middle = Vec2::Zero();                             // mean of the true points
-  int beams = 0;
-};
-
-std::map<int, View> views_of(const MetricInput& input, const Surfaces& surfaces, std::size_t frame) {
-  const Truth& truth = *input.truth;
-  const Scan scan = input.observed.scan(frame);
-  const Pose2 sensor_from_world = truth.world_from_sensor[frame].inverse();
-  std::map<int, View> views;
-  for (int i = 0; i < scan.beams(); ++i) {
-    const std::size_t at = frame * static_cast<std::size_t>(scan.beams()) + static_cast<std::size_t>(i);
-    if (truth.wall_ids[at] < 0 || !scan.valid(i)) continue;
-    const int surface = surfaces.of_wall[static_cast<std::size_t>(truth.wall_ids[at])];
-    View& view = views[surface];
-    if (view.beams == 0) {
-      const Segment& wall = surfaces.segments[static_cast<std::size_t>(surface)];
-      view.line = line_through(sensor_from_world * wall.a, sensor_from_world * wall.b);
-    }
-    const auto information = beam_information(scan.sensor, i, view.line);
-    if (!information) continue;
-    view.information += *information;
-    view.middle += truth.ranges[at] * scan.sensor.geometry.direction(i);
-    ++view.beams;
-  }
-  for (auto& [surface, view] : views) view.middle /= std::max(view.beams, 1);
-  return views;
-}
-
-/// Of (offset along `normal`, angle) at `point` of the line, all in the scan's frame: moving the line by
-/// (d rho, d alpha) moves it by d rho - t d alpha at the point t along it.
-Eigen::Matrix2d information_at(const View& view, const Vec2& point, const Vec2& normal) {
-  const Vec2 own = view.line.normal();
-  const double side = own.dot(normal) < 0 ? -1.0 : 1.0;
-  Eigen::Matrix2d polar_from_local;
-  polar_from_local << side, perpendicular(own).dot(point), 0.0, 1.0;
-  return polar_from_local.transpose() * view.information * polar_from_local;
-}
-
-}  // namespace
 
 PoseInformation pose_information(const MetricInput& input, const Surfaces& surfaces, std::size_t reference,
                                  std::size_t frame) {
   const auto& poses = input.truth->world_from_sensor;
   const Pose2 reference_from_frame = poses[reference].inverse() * poses[frame];
-  const std::map<int, View> before = views_of(input, surfaces, reference), now = views_of(input, surfaces, frame);
+  const std::map<int, SurfaceView> before = views_of(input, surfaces, reference),
+                                   now = views_of(input, surfaces, frame);
   PoseInformation result;
   for (const auto& [surface, view] : now) {
     if (view.beams == 0) continue;

@@ -1,8 +1,10 @@
-// timing: the thread CPU time of extraction and of matching, from the stages of a second, timed pass over the scans.
+// timing: the thread CPU time of extraction, of matching and of alignment, from the stages of a second, timed pass over
+// the scans.
 //
 // The median over the scans is robust: a machine that is busy with other work lengthens a few of them. A reading of the
 // clock ends each stage; it takes a fraction of a microsecond, which is part of the time.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <string_view>
@@ -20,7 +22,16 @@ std::vector<double> seconds_per_scan(const std::vector<StageTime>& times, std::s
   for (const StageTime& t : times)
     if (t.frame >= 0 && t.slot == slot) per_frame[t.frame] += t.seconds;
   std::vector<double> seconds;
+  seconds.reserve(per_frame.size());
   for (const auto& [frame, s] : per_frame) seconds.push_back(s);
+  return seconds;
+}
+
+/// The time of an alignment, which belongs to all scans together; NaN if there was none.
+double seconds_of_alignment(const std::vector<StageTime>& times) {
+  double seconds = kUndefined;
+  for (const StageTime& t : times)
+    if (t.slot == "align") seconds = (std::isnan(seconds) ? 0.0 : seconds) + t.seconds;
   return seconds;
 }
 
@@ -31,7 +42,8 @@ class Timing : public MetricFamily {
 
   std::vector<MetricDescription> describe() const override {
     return {{"t_scan", "us", Direction::lower_is_better, 0.0, "median CPU time of extraction per scan", true},
-            {"t_match", "us", Direction::lower_is_better, 0.0, "median CPU time of matching per scan", true}};
+            {"t_match", "us", Direction::lower_is_better, 0.0, "median CPU time of matching per scan", true},
+            {"t_align", "us", Direction::lower_is_better, 0.0, "CPU time of the alignment of all scans", true}};
   }
 
   bool applies(const MetricInput& input) const override {
@@ -44,14 +56,16 @@ class Timing : public MetricFamily {
     rows.add("t_scan", kAll, 1e6 * median(seconds), std::ssize(seconds));
     if (const std::vector<double> matching = seconds_per_scan(input.result.times, "match"); !matching.empty())
       rows.add("t_match", kAll, 1e6 * median(matching), std::ssize(matching));
+    if (const double alignment = seconds_of_alignment(input.result.times); !std::isnan(alignment))
+      rows.add("t_align", kAll, 1e6 * alignment, std::ssize(input.observed.frames));
     return rows.take();
   }
 };
 
-const bool registered =
-    Registry<MetricFamily>::add<Timing>({.name = "timing",
-                                         .summary = "CPU time of extraction and of matching per scan; needs no truth",
-                                         .reference = "docs/formats.md, timing.csv"});
+const bool registered = Registry<MetricFamily>::add<Timing>(
+    {.name = "timing",
+     .summary = "CPU time of extraction and of matching per scan, and of an alignment; needs no truth",
+     .reference = "docs/formats.md, timing.csv"});
 
 }  // namespace
 }  // namespace scanbench::metrics

@@ -20,6 +20,11 @@ struct OdometryNoise {
   double pose_position_sigma_m = 0.0;  ///< independent per pose, each axis
   double pose_heading_sigma_rad = 0.0;
 
+  bool any() const {
+    return translation_per_m > 0 || rotation_per_m_rad > 0 || rotation_per_rad > 0 || pose_position_sigma_m > 0 ||
+           pose_heading_sigma_rad > 0;
+  }
+
   static auto fields() {
     using P = OdometryNoise;
     return std::tuple{field("translation_per_m", &P::translation_per_m, at_least(0), "m",

@@ -3,8 +3,8 @@
 // docs/algorithms/point_to_line.md has the objective and the departures from the text.
 //
 // Results for difficult input: no scan or a single scan is converged, with its pose unchanged. A scan without partners
-// (no returns, or no lines near them) keeps its odometry step from the scan before it, and the status is degenerate. If
-// no scan has partners, the poses are those given and the status is no_match.
+// (no returns, or no lines near them) keeps its place in the start, and the status is degenerate. If no scan has
+// partners, the poses are those given and the status is no_match.
 #include <algorithm>
 #include <cmath>
 
@@ -38,6 +38,8 @@ struct RoundRow {
   }
 };
 
+constexpr double kClearlyBetter = 1.01;  // of two starts that lead to one map, the chain is taken
+
 class PointToLine final : public Aligner {
  public:
   struct Params {
@@ -55,14 +57,13 @@ class PointToLine final : public Aligner {
                 "standard deviation of a given position, each axis"),
           field("odometry_sigma_deg", &Params::odometry_sigma_deg, between(0, 180), "deg",
                 "standard deviation of a given heading"),
-          field(
-              "gate_m", &Params::gate_m, between(0, 1e6), "m",
-              "largest distance of a point from its line at first; halves from step to step; 0: what the error of the "
-              "given poses asks for"),
+          field("gate_m", &Params::gate_m, between(0, 1e6), "m",
+                "largest distance of a point from its line at first; halves from step to step; 0 derives it from the "
+                "error of the given poses"),
           field("final_gate_m", &Params::final_gate_m, between(1e-6, 1e6), "m",
                 "down to this; weights of pairs fall to 0 there (Tukey)"),
           field("margin_m", &Params::margin_m, between(0, 1e6), "m",
-                "how far a point may lie beyond the ends of its line"),
+                "how far a point may be beyond the ends of its line"),
           field("max_angle_deg", &Params::max_angle_deg, between(0, 180), "deg",
                 "largest angle between a line and the line that the point supports in its own scan; 180: any"),
           field("max_rounds", &Params::max_rounds, between(1, 1e6), "",
@@ -87,6 +88,16 @@ class PointToLine final : public Aligner {
   Alignment align_shapes(std::span<const align::ScanShape> shapes, std::span<const Pose2> initial, Trace& trace) const;
   std::vector<Pose2> one_after_the_other(std::span<const align::ScanShape> scans, std::span<const Pose2> initial,
                                          double longest_m) const;
+  /// The rounds from one start, so far.
+  struct Course {
+    std::vector<Pose2> poses;
+    align::JointStep last{};
+    std::vector<RoundRow> rows{};
+    bool converged = false;
+  };
+  void advance(std::span<const align::ScanShape> shapes, double longest_m, int rounds, Course& course) const;
+  Course best_course(std::span<const align::ScanShape> shapes, std::span<const Pose2> initial, double longest_m,
+                     Trace& trace) const;
 
   align::OdometryError odometry_;
   align::Gates gates_;
@@ -107,6 +118,40 @@ std::vector<Pose2> PointToLine::one_after_the_other(std::span<const align::ScanS
     before.add(static_cast<int>(k), poses[k], scans[k].lines);
   }
   return poses;
+}
+
+void PointToLine::advance(std::span<const align::ScanShape> shapes, double longest_m, int rounds,
+                          Course& course) const {
+  for (int round = static_cast<int>(course.rows.size()); round < rounds && !course.converged; ++round) {
+    align::PartnerRules rules = rules_;
+    rules.gate_m = gates_.at(round);
+    course.last = align::joint_step(shapes, rules, longest_m, course.poses);
+    const align::JointStep& step = course.last;
+    course.converged = gates_.narrow(round) && step.largest.small();
+    course.rows.push_back({round, rules.gate_m, step.pairs, step.rms_m, step.largest.shift_m, step.largest.turn_rad});
+  }
+}
+
+/// Odometry drifts, but its steps are good. Poses that were set by hand or estimated are each a little wrong, and so is
+/// every step, so that the errors of a chain of steps add up. Which of both the given poses are shows in the maps that
+/// the two starts lead to, once the gate is narrow: in the right one more points agree with the lines of other scans.
+PointToLine::Course PointToLine::best_course(std::span<const align::ScanShape> shapes, std::span<const Pose2> initial,
+                                             double longest_m, Trace& trace) const {
+  trace.stage(Stage::one_by_one);
+  Course chain, given;
+  chain.poses = one_after_the_other(shapes, initial, longest_m);
+  for (const Pose2& pose : initial) given.poses.push_back(initial.front().inverse() * pose);
+  trace.stage(Stage::joint);
+  int rounds = 1;
+  while (rounds < max_rounds_ && !gates_.narrow(rounds - 1)) ++rounds;
+  align::PartnerRules rules = rules_;
+  rules.gate_m = gates_.narrow_m;
+  const auto agreement = [&](Course& course) {
+    advance(shapes, longest_m, rounds, course);
+    return align::agreement(shapes, rules, longest_m, course.poses);
+  };
+  const double of_chain = agreement(chain), of_given = agreement(given);
+  return of_given > kClearlyBetter * of_chain ? given : chain;
 }
 
 PointToLine PointToLine::with_gate(double wide_m) const {
@@ -138,22 +183,13 @@ Alignment PointToLine::align_shapes(std::span<const align::ScanShape> shapes, st
   for (const align::ScanShape& shape : shapes)
     for (const Segment& line : shape.lines) longest = std::max(longest, line.length());
 
-  trace.stage(Stage::one_by_one);
-  std::vector<Pose2> poses = one_after_the_other(shapes, initial, longest);
+  Course course = best_course(shapes, initial, longest, trace);
+  advance(shapes, longest, max_rounds_, course);
+  for (const RoundRow& row : course.rows) trace.row(row);
 
-  trace.stage(Stage::joint);
-  align::JointStep last;
-  bool converged = false;
-  for (int round = 0; round < max_rounds_ && !converged; ++round) {
-    align::PartnerRules rules = rules_;
-    rules.gate_m = gates_.at(round);
-    last = align::joint_step(shapes, rules, longest, poses);
-    converged = gates_.narrow(round) && last.largest.small();
-    trace.row(RoundRow{round, rules.gate_m, last.pairs, last.rms_m, last.largest.shift_m, last.largest.turn_rad});
-  }
-
-  const align::Outcome outcome{last.groups, last.lowest_rank < 3, converged, max_rounds_, last.largest};
-  return align::judged(outcome, initial, poses);
+  const align::JointStep& last = course.last;
+  const align::Outcome outcome{last.groups, last.lowest_rank < 3, course.converged, max_rounds_, last.largest};
+  return align::judged(outcome, initial, course.poses);
 }
 
 [[maybe_unused]] const bool registered = Registry<Aligner>::add<PointToLine>(

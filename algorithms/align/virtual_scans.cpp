@@ -45,7 +45,7 @@ class VirtualScans final : public Aligner {
                      field("max_lines", &Params::max_lines, between(0, 1000), "", "lines at most"),
                      field("min_votes", &Params::min_votes, at_least(1), "", "fewest points that make a line"),
                      field("line_min_certainty", &Params::line_min_certainty, between(0, 1), "",
-                           "fewest votes of a line per votes of the strongest"),
+                           "smallest ratio of the votes of a line to those of the strongest"),
                      field("rectangle_min_certainty", &Params::rectangle_min_certainty, between(0, 1), "",
                            "smallest certainty of a rectangle: seen share of its perimeter times squareness"),
                      field("rectangle_min_side_m", &Params::rectangle_min_side_m, above(0), "m",
@@ -53,9 +53,9 @@ class VirtualScans final : public Aligner {
                      field("rectangle_misfit", &Params::rectangle_misfit, between(0, 1), "",
                            "largest relative difference of a side from the distance of the other two, and of centres"),
                      field("merge_distance_m", &Params::merge_distance_m, at_least(0), "m",
-                           "segments of several scans this near across are one side"),
+                           "segments of several scans are one side if their distance across is at most this"),
                      field("merge_gap_m", &Params::merge_gap_m, at_least(0), "m",
-                           "and this near along: doors are in between")});
+                           "and their gap along is at most this, such as a door")});
     }
   };
 

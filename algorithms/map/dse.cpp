@@ -19,6 +19,7 @@
 #include "algorithms/map/dse/vertex_insertion.hpp"
 #include "algorithms/map/parts/prediction.hpp"
 #include "algorithms/map/parts/scan_segments.hpp"
+#include "algorithms/map/parts/step_matching.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/trace/map_trace.hpp"
@@ -51,6 +52,7 @@ class Dse final : public Mapper {
     double vertex_apart_m = 0.05;
     std::string alignment = "end_points";
     PredictionKind prediction = PredictionKind::odometry;
+    std::string step_matcher = "none";
     double gate_m = 0.5;
     double min_share = 0.3;
     double search_deg = 0.0;
@@ -70,7 +72,8 @@ class Dse final : public Mapper {
         aligner_(p.alignment,
                  {.insertion = insertion_, .extent_m = 0.2, .angle_rad = radians(20.0), .same_side = p.same_side},
                  registration_),
-        prediction_(p.prediction) {}
+        prediction_(p.prediction),
+        steps_(p.step_matcher, "step_matcher", radians(p.search_deg)) {}
 
   Insertion insert(const Observation& observation, const Pose2& guess, Trace& trace) override;
   LineMap map() const override;
@@ -90,6 +93,7 @@ class Dse final : public Mapper {
   RegistrationRule registration_;
   MapAligner aligner_;
   Prediction prediction_;
+  StepMatching steps_;
   Pose2 world_from_map_;
   StrokeMap map_;
   int step_ = -1;
@@ -131,6 +135,8 @@ auto Dse::Params::fields() {
               {PredictionKind::constant_pose, "constant_pose"},
               {PredictionKind::constant_velocity, "constant_velocity"}},
              "where the next scan is expected; the paper has no odometry: constant_pose"),
+      field("step_matcher", &Params::step_matcher,
+            "matcher that corrects the prediction by the scan before, and places scans that do not meet the map; none"),
       field("gate_m", &Params::gate_m, above(0), "m", "farthest partner of an end point at first"),
       field("min_share", &Params::min_share, between(0, 1), "",
             "smallest share of a scan's length that must meet the map; below it there is no match"),
@@ -180,7 +186,8 @@ Insertion Dse::insert(const Observation& observation, const Pose2& guess, Trace&
   InsertionRow row{.scan_lines = static_cast<int>(scan.size())};
   Registration found{.map_from_sensor = predicted};
   if (map_.size() > 0)
-    found = with_search([&](const Pose2& from) { return locate(observation, scan, from); }, predicted, registration_);
+    found = from_step([&](const Pose2& from) { return locate(observation, scan, from); },
+                      steps_.pose(observation, predicted), predicted, registration_);
   std::vector<Stroke> placed = moved(found.map_from_sensor, scan);
   row.share = found.share;
   row.rms_m = found.rms_m;
@@ -196,6 +203,7 @@ Insertion Dse::insert(const Observation& observation, const Pose2& guess, Trace&
   if (message.empty()) message = expected.remark;
   row.map_lines = static_cast<int>(map_.size());
   trace.row(row);
+  steps_.found(observation, found.map_from_sensor);
   return outcome(found.status, found.map_from_sensor, std::move(message));
 }
 

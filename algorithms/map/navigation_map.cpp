@@ -13,6 +13,7 @@
 #include "algorithms/map/parts/registration.hpp"
 #include "algorithms/map/parts/scan_segments.hpp"
 #include "algorithms/map/parts/segment_index.hpp"
+#include "algorithms/map/parts/step_matching.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/trace/map_trace.hpp"
@@ -40,6 +41,7 @@ class NavigationMap final : public Mapper {
     double unite_gap_m = 0.20;
     double min_length_m = 0.0;
     PredictionKind prediction = PredictionKind::odometry;
+    std::string step_matcher = "none";
     static auto fields() {
       return std::tuple{
           choice("correlation", &Params::correlation,
@@ -64,7 +66,10 @@ class NavigationMap final : public Mapper {
                  {{PredictionKind::odometry, "odometry"},
                   {PredictionKind::constant_pose, "constant_pose"},
                   {PredictionKind::constant_velocity, "constant_velocity"}},
-                 "where the next scan is expected")};
+                 "where the next scan is expected"),
+          field("step_matcher", &Params::step_matcher,
+                "matcher that corrects the prediction by the scan before, and places scans that do not meet the map; "
+                "none")};
     }
   };
 
@@ -76,6 +81,7 @@ class NavigationMap final : public Mapper {
                       .search_rad = radians(p.search_deg)},
         unite_{.angle_rad = radians(p.unite_angle_deg), .offset_m = p.unite_offset_m, .gap_m = p.unite_gap_m},
         prediction_(p.prediction),
+        steps_(p.step_matcher, "step_matcher", radians(p.search_deg)),
         points_(kPointCellM) {}
 
   Insertion insert(const Observation& observation, const Pose2& guess, Trace& trace) override;
@@ -94,6 +100,7 @@ class NavigationMap final : public Mapper {
   RegistrationRule registration_;
   UniteRule unite_;
   Prediction prediction_;
+  StepMatching steps_;
   Pose2 world_from_map_;
   bool begun_ = false;
   std::map<std::size_t, Wall> walls_;
@@ -121,9 +128,9 @@ Insertion NavigationMap::insert(const Observation& observation, const Pose2& gue
 
   Registration found{.map_from_sensor = predicted, .rank = 3, .share = 1.0};
   if (!walls_.empty() && params_.correlation != Correlation::none)
-    found = with_search(
+    found = from_step(
         [&, points = valid_points(observation.scan).points](const Pose2& from) { return locate(scan, points, from); },
-        predicted, registration_);
+        steps_.pose(observation, predicted), predicted, registration_);
   std::string message = explained(found, registration_);
   const bool fits = found.status != Status::no_match;
   if (fits || walls_near(placed_at(predicted, scan), kNovelM).empty()) {
@@ -138,6 +145,7 @@ Insertion NavigationMap::insert(const Observation& observation, const Pose2& gue
                          .map_lines = static_cast<int>(walls_.size()),
                          .share = found.share,
                          .rms_m = found.rms_m});
+  steps_.found(observation, found.map_from_sensor);
   return outcome(found.status, found.map_from_sensor, std::move(message));
 }
 

@@ -1,14 +1,17 @@
 // Point-to-point ICP as the papers use it: Lakaemper, Latecki & Wolter 2005, section 2, "Alignment", after Besl & McKay
 // 1992. docs/algorithms/scan_matching.md, section 1.
 //
-// Departures. Trimmed: the tenth of the pairs that is farthest apart is left out. Status and covariance come from the
-// lines through neighbouring returns: by distances between points every motion seems known, even along a corridor.
+// Departures. Trimmed: the tenth of the pairs that is farthest apart is left out. Far from the pose only some
+// 150 returns are paired. Iterations end when the mean squared distance changes by less than 1e-8 m^2 or 0.05 %.
+// Status and covariance come from the lines through neighbouring returns: by distances between points every motion
+// seems known, even along a corridor.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <Eigen/LU>
 
+#include "algorithms/match/parts/extrapolation.hpp"
 #include "algorithms/match/parts/pairs.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
@@ -52,10 +55,11 @@ Pose2 rigid_fit(const std::vector<Pair>& pairs, const ReturnedPoints& reference)
   return Pose2::from_unit(to - turn.rotate(from), {turn.cos(), turn.sin()});
 }
 
-/// Covariance of the pose where the iterations end, from the pattern of the beams alone. Partners do not change while
-/// points move by less than about the distance between neighbouring returns, and two scans of a wall have no points in
-/// common: the pose is found up to a motion that moves the points by their spacing, root mean square over the points
-/// and the three motions: C^-1 = 3/n sum J' J / spacing^2.
+/// Covariance of the pose where the iterations end, from the pattern of the beams alone. Two scans of a wall have no
+/// points in common, and iterations end where partners no longer change. As points move, the first partners change at
+/// half of the distance between neighbouring returns and the last at the whole distance. The pose is therefore found up
+/// to a motion that moves the points by three quarters of their spacing, root mean square over the points and the three
+/// motions: C^-1 = 3/n sum J' J / (3/4 spacing)^2.
 Eigen::Matrix3d pattern_covariance(const std::vector<Pair>& pairs, const ReturnedPoints& reference,
                                    const Vec2& sensor) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -65,10 +69,11 @@ Eigen::Matrix3d pattern_covariance(const std::vector<Pair>& pairs, const Returne
     if (before == behind) continue;
     const double spacing =
         (reference.points[behind] - reference.points[before]).norm() / static_cast<double>(behind - before);
+    const double reach = 0.75 * spacing;
     const Vec2 turn = perpendicular(pair.point - sensor);
     Eigen::Matrix<double, 2, 3> jacobian;
     jacobian << 1.0, 0.0, turn.x(), 0.0, 1.0, turn.y();
-    information += jacobian.transpose() * jacobian / (spacing * spacing + 1e-12);
+    information += jacobian.transpose() * jacobian / (reach * reach + 1e-12);
   }
   const double determinant = information.determinant();
   if (!(determinant > 0)) return Eigen::Matrix3d::Zero();
@@ -100,35 +105,45 @@ class Icp final : public ScanMatcher {
     const std::vector<LocalLine> lines = local_lines(seen);
     trace.stage(Stage::iterate);
     NearestReturn nearest(seen);
-    std::vector<std::size_t> hints(now.size(), seen.size());
+    std::vector<Track> tracks(now.size());
     Pose2 pose = guess;
     std::vector<Pair> pairs;
+    // Far from the pose a part of the returns says as well where to go.
+    std::size_t every = std::max<std::size_t>(now.size() / kFewReturns, 1);
+    const double lever = lever_of(now);
+    Extrapolation extrapolation;
     bool settled = false;
     double last_mean = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < params_.max_iterations && !settled; ++iteration) {
-      pairs = nearest_pairs(now, pose, params_.gate_m, nearest, hints);
-      const double overlap = static_cast<double>(pairs.size()) / static_cast<double>(now.size());
+      pairs = nearest_pairs(now, pose, params_.gate_m, nearest, tracks, every);
+      const double overlap = static_cast<double>(pairs.size() * every) / static_cast<double>(now.size());
       if (pairs.empty() || !(overlap >= params_.min_overlap)) return no_match(guess);
       double squares = 0.0;
-      for (Pair& pair : pairs) pair.residual = (pair.point - seen.points[pair.reference]).norm();
+      for (Pair& pair : pairs) pair.residual = (pair.point - seen.points[pair.reference]).squaredNorm();
       keep_nearest(pairs, params_.keep);
-      for (const Pair& pair : pairs) squares += pair.residual * pair.residual;
-      const Pose2 next = rigid_fit(pairs, seen) * pose;
-      const Motion step = motion_between(pose, next);
-      pose = next;
+      for (const Pair& pair : pairs) squares += pair.residual;
       const double mean = squares / static_cast<double>(pairs.size());
-      settled = std::fabs(mean - last_mean) < kStillM2;
+      Motion step = motion_between(pose, rigid_fit(pairs, seen) * pose);
+      step *= extrapolation.factor(step.cwiseProduct(Motion(1.0, 1.0, lever)), mean);
+      pose = moved(pose, step);
+      const double change = std::fabs(mean - last_mean);
       last_mean = mean;
+      const double still = std::max(kStillM2, (every > 1 ? kNearShare : kStillShare) * mean);
+      settled = every == 1 && change < still;
+      if (change < still) every = 1;
       trace.row(IterationRow{static_cast<int>(pairs.size()), step.x(), step.y(), step.z(), squares});
     }
     for (Pair& pair : pairs) pair.point = pose * now.points[pair.current];
-    Match result = conclusion(pair_information(pairs, now, lines, pose), pose, guess, lever_of(now), settled);
+    Match result = conclusion(pair_information(pairs, now, lines, pose), pose, guess, lever, settled);
     result.covariance += pattern_covariance(pairs, seen, pose.translation());
     return result;
   }
 
  private:
-  static constexpr double kStillM2 = 1e-8;  // change of the mean squared distance
+  static constexpr double kStillM2 = 1e-8;         // change of the mean squared distance
+  static constexpr double kStillShare = 5e-4;      // the same as a share of it
+  static constexpr double kNearShare = 0.01;       // the share until which few returns do
+  static constexpr std::size_t kFewReturns = 150;  // so many
   Params params_;
 };
 

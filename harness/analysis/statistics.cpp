@@ -89,7 +89,8 @@ MeanInterval mean_interval(std::span<const double> all) {
   const auto count = static_cast<std::int64_t>(values.size());
   if (values.empty()) return {kNaN, kNaN, kNaN, 0};
   const double mean = mean_of(values);
-  if (values.size() < 2) return {mean, mean, mean, count};
+  const bool constant = std::ranges::all_of(values, [&](double v) { return v == values.front(); });
+  if (constant) return {values.front(), values.front(), values.front(), count};
   const Ends t = student_t(values, mean);
   const Ends bootstrap = bca_bootstrap(values, mean);
   return {mean, std::min(t.low, bootstrap.low), std::max(t.high, bootstrap.high), count};
@@ -121,6 +122,77 @@ std::vector<double> holm_adjusted(std::span<const double> p_values) {
     adjusted[order[k]] = largest;
   }
   return adjusted;
+}
+
+std::vector<double> benjamini_hochberg(std::span<const double> p_values) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < p_values.size(); ++i)
+    if (std::isfinite(p_values[i])) order.push_back(i);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p_values[i]; });
+  std::vector<double> adjusted(p_values.begin(), p_values.end());
+  double smallest = 1.0;
+  for (std::size_t k = order.size(); k-- > 0;) {
+    const double corrected = static_cast<double>(order.size()) / static_cast<double>(k + 1) * p_values[order[k]];
+    smallest = std::min(smallest, corrected);
+    adjusted[order[k]] = smallest;
+  }
+  return adjusted;
+}
+
+double rank_p_value(std::span<const double> a, std::span<const double> b) {
+  struct Value {
+    double value;
+    bool of_a;
+  };
+  std::vector<Value> values;
+  for (const double v : finite(a)) values.push_back({v, true});
+  const auto n = static_cast<double>(values.size());
+  for (const double v : finite(b)) values.push_back({v, false});
+  const double m = static_cast<double>(values.size()) - n;
+  if (n == 0 || m == 0) return kNaN;
+  std::ranges::sort(values, {}, &Value::value);
+  double rank_sum = 0.0;  // of a
+  double ties = 0.0;      // sum of t^3 - t over groups of t equal values
+  for (std::size_t first = 0; first < values.size();) {
+    std::size_t last = first;
+    while (last + 1 < values.size() && values[last + 1].value == values[first].value) ++last;
+    const double rank = 0.5 * static_cast<double>(first + last) + 1.0;
+    for (std::size_t i = first; i <= last; ++i) rank_sum += values[i].of_a ? rank : 0.0;
+    const auto t = static_cast<double>(last - first + 1);
+    ties += t * t * t - t;
+    first = last + 1;
+  }
+  const double all = n + m;
+  const double u = rank_sum - 0.5 * n * (n + 1.0);
+  const double variance = n * m / 12.0 * (all + 1.0 - ties / (all * (all - 1.0)));
+  if (!(variance > 0)) return 1.0;
+  const double z = std::max(0.0, std::fabs(u - 0.5 * n * m) - 0.5) / std::sqrt(variance);
+  return 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), z));
+}
+
+MeanInterval sequence_interval(std::span<const double> all) {
+  const std::vector<double> values = finite(all);
+  const std::size_t n = values.size();
+  if (n == 0) return {kNaN, kNaN, kNaN, 0};
+  const double mean = mean_of(values);
+  const auto block = static_cast<std::size_t>(std::max(1.0, std::round(std::cbrt(static_cast<double>(n)))));
+  const std::size_t starts = n - block + 1;
+  CounterRng rng(1, RngStream::resampling, static_cast<std::uint32_t>(n));
+  std::vector<double> resampled(kResamples);
+  for (double& r : resampled) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    while (count < n) {
+      const auto start = static_cast<std::size_t>(rng.uniform() * static_cast<double>(starts));
+      for (std::size_t i = 0; i < block && count < n; ++i, ++count) sum += values[start + i];
+    }
+    r = sum / static_cast<double>(n);
+  }
+  std::ranges::sort(resampled);
+  const auto end = [&](double probability) {
+    return resampled[static_cast<std::size_t>(std::min(probability * kResamples, kResamples - 1.0))];
+  };
+  return {mean, std::min(mean, end(kTail)), std::max(mean, end(1.0 - kTail)), static_cast<std::int64_t>(n)};
 }
 
 double median(std::span<const double> all) {

@@ -12,6 +12,7 @@
 #include "harness/analysis/error_bins.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
+#include "harness/report/basin_chart.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/summary.hpp"
@@ -151,6 +152,11 @@ class Drawer {
     const auto step = [&](double share, const std::string& what) {
       if (progress) progress(share, what);
     };
+    if (!subject_.over_start.empty()) {
+      step(0.0, "basin");
+      draw_over_start();
+      return std::move(files_);
+    }
     const std::string& rank = subject_.rank_column().metric;
     step(0.0, rank + "_noise");
     if (rank == "f1")
@@ -242,6 +248,16 @@ class Drawer {
               " against the standard deviation of the readings, lower is better: mean over the conditions, bars "
               "are 95 % intervals over the seeds. In every panel the others in grey; panels in the order of rank.",
           chart);
+  }
+
+  void draw_over_start() {
+    const auto column = std::ranges::find(subject_.columns, subject_.over_start, &BenchmarkColumn::metric);
+    write("basin",
+          fmt::format("Basin of convergence: {} against the standard deviation of the errors of the given poses, mean "
+                      "over worlds and numbers of scans; bars are 95 % intervals over the {} seeds. Panels are in the "
+                      "order of rank.",
+                      column->definition, seeds_.size()),
+          basin_chart(scenarios_, rows_, names_, *column));
   }
 
   void draw_errors_over_range() {

@@ -49,24 +49,32 @@ std::string run_text(const ReportInput& input, const BenchmarkSpec& spec) {
   const auto& scenarios = input.scenarios;
   const BenchmarkSubject& subject = spec.subject();
   const std::size_t seeds = seeds_of(input.rows).size();
+  const std::string counted =
+      subject.counted.empty()
+          ? ""
+          : fmt::format(" and {} {}", observations(input.rows, spec.baseline, subject.count_metric), subject.counted);
   return fmt::format(
       "{} {}s on {} conditions: {} worlds, {} sensors, noise of {:.3g} cm. {} seeds make {} recordings with "
-      "{} scans and {} {} in total; every {} gets the same recordings.",
+      "{} scans{} in total; every {} gets the same recordings.",
       scenarios.front().pipelines.size(), subject.noun, scenarios.size(), worlds.size(), sensors.size(),
       fmt::join(noise_levels(scenarios), ", "), seeds, scenarios.size() * seeds,
-      observations(input.rows, spec.baseline, "t_scan"), observations(input.rows, spec.baseline, subject.count_metric),
-      subject.counted, subject.noun);
+      observations(input.rows, spec.baseline, "t_scan"), counted, subject.noun);
 }
 
 Table worlds_table(const ReportInput& input) {
   Table table{"worlds", "Worlds", "", {"world", "what it is"}, {{"", "walls"}, {"", "scans per recording"}}, {}};
+  std::map<std::string, std::set<std::size_t>> scans;
+  for (const auto& scenario : input.scenarios)
+    scans[simulated(scenario).world.name].insert(
+        simulation_input(scenario, scenario.seeds.front()).trajectory.poses.size());
   std::set<std::string> seen;
   for (const auto& scenario : input.scenarios) {
     const auto& world = simulated(scenario).world;
     if (!seen.insert(world.name).second) continue;
-    const auto scans = simulation_input(scenario, scenario.seeds.front()).trajectory.poses.size();
     table.rows.push_back(
-        {{world.name, scenario.about}, {{std::to_string(world.walls.size())}, {std::to_string(scans)}}, false});
+        {{world.name, scenario.about},
+         {{std::to_string(world.walls.size())}, {fmt::format("{}", fmt::join(scans[world.name], ", "))}},
+         false});
   }
   return table;
 }
@@ -137,6 +145,26 @@ Table modules_table(const ReportInput& input, const BenchmarkSpec& spec, const s
   return table;
 }
 
+/// The sentence that answers which pipeline to take.
+std::string answer_text(const std::vector<RankedPipeline>& ranking, const BenchmarkSpec& spec) {
+  const BenchmarkSubject& subject = spec.subject();
+  const BenchmarkColumn& rank = subject.rank_column();
+  const RankedPipeline& first = ranking.front();
+  const auto value = [&](const RankedPipeline& ranked) {
+    return fmt::format("{:.{}f}", rank.scale * ranked.values.at(rank.metric).mean, rank.decimals);
+  };
+  if (first.missing > 0 || !std::isfinite(first.values.at(rank.metric).mean))
+    return fmt::format("No {} has a result in every cell, so the ranking has no winner.", subject.noun);
+  std::string text = fmt::format("{} ranks first of {} {}s, with {} {}", first.name, ranking.size(), subject.noun,
+                                 rank.head, value(first));
+  if (ranking.size() == 1) return text + ".";
+  const RankedPipeline& next = ranking[1];
+  if (next.missing > 0) return text + fmt::format("; {} has no result in {} cells.", next.name, next.missing);
+  text += fmt::format("; {} is next with {}", next.name, value(next));
+  if (std::isfinite(first.next_p) && first.next_p >= 0.05) text += ", a difference that may be chance";
+  return text + ".";
+}
+
 /// Adjacent ranks that differ significantly over the seeds, and those that do not.
 std::string significance_text(const std::vector<RankedPipeline>& ranking) {
   std::vector<std::string> ties;
@@ -203,6 +231,7 @@ std::string figure_html(const ReportInput& input, const std::string& name, const
 }
 
 std::vector<std::pair<std::string, std::string>> numbered_figures(const BenchmarkSpec& spec) {
+  if (!spec.subject().over_start.empty()) return {{"benchmark_basin", "Figure 1"}};
   if (!spec.subject().shows_example)
     return {{"benchmark_" + spec.subject().rank_column().metric + "_noise", "Figure 1"},
             {"benchmark_error_bound", "Figure 2"}};
@@ -217,7 +246,9 @@ std::vector<std::pair<std::string, std::string>> numbered_figures(const Benchmar
 
 std::string benchmark_html(const ReportInput& input, const BenchmarkSpec& spec) {
   const auto ranking = rank_pipelines(input.scenarios, input.rows, spec);
-  std::string out = fmt::format("<p>{}</p>\n", html_escaped(spec.about)) + html_status(input.cells);
+  std::string out =
+      fmt::format("<p><b>{}</b> {}</p>\n", html_escaped(answer_text(ranking, spec)), html_escaped(spec.about)) +
+      html_status(input.cells);
   out += fmt::format("<h2>What was run</h2>\n<p>{}</p>\n", html_escaped(run_text(input, spec)));
   out += "<div class=\"figures compact plain\">\n" + to_html(worlds_table(input)) + to_html(sensors_table(input)) +
          "</div>\n";
@@ -239,7 +270,8 @@ std::string benchmark_markdown(const ReportInput& input, const BenchmarkSpec& sp
   const auto ranking = rank_pipelines(input.scenarios, input.rows, spec);
   Table ranks = ranking_table(ranking, spec);
   ranks.title = "Ranking";
-  std::string out = "# " + input.title + "\n\n" + markdown_escaped(spec.about) + "\n\n" + markdown_status(input.cells);
+  std::string out = "# " + input.title + "\n\n" + markdown_escaped(answer_text(ranking, spec) + " " + spec.about) +
+                    "\n\n" + markdown_status(input.cells);
   out += "\n" + run_text(input, spec) + "\n\n" + to_markdown(worlds_table(input)) + "\n" +
          to_markdown(sensors_table(input)) + "\n" + to_markdown(ranks) + "\n" + significance_text(ranking) + "\n" +
          levels_markdown(input, spec, ranking);

@@ -15,6 +15,9 @@ namespace scanbench::harness {
 /// A complete, self-contained page.
 std::string html_page(const std::string& title, const std::string& body);
 
+/// A line of links to parts of the page: id and title of each.
+std::string contents(const std::vector<std::pair<std::string, std::string>>& parts);
+
 /// The number of cells that are ok, and a table of the others.
 std::string html_status(const std::vector<CellLine>& cells);
 std::string markdown_status(const std::vector<CellLine>& cells);

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "harness/report/aligner_ranking.hpp"
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "harness/report/html_page.hpp"
 #include "harness/report/plain_text.hpp"
 #include "harness/report/scenario_tables.hpp"
@@ -30,9 +33,13 @@ std::string input_text(const ReportInput& input, const Scenario& scenario) {
   }
   const auto& recorded = std::get<RecordedInput>(scenario.input);
   const auto source = input.sources.find(scenario.name);
-  return fmt::format("Recorded log {} ({}{}). There is no truth: metrics that need it are absent.",
+  const std::string errors = recorded.odometry.any()
+                                 ? fmt::format(" Its poses get errors that follow the seed, {} seed{}.",
+                                               scenario.seeds.size(), scenario.seeds.size() == 1 ? "" : "s")
+                                 : "";
+  return fmt::format("Recorded log {} ({}{}).{} There is no truth: metrics that need it are absent.",
                      recorded.log.filename().string(), recorded.format,
-                     source == input.sources.end() ? "" : "; " + source->second);
+                     source == input.sources.end() ? "" : "; " + source->second, errors);
 }
 
 std::vector<FigureFile> figures_of(const ReportInput& input, const std::string& scenario) {
@@ -42,29 +49,58 @@ std::vector<FigureFile> figures_of(const ReportInput& input, const std::string& 
   return figures;
 }
 
+/// The values that a reader asks for first, with a link to each scenario.
+std::string html_overview(const ReportInput& input) {
+  std::string out;
+  for (const auto& scenario : input.scenarios) {
+    auto table = scenario_overview(scenario, input.rows, input.cells);
+    if (!table) continue;
+    table->id = scenario.name + "-overview";
+    out += fmt::format("<p><a href=\"#{0}\">{0}</a>: {1}</p>\n", html_escaped(scenario.name),
+                       html_escaped(overview_sentence(*table)));
+    for (const auto& part : parts_of_width(*table, kPageWidth)) out += to_html(part);
+  }
+  return out;
+}
+
+/// Links to the tables and figures of a scenario.
+std::string html_contents(const std::vector<Table>& tables, const Scenario& scenario, bool has_figures) {
+  std::vector<std::pair<std::string, std::string>> parts;
+  for (const auto& table : tables) {
+    const bool named = table.title.starts_with(scenario.name + ": ");
+    parts.emplace_back(table.id, named ? table.title.substr(scenario.name.size() + 2) : table.title);
+  }
+  if (has_figures) parts.emplace_back(scenario.name + "-figures", "figures");
+  return contents(parts);
+}
+
 }  // namespace
 
 std::string report_html(const ReportInput& input) {
   std::string out = html_status(input.cells);
-  for (const auto& table : aligner_ranking(input.scenarios, input.rows))
-    for (const auto& part : parts_of_width(table, kPageWidth)) out += to_html(part);
+  out += html_overview(input);
   for (const auto& scenario : input.scenarios) {
     out += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n<p class=\"faint\">{2}</p>\n", html_escaped(scenario.name),
                        html_escaped(scenario.about), html_escaped(input_text(input, scenario)));
-    for (const auto& table : scenario_tables(scenario, input.rows, input.cells, TableDetail::departures))
+    std::vector<Table> tables = scenario_tables(scenario, input.rows, input.cells, TableDetail::departures);
+    for (auto& table : tables) table.id = scenario.name + "-" + table.id;  // other scenarios have the same tables
+    const auto figures = figures_of(input, scenario.name);
+    out += html_contents(tables, scenario, !figures.empty());
+    if (!figures.empty())
+      out += fmt::format("<div class=\"figures\" id=\"{}-figures\">\n", html_escaped(scenario.name));
+    for (const auto& figure : figures) out += html_figure(input.run, figure, html_escaped(figure.caption));
+    if (!figures.empty()) out += "</div>\n";
+    for (const auto& table : tables)
       for (const auto& part : parts_of_width(table, kPageWidth)) out += to_html(part);
-    out += "<div class=\"figures\">\n";
-    for (const auto& figure : figures_of(input, scenario.name)) {
-      out += html_figure(input.run, figure, html_escaped(figure.caption));
-    }
-    out += "</div>\n";
   }
   return html_page(input.title, out + html_facts(input.facts));
 }
 
 std::string report_markdown(const ReportInput& input) {
   std::string out = "# " + input.title + "\n\n" + markdown_status(input.cells);
-  for (const auto& table : aligner_ranking(input.scenarios, input.rows)) out += "\n" + to_markdown(table);
+  for (const auto& scenario : input.scenarios)
+    if (const auto table = scenario_overview(scenario, input.rows, input.cells))
+      out += "\n" + markdown_escaped(overview_sentence(*table)) + "\n\n" + to_markdown(*table);
   for (const auto& scenario : input.scenarios) {
     out += "\n## " + scenario.name + "\n\n" + markdown_escaped(scenario.about) + "\n\n" +
            markdown_escaped(input_text(input, scenario)) + "\n";

@@ -32,6 +32,12 @@ constexpr double kRounding = 1e-9;  ///< a difference of exactly the margin is w
 /// Metrics of completeness: shares of the truth that a pipeline finds or misses; earlier ones are preferred.
 constexpr std::array<std::string_view, 4> kCompleteness{"f1", "covered_5cm", "placed", "missed"};
 
+/// What a reader asks for first, in this order: how good lines, maps and poses are, then what they cost.
+constexpr std::array<std::string_view, 15> kOverview{
+    "f1",           "covered_5cm",  "lines_per_wall", "placed",  "position_error", "pose_efficiency",
+    "rpe_position", "ate_position", "missed",         "n_lines", "s_mean",         "d_mean",
+    "t_total",      "t_scan",       "t_match"};
+
 using Key = std::pair<std::string, std::string>;  // metric, subject
 
 /// Our values of one (pipeline, metric, subject) over seeds.
@@ -61,6 +67,13 @@ class TableBuilder {
  public:
   TableBuilder(const Scenario& scenario, const ComparableRows& results, std::vector<MetricDescription> all_metrics)
       : scenario_(scenario), results_(results), all_metrics_(std::move(all_metrics)), values_(results.rows) {}
+
+  /// A row per pipeline, also for metrics of single walls.
+  std::optional<Table> overview(const Family& family) {
+    gate_ = completeness_of(all_metrics_);
+    gate_passed_ = within_margin();
+    return by_pipeline(family);
+  }
 
   std::optional<Table> build(const Family& family) {
     gate_ = completeness_of(family.metrics);
@@ -199,8 +212,9 @@ class TableBuilder {
       const Display display = display_of(metric);
       table.columns.push_back({"", heading(metric.metric, display), false});
       std::vector<Value> values;
+      const std::string subject = reported(metric.metric, {"all"}) ? "all" : "mean";  // of all walls
       for (std::size_t r = 0; r < table.rows.size(); ++r) {
-        values.push_back(value_of(results_.pipelines[r], {metric.metric, "all"}, display));
+        values.push_back(value_of(results_.pipelines[r], {metric.metric, subject}, display));
         table.rows[r].cells.push_back(values.back().cell);
       }
       std::vector<TableCell*> added;
@@ -223,7 +237,8 @@ class TableBuilder {
 
   /// True if the mark of the metric depends on the completeness of pipelines.
   bool gated(const MetricDescription& metric) const {
-    return gate_ != nullptr && metric.metric != gate_->metric && metric.direction != Direction::higher_is_better &&
+    const bool is_completeness = std::ranges::count(kCompleteness, std::string_view(metric.metric)) > 0;
+    return gate_ != nullptr && !is_completeness && metric.direction != Direction::higher_is_better &&
            metric.direction != Direction::neither;
   }
 
@@ -255,22 +270,63 @@ class TableBuilder {
 
 }  // namespace
 
-std::vector<Table> result_tables(const Scenario& scenario, const ComparableRows& results,
-                                 const std::vector<std::string>& shown_elsewhere) {
+namespace {
+
+std::vector<Family> families_of(const Scenario& scenario) {
   std::vector<Family> families;
-  std::vector<MetricDescription> all_metrics;
-  for (const auto& choice : scenario.metrics) {
+  for (const auto& choice : scenario.metrics)
     families.push_back(
         {choice.module, Registry<metrics::MetricFamily>::make(choice.module, choice.params)->describe()});
-    all_metrics.insert(all_metrics.end(), families.back().metrics.begin(), families.back().metrics.end());
-  }
-  TableBuilder builder(scenario, results, std::move(all_metrics));
+  return families;
+}
+
+std::vector<MetricDescription> metrics_of(const std::vector<Family>& families) {
+  std::vector<MetricDescription> all;
+  for (const auto& family : families) all.insert(all.end(), family.metrics.begin(), family.metrics.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<Table> result_tables(const Scenario& scenario, const ComparableRows& results,
+                                 const std::vector<std::string>& shown_elsewhere) {
+  std::vector<Family> families = families_of(scenario);
+  TableBuilder builder(scenario, results, metrics_of(families));
   std::vector<Table> tables;
   for (auto& family : families) {
     std::erase_if(family.metrics, [&](const auto& m) { return std::ranges::count(shown_elsewhere, m.metric) > 0; });
     if (auto table = builder.build(family)) tables.push_back(std::move(*table));
   }
   return tables;
+}
+
+std::optional<Table> overview_table(const Scenario& scenario, const ComparableRows& results) {
+  const std::vector<MetricDescription> all = metrics_of(families_of(scenario));
+  Family shown{"overview", {}};
+  for (const std::string_view name : kOverview) {
+    const auto metric = std::ranges::find(all, name, &MetricDescription::metric);
+    const bool has_rows = std::ranges::any_of(results.rows, [&](const SummaryRow& row) {
+      return row.metric == name && (row.subject == "all" || row.subject == "mean");
+    });
+    if (metric != all.end() && has_rows) shown.metrics.push_back(*metric);
+  }
+  if (shown.metrics.empty()) return std::nullopt;
+  auto table = TableBuilder(scenario, results, all).overview(shown);
+  table->title = scenario.name + " at a glance";
+  return table;
+}
+
+std::string overview_sentence(const Table& overview) {
+  if (overview.rows.size() < 2) return "";
+  for (std::size_t c = 0; c < overview.columns.size(); ++c) {
+    std::vector<std::string> best;
+    for (const auto& row : overview.rows)
+      if (row.cells[c].best) best.push_back(fmt::format("{} ({})", row.heads.front(), row.cells[c].text));
+    if (!best.empty())
+      return fmt::format("Best {} of {} pipelines: {}.", overview.columns[c].head, overview.rows.size(),
+                         fmt::join(best, ", "));
+  }
+  return "No pipeline is called best: none of these values has a best one that every pipeline is eligible for.";
 }
 
 }  // namespace scanbench::harness

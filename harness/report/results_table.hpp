@@ -1,6 +1,7 @@
 // Makes the tables of a report from the values of a scenario's cells.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,12 @@ namespace scanbench::harness {
 /// for pipelines within 0.05 of its best value, because a pipeline that finds little also has small errors.
 std::vector<Table> result_tables(const Scenario& scenario, const ComparableRows& results,
                                  const std::vector<std::string>& shown_elsewhere = {});
+
+/// The few values of a scenario that a reader asks for first, from all its families: a row per pipeline. Marks follow
+/// the rules of result_tables(). Nothing if the scenario has none of these metrics.
+std::optional<Table> overview_table(const Scenario& scenario, const ComparableRows& results);
+
+/// The first answer of an overview in a sentence: "sef has the best f1, 0.811." or why no pipeline is called best.
+std::string overview_sentence(const Table& overview);
 
 }  // namespace scanbench::harness

@@ -16,7 +16,6 @@
 #include "harness/analysis/agreement_files.hpp"
 #include "harness/analysis/selection.hpp"
 #include "harness/files/atomic_file.hpp"
-#include "harness/report/aligner_ranking.hpp"
 #include "harness/report/benchmark_figures.hpp"
 #include "harness/report/benchmark_report.hpp"
 #include "harness/report/plain_text.hpp"
@@ -116,7 +115,7 @@ void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenario
 std::vector<Table> closing_tables(const ReportInput& input) {
   if (const auto benchmark = load_benchmark(input.run))
     return {ranking_table(rank_pipelines(input.scenarios, input.rows, *benchmark), *benchmark)};
-  std::vector<Table> tables = aligner_ranking(input.scenarios, input.rows);
+  std::vector<Table> tables;
   for (const auto& scenario : input.scenarios)
     for (auto& table : scenario_tables(scenario, input.rows, input.cells, TableDetail::summary))
       tables.push_back(std::move(table));

@@ -37,4 +37,10 @@ std::vector<Table> scenario_tables(const Scenario& scenario, const std::vector<S
   return tables;
 }
 
+std::optional<Table> scenario_overview(const Scenario& scenario, const std::vector<SummaryRow>& rows,
+                                       const std::vector<CellLine>& cells) {
+  const ComparableRows results = comparable_rows(scenario, rows, cells);
+  return overview_table(restricted(scenario, results), results);
+}
+
 }  // namespace scanbench::harness

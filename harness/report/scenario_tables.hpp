@@ -1,6 +1,7 @@
 // All tables of one scenario, in the order of a report.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "harness/report/page_input.hpp"
@@ -21,5 +22,9 @@ enum class TableDetail {
 /// status of the scenario's cells; values are compared on the seeds that every pipeline finished.
 std::vector<Table> scenario_tables(const Scenario& scenario, const std::vector<SummaryRow>& rows,
                                    const std::vector<CellLine>& cells, TableDetail detail);
+
+/// overview_table() of the values on which the pipelines are compared.
+std::optional<Table> scenario_overview(const Scenario& scenario, const std::vector<SummaryRow>& rows,
+                                       const std::vector<CellLine>& cells);
 
 }  // namespace scanbench::harness

@@ -129,6 +129,7 @@ ShownScan show_scan(const fs::path& run, const ScanChoice& choice) {
   ShownScan shown{
       .name = fmt::format("{}_{}_{}_scan_{}", key.scenario, key.pipeline, key.seed, frame),
       .text = fmt::format("{}, scan {} of 0 to {}", to_string(key), frame, recording.observed.frames.size() - 1),
+      .frame = frame,
       .scene = std::move(drawn.front().scene)};
   if (const std::string counts = rows.text(frame); !counts.empty()) shown.text += ": " + counts;
   return shown;

@@ -1,6 +1,7 @@
 // One scan of a run, chosen by number or as the worst one, with the lines that a pipeline found in it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -20,6 +21,7 @@ struct ScanChoice {
 struct ShownScan {
   std::string name;  ///< of a picture, without ending: <scenario>_<pipeline>_<seed>_scan_<number>
   std::string text;  ///< what scans.csv says of it
+  std::size_t frame = 0;
   render::Scene scene;
 };
 

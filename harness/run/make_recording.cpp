@@ -8,6 +8,7 @@
 #include "harness/exchange/log.hpp"
 #include "harness/exchange/pose_relations.hpp"
 #include "harness/files/text_file.hpp"
+#include "sim/odometry.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -46,13 +47,38 @@ sim::SimulationInput input_within_memory(const Scenario& scenario, std::uint64_t
   return input;
 }
 
-Recording recorded_log(const RecordedInput& input, double max_bytes) {
+/// Every scan of a log, of which `recording` holds those that the input reads. The poses are those that estimates are
+/// compared with, if the log has such, because they are better than those that algorithms get.
+RelatedScans related_scans(const RecordedInput& input, const Recording& recording, double max_bytes) {
+  RelatedScans scans;
+  scans.every = static_cast<std::size_t>(std::get<std::int64_t>(input.params.at("every")));
+  scans.frames = recording.observed.frames.size();
+  ParamSet every_scan = input.params;
+  every_scan["every"] = std::int64_t{1};
+  every_scan["max_frames"] = std::int64_t{0};
+  const Recording all =
+      scans.every == 1 ? recording : read_log(input.log, input.format, every_scan, input.sensor, max_bytes);
+  for (const Frame& frame : all.observed.frames) {
+    scans.stamps_s.push_back(frame.stamp_s);
+    scans.world_from_sensor.push_back(frame.odom_from_sensor);
+  }
+  if (all.reference && !all.reference->world_from_sensor.empty())
+    scans.world_from_sensor = all.reference->world_from_sensor;
+  return scans;
+}
+
+Recording recorded_log(const RecordedInput& input, double max_bytes, std::uint64_t seed) {
   Recording recording = read_log(input.log, input.format, input.params, input.sensor, max_bytes);
-  if (input.relations.empty()) return recording;
-  std::vector<double> stamps;
-  for (const Frame& frame : recording.observed.frames) stamps.push_back(frame.stamp_s);
-  if (!recording.reference) recording.reference.emplace();
-  recording.reference->relations = read_relations(input.relations, stamps, sensor_place(input.format, input.params));
+  if (!input.relations.empty()) {
+    if (!recording.reference) recording.reference.emplace();
+    recording.reference->relations = read_relations(input.relations, related_scans(input, recording, max_bytes),
+                                                    sensor_place(input.format, input.params));
+  }
+  if (!input.odometry.any()) return recording;
+  std::vector<Pose2> poses;
+  for (const Frame& frame : recording.observed.frames) poses.push_back(frame.odom_from_sensor);
+  poses = sim::odometry_poses(poses, input.odometry, seed);
+  for (std::size_t k = 0; k < poses.size(); ++k) recording.observed.frames[k].odom_from_sensor = poses[k];
   return recording;
 }
 
@@ -60,7 +86,7 @@ Recording recorded_log(const RecordedInput& input, double max_bytes) {
 
 void check_scenario(const Scenario& scenario) {
   if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
-    recorded_log(*recorded, scenario.limits.memory_bytes);
+    recorded_log(*recorded, scenario.limits.memory_bytes, 0);
   if (!std::holds_alternative<SimulatedInput>(scenario.input)) return;
   const sim::SimulationInput input = input_within_memory(scenario, 0);
   try {
@@ -73,7 +99,7 @@ void check_scenario(const Scenario& scenario) {
 Recording make_recording(const Scenario& scenario, std::uint64_t seed, int threads,
                          const std::function<void(double)>& progress) {
   if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
-    return recorded_log(*recorded, scenario.limits.memory_bytes);
+    return recorded_log(*recorded, scenario.limits.memory_bytes, seed);
   if (const auto* lines = std::get_if<LinesInput>(&scenario.input))
     return lines->file.empty() ? sim::line_copies(*lines->world, lines->copies, seed)
                                : line_set_recording(lines->frames, lines->world ? &*lines->world : nullptr);

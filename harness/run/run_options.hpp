@@ -4,11 +4,10 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "harness/scenario/benchmark_spec.hpp"
+#include "harness/scenario/suite_rules.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/run_folder.hpp"
 
@@ -47,7 +46,7 @@ struct RunOptions {
   bool resume = false;
   bool journal = false;                ///< keep all trace rows of every cell; else those that the figures draw
   std::vector<std::string> argv = {};  ///< for the manifest
-  std::optional<BenchmarkSpec> benchmark = {};
+  SuiteRules rules = {};
   std::function<void(const RunProgress&)> progress = {};
   /// Draws figures and writes reports. Called after the run has reached its folder, which is still locked.
   std::function<void(const RunResult&)> finish = {};

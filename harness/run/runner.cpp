@@ -16,7 +16,6 @@
 #include "harness/run/resume.hpp"
 #include "harness/run/run_plan.hpp"
 #include "harness/run/worker.hpp"
-#include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/effective.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
@@ -103,7 +102,7 @@ class Run {
     std::vector<CellKey> keys;
     for (const auto& cell : cells_) keys.push_back(cell.result.key);
     manifest_ =
-        start_run(*target_, {scenarios_, std::move(keys), options_.argv, options_.benchmark, services_.effective_yaml});
+        start_run(*target_, {scenarios_, std::move(keys), options_.argv, options_.rules, services_.effective_yaml});
   }
 
   /// Cells of an earlier run that are ok and have the same address are kept; the others of the selection wait to be

@@ -1,4 +1,4 @@
-// The two subjects of benchmarks, as data.
+// The subjects of benchmarks, as data.
 #include "harness/scenario/benchmark_subject.hpp"
 
 #include <algorithm>
@@ -65,7 +65,8 @@ BenchmarkSubject extractors() {
            "missing has a split or a false line there.",
            "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition "
            "and seed, varies less."},
-      .shows_example = true};
+      .shows_example = true,
+      .over_start = ""};
 }
 
 BenchmarkSubject matchers() {
@@ -122,11 +123,61 @@ BenchmarkSubject matchers() {
            "bodies. Walls are straight. Returns are lost only where a world or a sensor above says so.",
            "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition "
            "and seed, varies less."},
-      .shows_example = false};
+      .shows_example = false,
+      .over_start = ""};
+}
+
+BenchmarkSubject aligners() {
+  return {
+      .slot = "align",
+      .noun = "aligner",
+      .time_metric = "t_align",
+      .counted = "",
+      .count_metric = "",
+      .columns = {{"placed", "scans placed [%]", 100, 1, false, higher_is_better,
+                   "share of the scans within 10 cm and 2° of their true poses, after the motion common to all scans "
+                   "is removed; decides the rank"},
+                  {"all_placed", "all placed [%]", 100, 1, false, higher_is_better,
+                   "share of the runs in which every scan is placed"},
+                  {"error_ratio", "error / start", 1, 3, true, lower_is_better,
+                   "mean position error over that of the given poses; above 1 the aligner made them worse"},
+                  {"position_error", "position [cm]", 100, 1, true, lower_is_better, "mean position error of a scan"},
+                  {"heading_error", "heading [°]", 1, 2, true, lower_is_better, "mean heading error of a scan"},
+                  {"alignment_efficiency", "MSE / bound", 1, 1, true, lower_is_better,
+                   "mean square error over the Cramér–Rao bound of all poses together, walls unknown: geometric mean "
+                   "of position and heading, over the scans that the data determine to 10 cm; 1 is the best that the "
+                   "readings allow"},
+                  {"t_align", "time [ms]", 1e-3, 1, true, lower_is_better,
+                   "CPU time of an alignment, lines not included"},
+                  {"t_ratio", "time ratio", 1, 2, true, lower_is_better,
+                   "that time over the baseline's in the same condition and seed"}},
+      .required = {{"alignment", ""}, {"timing", ""}},
+      .fair = {"placed", 0.05,
+               "* marks the best value; of errors and times among aligners within 5 points of the largest share of "
+               "scans placed. An aligner with missing cells has no mark."},
+      .method =
+          "Every scan is given with a pose whose error is drawn from a normal distribution; the poses are not chained. "
+          "An aligner that gives no answer leaves the poses as they were given, and these are scored. For every seed a "
+          "value is averaged over the conditions with equal weight; the table shows the mean over the seeds and, after "
+          "±, half of its 95 % interval (the wider of Student's t and a bootstrap). Undefined values are left out. * "
+          "marks the best.",
+      .limits =
+          {"The seeds change the noise and the given poses, not the worlds: intervals and tests show that a difference "
+           "would recur on these worlds, not that it would on others. \"Best in\" shows how much it depends on the "
+           "condition.",
+           "Every aligner has one set of parameters for all conditions. Its radius or gate is that of the middle start "
+           "error: who knows that the given poses are better or worse can do better.",
+           "The bound is that of an aligner that is told which beams see which wall. Ends of walls are not in it.",
+           "Noise is Gaussian, equal at all ranges; there are no mixed pixels, lost returns or moving bodies. Walls "
+           "are straight.",
+           "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition "
+           "and seed, varies less."},
+      .shows_example = false,
+      .over_start = "all_placed"};
 }
 
 const std::vector<BenchmarkSubject>& subjects() {
-  static const std::vector<BenchmarkSubject> all{extractors(), matchers()};
+  static const std::vector<BenchmarkSubject> all{extractors(), matchers(), aligners()};
   return all;
 }
 

@@ -1,5 +1,5 @@
-// What a benchmark ranks: line extractors or scan matchers. Which metric decides, which are shown, and the words for
-// it.
+// What a benchmark ranks: line extractors, scan matchers or aligners. Which metric decides, which are shown, and the
+// words for it.
 #pragma once
 
 #include <string>
@@ -43,7 +43,7 @@ struct BenchmarkSubject {
   std::string slot;                      ///< kind of the modules that are ranked
   std::string noun;                      ///< "extractor"
   std::string time_metric;               ///< numerator of the column t_ratio, and its denominator for the baseline
-  std::string counted;                   ///< what count_metric counts: "true lines"
+  std::string counted;                   ///< what count_metric counts: "true lines"; empty: nothing but scans
   std::string count_metric;              ///< its rows of the baseline have the counts
   std::vector<BenchmarkColumn> columns;  ///< the first one decides the rank
   std::vector<RequiredMetric> required;
@@ -51,6 +51,7 @@ struct BenchmarkSubject {
   std::string method;               ///< how the values of the ranking are made
   std::vector<std::string> limits;  ///< what the page does not show
   bool shows_example = false;       ///< one scan as every pipeline sees it, and errors of lines over range
+  std::string over_start;  ///< metric drawn over the error of the given poses, in place of curves over noise and bound
 
   const BenchmarkColumn& rank_column() const { return columns.front(); }
 };
@@ -58,7 +59,7 @@ struct BenchmarkSubject {
 /// The subject whose modules have this kind; throws ConfigError for a kind that no benchmark ranks.
 const BenchmarkSubject& benchmark_subject(std::string_view slot);
 
-/// The kinds that benchmarks rank: "extract", "match".
+/// The kinds that benchmarks rank: "extract", "match", "align".
 std::vector<std::string> benchmark_slots();
 
 }  // namespace scanbench::harness

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "harness/files/hash.hpp"
+#include "harness/files/placed_error.hpp"
+#include "harness/files/text_file.hpp"
 #include "harness/scenario/sections.hpp"
 #include "harness/scenario/world_file.hpp"
 #include "harness/yaml/reader.hpp"
@@ -57,6 +60,7 @@ void add_input(YamlNode& root, const RecordedInput& input, const StoredInputs&) 
   if (!input.relations.empty())
     yaml_add(recording, "relations", path_node(input.relations, input.relations_as_written));
   add_params(recording, input.params);
+  if (input.odometry.any()) yaml_add(recording, "odometry", to_yaml(input.odometry_params));
   YamlNode& sensor = yaml_add(root, "sensor", yaml_map());
   yaml_add(sensor, "preset", yaml_text(input.sensor_preset));
   for (const auto& spec : recorded_sensor_specs())
@@ -99,6 +103,43 @@ std::string effective_yaml(const Scenario& scenario, const StoredInputs& stored)
   yaml_add(limits, "seconds", yaml_number(scenario.limits.seconds));
   yaml_add(limits, "memory_mib", yaml_number(scenario.limits.memory_bytes / (1024.0 * 1024.0)));
   return write_yaml(root);
+}
+
+namespace {
+
+/// The name of a list's item: of a pipeline, a metric, a module.
+std::string item_name(const YamlNode& item) {
+  for (const char* key : {"name", "module"})
+    if (const YamlNode* name = item.find(key)) return name->text;
+  return "";
+}
+
+std::string shortened(std::string value) {
+  constexpr std::size_t kLongest = 200;
+  while (value.ends_with('\n')) value.pop_back();
+  if (value.size() > kLongest) return "SHA-256 " + sha256_hex(value).substr(0, 12);
+  return value.starts_with('/') ? value.substr(value.rfind('/') + 1) : value;  // two machines have different folders
+}
+
+void add_settings(const YamlNode& node, const std::string& path, std::map<std::string, std::string>& settings) {
+  const std::string dot = path.empty() ? "" : path + ".";
+  const bool named = node.kind == YamlKind::sequence &&
+                     std::ranges::all_of(node.items, [](const YamlNode& item) { return !item_name(item).empty(); });
+  if (node.kind == YamlKind::map) {
+    for (const auto& entry : node.entries) add_settings(entry.value, dot + entry.key, settings);
+  } else if (named) {
+    for (const auto& item : node.items) add_settings(item, dot + item_name(item), settings);
+  } else {
+    settings[path] = shortened(node.kind == YamlKind::scalar ? node.text : write_yaml(node));
+  }
+}
+
+}  // namespace
+
+std::map<std::string, std::string> effective_settings(std::string_view text, const std::string& file) {
+  std::map<std::string, std::string> settings;
+  in_file(file, {}, [&] { add_settings(parse_yaml(text, kMaxWorldBytes), "", settings); });
+  return settings;
 }
 
 }  // namespace scanbench::harness

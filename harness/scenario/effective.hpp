@@ -1,7 +1,9 @@
 // The effective scenario: all defaults are stated, and the form is canonical.
 #pragma once
 
+#include <map>
 #include <string>
+#include <string_view>
 
 #include "harness/scenario/scenario.hpp"
 
@@ -17,5 +19,11 @@ struct StoredInputs {
 /// absolute. Loading the text again, from any folder if there are no copies, gives the same scenario, the same text,
 /// and the same bytes in every artefact.
 std::string effective_yaml(const Scenario& scenario, const StoredInputs& stored = {});
+
+/// Every setting of an effective scenario, from its text, by its path, for people who ask what differs between two
+/// runs: "pipelines.iepf.extract.params.threshold_m" -> "0.1". Items of a list are named by their `name` or `module`,
+/// else the list is one value; of a value longer than 200 characters (a world) the hash is given. `file` is for
+/// messages.
+std::map<std::string, std::string> effective_settings(std::string_view text, const std::string& file);
 
 }  // namespace scanbench::harness

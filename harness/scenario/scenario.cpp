@@ -5,7 +5,8 @@ namespace scanbench::harness {
 
 bool has_chance(const Scenario& scenario) {
   if (const auto* lines = std::get_if<LinesInput>(&scenario.input)) return lines->file.empty();
-  return std::holds_alternative<SimulatedInput>(scenario.input);
+  if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input)) return recorded->odometry.any();
+  return true;
 }
 
 }  // namespace scanbench::harness

@@ -58,6 +58,8 @@ struct RecordedInput {
   std::filesystem::path relations;  ///< relative poses to compare estimates with; empty: none
   std::string relations_as_written;
   std::string relations_sha256;  ///< as log_sha256
+  ParamSet odometry_params;      ///< of the errors that are added to the poses of the log; effective
+  sim::OdometryNoise odometry;
   ParamSet params;               ///< of the reader: no-return value, first angle, pose triple, ...; effective
   std::string sensor_preset;
   ParamSet sensor_params;  ///< effective; its beam angles and range limits are unused, because the log has its own
@@ -97,7 +99,7 @@ struct Scenario {
   std::vector<std::string> notes;  ///< for the user: input that was skipped, like walls without length in a vector map
 };
 
-/// True if the recording depends on the seed: it is simulated, not read.
+/// True if the recording depends on the seed: it is simulated, or a log whose poses get errors.
 bool has_chance(const Scenario& scenario);
 
 }  // namespace scanbench::harness

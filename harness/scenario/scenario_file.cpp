@@ -171,6 +171,8 @@ class ScenarioReader {
                   "the reading in m that means nothing in range, as do all greater ones; 0 if there is none");
     const YamlNode* relations = map.find("relations");
     if (relations != nullptr) input.relations_as_written = map.text("relations", "a file's path");
+    input.odometry_params = read_optional<sim::OdometryNoise>(map, "odometry");
+    input.odometry = make_params<sim::OdometryNoise>(input.odometry_params);
     input.params = resolve(specs, map.params(specs));
     map.done();
     at_param(node, [&] { check_log_params(input.format, input.params); });
@@ -189,7 +191,7 @@ class ScenarioReader {
       input.sensor_preset = "custom";
       input.sensor = sim::make_sensor("custom", {}, &input.sensor_params);
     }
-    refuse_many_seeds("a recorded log");
+    if (!input.odometry.any()) refuse_many_seeds("a recorded log without errors of `odometry`");
     scenario_.input = std::move(input);
   }
 

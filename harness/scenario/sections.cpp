@@ -13,10 +13,13 @@ namespace scanbench::harness {
 std::vector<RecordingFormat> recording_formats() {
   std::vector<RecordingFormat> formats;
   for (const auto& name : log_formats()) {
-    LogFormatText text = log_format_text(name);
-    text.notes.insert(text.notes.begin(), "recording: {log: FILE, format: " + name +
-                                              ", ...}; FILE may be gzip and begin with ${SCANBENCH_DATA}");
-    formats.push_back({{name, text.summary, ""}, log_param_specs(name), std::move(text.notes)});
+    const LogFormatText text = log_format_text(name);
+    std::vector<std::string> notes{
+        "recording: {log: FILE, format: " + name + ", ...}; FILE may be gzip and begin with ${SCANBENCH_DATA}",
+        "beside these keys: relations, a file of poses of scans relative to each other, and odometry, errors that are "
+        "added to the poses of the log, as in a trajectory"};
+    notes.insert(notes.end(), text.notes.begin(), text.notes.end());
+    formats.push_back({{name, text.summary, ""}, log_param_specs(name), std::move(notes)});
   }
   return formats;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "core/error.hpp"
 #include "harness/files/placed_error.hpp"
@@ -40,6 +41,7 @@ class SuiteReader {
     }
     const YamlNode* factors = map_.find("factors");
     const YamlNode* benchmark = map_.find("benchmark");
+    if (const YamlNode* node = map_.find("gates")) suite_.rules.gates = read_gates(*node);
     const YamlNode& files = map_.require("scenarios", "a list of scenario files");
     map_.done();
     const std::vector<Variant> variants = factors != nullptr ? read_variants(*factors) : std::vector<Variant>{};
@@ -58,9 +60,9 @@ class SuiteReader {
     if (suite_.scenarios.empty())
       throw PlacedError(files.mark, "scenarios is empty; allowed: at least one scenario file");
     if (benchmark == nullptr) return;
-    suite_.benchmark = read_benchmark(*benchmark, suite_.scenarios);
-    suite_.benchmark->about = suite_.about;
-    suite_.benchmark->levels = levels_;
+    suite_.rules.benchmark = read_benchmark(*benchmark, suite_.scenarios);
+    suite_.rules.benchmark->about = suite_.about;
+    suite_.rules.benchmark->levels = levels_;
   }
 
  private:

@@ -9,17 +9,17 @@
 //   figures: [...]                                      # optional: replaces the scenarios' own
 //   published: ../published/paper.csv                   # optional: replaces the scenarios' own
 //   factors: {noise: {1cm: {sensor.sigma_m: 0.01}}}     # optional: every scenario at every combination of levels
+//   gates: {f1: 0.005}                                  # optional: what may fail a comparison (gate_spec.hpp)
 //   benchmark: {baseline: iepf, example: rooms-1cm}     # optional: one page that ranks the pipelines
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/scenario.hpp"
+#include "harness/scenario/suite_rules.hpp"
 
 namespace scanbench::harness {
 
@@ -31,7 +31,7 @@ struct Suite {
   /// They have the suite's seeds, pipelines and metrics, and different names. With factors, each scenario occurs once
   /// per combination of levels: rooms-ladar-1cm, rooms-ladar-5cm, ...
   std::vector<Scenario> scenarios;
-  std::optional<BenchmarkSpec> benchmark;
+  SuiteRules rules;
 };
 
 /// True if the file has a key `scenarios` at its top: suites have it, scenarios do not. Throws ConfigError for a file

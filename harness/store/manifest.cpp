@@ -2,12 +2,15 @@
 #include "harness/store/manifest.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <ctime>
+#include <map>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/store/json_file.hpp"
@@ -40,7 +43,13 @@ Json libraries() {
   return json;
 }
 
-Json artefacts(const fs::path& run) {
+/// Hashes that are known, and since when: a file that was written before then has not changed.
+struct KnownHashes {
+  std::map<std::string, std::string> hashes;
+  fs::file_time_type since = fs::file_time_type::min();
+};
+
+Json artefacts(const fs::path& run, const KnownHashes& known = {}) {
   std::set<std::string> paths;  // in a fixed order
   for (const auto& entry : fs::recursive_directory_iterator(run)) {
     const fs::path relative = entry.path().lexically_relative(run);
@@ -48,7 +57,11 @@ Json artefacts(const fs::path& run) {
       paths.insert(relative.generic_string());
   }
   Json list = Json::array();
-  for (const auto& path : paths) list.push_back({{"path", path}, {"sha256", sha256_of_file(run / path)}});
+  for (const auto& path : paths) {
+    const auto hash = known.hashes.find(path);
+    const bool is_known = hash != known.hashes.end() && fs::last_write_time(run / path) < known.since;
+    list.push_back({{"path", path}, {"sha256", is_known ? hash->second : sha256_of_file(run / path)}});
+  }
   return list;
 }
 
@@ -62,6 +75,14 @@ Json manifest_json(const fs::path& run) {
   if (json.value("schema", Json()) != 1)
     throw ConfigError(file.string() + ": schema is " + json.value("schema", Json()).dump() + "; allowed: 1");
   return json;
+}
+
+std::map<std::string, std::string> hashes_in(const Json& manifest, const fs::path& run) try {
+  std::map<std::string, std::string> hashes;
+  for (const auto& file : manifest.at("artefacts")) hashes.emplace(file.at("path"), file.at("sha256"));
+  return hashes;
+} catch (const Json::exception& e) {
+  refuse_json(run / kManifestFile, e);
 }
 
 void write_json(const fs::path& run, const Json& json) {
@@ -124,19 +145,14 @@ Manifest load_manifest(const fs::path& run) {
 }
 
 std::map<std::string, std::string> listed_hashes(const fs::path& run) {
-  const Json json = manifest_json(run);
-  try {
-    std::map<std::string, std::string> hashes;
-    for (const auto& file : json.at("artefacts")) hashes.emplace(file.at("path"), file.at("sha256"));
-    return hashes;
-  } catch (const Json::exception& e) {
-    refuse_json(run / kManifestFile, e);
-  }
+  return hashes_in(manifest_json(run), run);
 }
 
 void refresh_manifest(const fs::path& run) {
+  constexpr auto kClock = std::chrono::seconds(1);  // more than the grain of any file system's times
   Json json = manifest_json(run);
-  json["artefacts"] = artefacts(run);
+  const KnownHashes known{hashes_in(json, run), fs::last_write_time(run / kManifestFile) - kClock};
+  json["artefacts"] = artefacts(run, known);
   write_json(run, json);
 }
 
@@ -154,23 +170,33 @@ std::string version_text() {
          version::kBuildType + ")";
 }
 
+Provenance load_provenance(const fs::path& run) try {
+  const Json json = manifest_json(run);
+  const auto text = [&](const char* key) { return json.value(key, std::string()); };
+  std::vector<std::string> words = json.value("argv", std::vector<std::string>());
+  std::vector<std::string> used;
+  const Json libraries = json.value("libraries", Json::object());  // items() keeps a reference to it
+  for (const auto& [name, number] : libraries.items()) used.push_back(name + " " + number.get<std::string>());
+  return {.commit = text("git_commit"),
+          .compiler = text("compiler") + ", " + text("build_type") + ", " + text("flags"),
+          .libraries = join(used),
+          .processor = text("cpu"),
+          .start = text("start"),
+          .command = join(words, " ")};
+} catch (const Json::exception& e) {
+  refuse_json(run / kManifestFile, e);
+}
+
 std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& run) try {
   const Json json = manifest_json(run);
-  std::string command;
-  for (const auto& word : json.value("argv", Json::array()))
-    command += (command.empty() ? "" : " ") + word.get<std::string>();
-  std::string used;
-  const Json libraries = json.value("libraries", Json::object());  // items() keeps a reference to it
-  for (const auto& [name, number] : libraries.items())
-    used += (used.empty() ? "" : ", ") + name + " " + number.get<std::string>();
-  const auto text = [&](const char* key) { return json.value(key, std::string()); };
-  return {{"command", command},
-          {"version", text("version") + ", commit " + text("git_commit")},
-          {"started", text("start")},
-          {"ended", text("end")},
-          {"compiler", text("compiler") + ", " + text("build_type") + ", " + text("flags")},
-          {"libraries", used},
-          {"processor", text("cpu")},
+  const Provenance made_by = load_provenance(run);
+  return {{"command", made_by.command},
+          {"version", json.value("version", std::string()) + ", commit " + made_by.commit},
+          {"started", made_by.start},
+          {"ended", json.value("end", std::string())},
+          {"compiler", made_by.compiler},
+          {"libraries", made_by.libraries},
+          {"processor", made_by.processor},
           {"files", "effective.yaml holds every parameter; manifest.json the SHA-256 of every file"}};
 } catch (const Json::exception& e) {
   refuse_json(run / kManifestFile, e);

@@ -42,6 +42,18 @@ void set_run_state(const std::filesystem::path& run, const std::string& state);
 /// "scanbench 0.1.0 (commit, compiler, build type)".
 std::string version_text();
 
+/// What made a run. Comparisons name the entries that differ.
+struct Provenance {
+  std::string commit;     ///< with "-dirty-" and a hash of the code if the tree had changes
+  std::string compiler;   ///< with its flags
+  std::string libraries;  ///< "Eigen 3.4.0, ..."
+  std::string processor;
+  std::string start;    ///< UTC, ISO 8601
+  std::string command;  ///< the command line
+};
+/// From manifest.json. Throws ConfigError.
+Provenance load_provenance(const std::filesystem::path& run);
+
 /// Facts about a run for its report, as name and value, from manifest.json. Throws ConfigError.
 std::vector<std::pair<std::string, std::string>> manifest_facts(const std::filesystem::path& run);
 

@@ -1,4 +1,4 @@
-// scenario.yaml and effective.yaml (or a folder of each), benchmark.json, and copies of the input of a run.
+// scenario.yaml and effective.yaml (or a folder of each), benchmark.json, gates.json, and copies of the input of a run.
 #include "harness/store/run_scenarios.hpp"
 
 #include <algorithm>
@@ -22,6 +22,7 @@ const RunFile kScenarioFile("scenario.yaml");
 const RunFile kEffectiveFile("effective.yaml");
 const RunFile kScenarioFiles[] = {RunFile("scenarios/*.yaml"), RunFile("effective/*.yaml")};
 const RunFile kBenchmarkFile("benchmark.json");
+const RunFile kGatesFile("gates.json");
 
 const RunFile kPublishedCopy("inputs/*/published.csv");
 const RunFile kLinesCopy("inputs/*/lines.csv");
@@ -88,6 +89,13 @@ void add_sources(const fs::path& run, Scenario& scenario) {
   });
 }
 
+/// The effective scenario of that name.
+fs::path effective_file(const fs::path& run, const Manifest& manifest, const std::string& name) {
+  const fs::path alone = run / kEffectiveFile;
+  const bool many = manifest.scenarios.size() > 1 || !fs::exists(alone);
+  return many ? run / "effective" / (name + ".yaml") : alone;
+}
+
 }  // namespace
 
 void write_run_scenarios(const fs::path& run, const std::vector<Scenario>& scenarios,
@@ -108,24 +116,51 @@ void write_run_scenarios(const fs::path& run, const std::vector<Scenario>& scena
   }
 }
 
+std::map<std::string, std::map<std::string, std::string>> load_run_settings(const fs::path& run) {
+  const Manifest manifest = load_manifest(run);
+  std::map<std::string, std::map<std::string, std::string>> settings;
+  for (const auto& name : manifest.scenarios) {
+    const fs::path file = effective_file(run, manifest, name);
+    settings[name] = effective_settings(read_file(file), file.string());
+  }
+  return settings;
+}
+
 std::vector<Scenario> load_run_scenarios(const fs::path& run) {
   const Manifest manifest = load_manifest(run);
   std::vector<Scenario> scenarios;
   for (const auto& name : manifest.scenarios) {
-    const fs::path alone = run / kEffectiveFile;
-    const bool many = manifest.scenarios.size() > 1 || !fs::exists(alone);
-    scenarios.push_back(load_recorded_scenario(many ? run / "effective" / (name + ".yaml") : alone));
+    scenarios.push_back(load_recorded_scenario(effective_file(run, manifest, name)));
     scenarios.back().name = name;
     add_sources(run, scenarios.back());
   }
   return scenarios;
 }
 
-void write_benchmark(const fs::path& run, const std::optional<BenchmarkSpec>& benchmark) {
-  if (benchmark)
-    write_file_atomically(run / kBenchmarkFile, benchmark_json(*benchmark));
+void write_suite_rules(const fs::path& run, const SuiteRules& rules) {
+  if (rules.benchmark)
+    write_file_atomically(run / kBenchmarkFile, benchmark_json(*rules.benchmark));
   else
     remove_file(run / kBenchmarkFile);
+  if (!rules.gates.tolerances.empty())
+    write_file_atomically(run / kGatesFile, gates_json(rules.gates));
+  else
+    remove_file(run / kGatesFile);
+}
+
+GateSpec load_gates(const fs::path& run) {
+  const fs::path path = run / kGatesFile;
+  if (!fs::exists(path)) return {};
+  return with_json_of(path, [&](const Json& json) {
+    GateSpec spec;
+    for (const auto& [metric, tolerance] : json.at("gates").items()) {
+      const double value = tolerance.get<double>();
+      if (!(value >= 0))
+        throw ConfigError(path.string() + ": the tolerance of " + metric + " is negative; allowed: >= 0");
+      spec.tolerances[metric] = value;
+    }
+    return spec;
+  });
 }
 
 std::optional<BenchmarkSpec> load_benchmark(const fs::path& run) {

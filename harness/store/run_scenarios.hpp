@@ -3,13 +3,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/effective.hpp"
 #include "harness/scenario/scenario.hpp"
+#include "harness/scenario/suite_rules.hpp"
 
 namespace scanbench::harness {
 
@@ -26,10 +27,16 @@ void write_run_scenarios(const std::filesystem::path& run, const std::vector<Sce
 /// nothing outside the folder.
 std::vector<Scenario> load_run_scenarios(const std::filesystem::path& run);
 
-/// Writes benchmark.json; removes that of an earlier run if there is no benchmark.
-void write_benchmark(const std::filesystem::path& run, const std::optional<BenchmarkSpec>& benchmark);
+/// The effective settings of a run's scenarios (scenario/effective.hpp), by scenario. Throws ConfigError.
+std::map<std::string, std::map<std::string, std::string>> load_run_settings(const std::filesystem::path& run);
+
+/// Writes benchmark.json and gates.json, each if the suite has such rules; removes those of an earlier run.
+void write_suite_rules(const std::filesystem::path& run, const SuiteRules& rules);
 
 /// Reads benchmark.json; nothing if the run is a plain one. Throws ConfigError.
 std::optional<BenchmarkSpec> load_benchmark(const std::filesystem::path& run);
+
+/// Reads gates.json; the default gates if the run has none. Throws ConfigError.
+GateSpec load_gates(const std::filesystem::path& run);
 
 }  // namespace scanbench::harness

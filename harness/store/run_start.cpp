@@ -12,7 +12,7 @@ Manifest start_run(const RunTarget& target, const RunStart& start) {
   Manifest manifest{"running", utc_now(), "", start.argv, {}, start.cells};
   for (const auto& scenario : start.scenarios) manifest.scenarios.push_back(scenario.name);
   write_manifest(run, manifest);  // with it the folder is ours
-  write_benchmark(run, start.benchmark);
+  write_suite_rules(run, start.rules);
   write_run_scenarios(run, start.scenarios, start.effective_yaml);
   return manifest;
 }

@@ -1,12 +1,11 @@
 // Begins and ends a run folder.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/scenario.hpp"
+#include "harness/scenario/suite_rules.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_scenarios.hpp"
 #include "harness/store/run_target.hpp"
@@ -18,7 +17,7 @@ struct RunStart {
   const std::vector<Scenario>& scenarios;
   std::vector<CellKey> cells;     ///< of the run, in the order of summary.csv; empty for recordings alone
   std::vector<std::string> argv;  ///< the command line
-  const std::optional<BenchmarkSpec>& benchmark;  ///< without one, benchmark.json of an earlier run is removed
+  SuiteRules rules;               ///< benchmark.json and gates.json of an earlier run are replaced or removed
   EffectiveText effective_yaml;
 };
 

@@ -1,5 +1,5 @@
-// Figure 8 of Lakaemper 2009: the points of all scans, superimposed by odometry (or as recorded), by the poses that a
-// pipeline used, and by the true ones.
+// Figure 8 of Lakaemper 2009: the points of all scans, superimposed by odometry (or as given), by the poses that a
+// pipeline used, and by the true ones or those that a log has to compare with.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -45,12 +45,15 @@ class Alignment : public Figure {
           differ(r.result->world_from_sensor, odometry))
         aligned.push_back(&r);
     }
-    const std::size_t most = std::max<std::size_t>(aligned.size(), 1) + (input.recording.truth ? 2 : 1);
-    add_panel(input, input.recording.truth ? "odometry" : "recorded poses", odometry, most, scene);
+    const auto& reference = input.recording.reference;
+    const bool compared = reference && reference->world_from_sensor.size() == frames.size();
+    const std::size_t most = std::max<std::size_t>(aligned.size(), 1) + (input.recording.truth || compared ? 2 : 1);
+    add_panel(input, input.recording.truth ? "odometry" : "given poses", odometry, most, scene);
     for (const NamedResult* r : aligned)
       add_panel(input, "as aligned: " + r->pipeline, r->result->world_from_sensor, most, scene);
     if (input.recording.truth && input.recording.truth->world_from_sensor.size() == frames.size())
       add_panel(input, "true poses", input.recording.truth->world_from_sensor, most, scene);
+    if (compared) add_panel(input, "poses to compare with", reference->world_from_sensor, most, scene);
 
     std::string sources;
     for (const Panel& panel : scene.panels) sources += (sources.empty() ? "" : "; ") + panel.title;
@@ -105,7 +108,9 @@ class Alignment : public Figure {
 
 const bool registered = Registry<Figure>::add<Alignment>(
     {.name = "alignment",
-     .summary = "points of all scans, superimposed by odometry, by the poses a pipeline used, and by the true ones",
+     .summary =
+         "points of all scans, superimposed by odometry, by the poses that a pipeline used, and by the true ones "
+         "or those that a log has to compare with",
      .reference = "Lakaemper 2009, figure 8"});
 
 }  // namespace

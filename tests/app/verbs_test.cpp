@@ -104,16 +104,21 @@ TEST_F(Verbs, ScoreFiguresAndReportGiveTheBytesOfTheRun) {
 TEST_F(Verbs, CompareIsGoodWithItselfAndFailsWithAWorseOne) {
   const auto same = here({"compare", "run", "run"});
   EXPECT_EQ(same.code, 0);
-  EXPECT_THAT(same.out, AllOf(HasSubstr(" same"), Not(HasSubstr("worse"))));
+  EXPECT_THAT(same.out, testing::StartsWith("PASS: none of "));
   // A threshold of two metres rounds off every corner, so walls are not found.
   ASSERT_EQ(here({"run", "room.yaml", "-q", "--no-figures", "--out", "worse", "--set",
                   "pipelines.iepf.extract.params.threshold_m=2"})
                 .code,
             0);
-  const auto worse = here({"compare", "run", "worse", "--csv", "rows.csv"});
+  const auto worse = here(
+      {"compare", "run", "worse", "--csv", "rows.csv", "--json", "c.json", "--markdown", "c.md", "--junit", "c.xml"});
   EXPECT_EQ(worse.code, 1) << worse.out << worse.err;
-  EXPECT_THAT(worse.out, HasSubstr("worse"));
+  EXPECT_THAT(worse.out, testing::StartsWith("FAIL: "));
+  EXPECT_THAT(worse.out, HasSubstr("room: pipelines.iepf.extract.params.threshold_m: 0.1 -> 2"));
   EXPECT_THAT(read(folder_ / "rows.csv"), HasSubstr("precision"));
+  EXPECT_EQ(nlohmann::json::parse(read(folder_ / "c.json")).at("verdict"), "FAIL");
+  EXPECT_THAT(read(folder_ / "c.md"), testing::StartsWith("**FAIL: "));
+  EXPECT_THAT(read(folder_ / "c.xml"), HasSubstr("<failure message="));
 }
 
 TEST_F(Verbs, AnExportedLogReadsBackToTheSameRangesAndLines) {

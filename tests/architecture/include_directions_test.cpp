@@ -32,9 +32,11 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"harness/analysis", {"core", "metrics", "harness/files", "harness/scenario", "harness/store"}},
     {"harness/report",
      {"core", "sim", "metrics", "render", "harness/files", "harness/scenario", "harness/store", "harness/analysis"}},
+    {"harness/nightly",
+     {"core", "metrics", "harness/files", "harness/scenario", "harness/store", "harness/analysis", "harness/report"}},
     {"app",
      {"core", "harness/files", "harness/exchange", "harness/scenario", "harness/store", "harness/run",
-      "harness/analysis", "harness/report"}},
+      "harness/analysis", "harness/report", "harness/nightly"}},
 };
 
 // Headers of a library that only one folder may name.
@@ -45,6 +47,7 @@ const std::map<std::string, std::string> kOwned = {
     {"CLI/", "app"},
     {"yaml-cpp/", "harness/yaml"},
     {"openssl/", "harness/files"},
+    {"sqlite3", "harness/nightly"},
     {"Random123/", "core"},
     {"thread", "sim"},  // .ci/tsan runs the tests of sim only
 };

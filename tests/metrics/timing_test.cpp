@@ -22,6 +22,13 @@ TEST(Timing, IsTheMedianOverTheScansOfTheSumOfTheStagesOfExtraction) {
   EXPECT_NEAR(row(evaluate("timing", run), "t_scan").value, 5.0, 1e-9);
 }
 
+TEST(Timing, OfAnAlignmentIsTheSumOfItsStages) {
+  MadeUpRun run;
+  run.result.times = {
+      {"extract", {}, 0, 1e-6}, {"align", Stage::resample, -1, 2e-3}, {"align", Stage::simulate, -1, 3e-3}};
+  EXPECT_NEAR(row(evaluate("timing", run), "t_align").value, 5000.0, 1e-9);
+}
+
 TEST(Timing, DoesNotApplyToARunThatWasNotTimed) {
   MadeUpRun run;
   EXPECT_FALSE(family("timing")->applies(run.input()));

@@ -54,7 +54,7 @@ struct Constants {
   return Ints{} + v;
 }
 
-/// std::bit_cast, always inlined. A call would pass wide vectors in the way of the default target, but the callers are
+/// std::bit_cast, always inlined. A call would pass wide vectors as the default target does, but the callers are
 /// compiled for other targets.
 template <class To, class From>
 [[gnu::always_inline]] inline To bits(const From& from) {

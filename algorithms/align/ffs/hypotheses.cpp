@@ -11,6 +11,7 @@ namespace scanbench::align::ffs {
 namespace {
 
 constexpr double kSameSteps = 5.0;
+constexpr std::size_t kRectangleSides = 4;
 
 double distance_to_line(const Vec2& p, const Hypothesis& line) {
   const Vec2 along = (line.corners[1] - line.corners[0]).normalized();
@@ -71,9 +72,9 @@ VirtualScan plotted(const std::vector<Hypothesis>& hypotheses, const HypothesisR
       const Segment side{corners[k], corners[(k + 1) % corners.size()]};
       resample(side, rules.resample_m, scan.points);
       scan.directions.resize(scan.points.size(), side.direction());
+      scan.side.resize(scan.points.size(), is_line ? -1 : static_cast<int>(kRectangleSides * h + k));
     }
     scan.weights.resize(scan.points.size(), weight);
-    scan.holds.resize(scan.points.size(), is_line ? -1 : static_cast<int>(h));
   }
   return scan;
 }
@@ -86,8 +87,8 @@ void HypothesisJournal::follow(const CurrentMap& map, std::vector<Hypothesis>& h
     std::size_t before = last_.size();
     for (std::size_t k = 0; k < last_.size(); ++k) {
       if (taken[k] || last_[k].shape != h.shape) continue;
-      const double way = moved(last_[k], h);
-      if (way <= nearest) nearest = way, before = k;
+      const double distance = moved(last_[k], h);
+      if (distance <= nearest) nearest = distance, before = k;
     }
     const bool known = before < last_.size();
     if (known) taken[before] = true;

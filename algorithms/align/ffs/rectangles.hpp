@@ -21,7 +21,7 @@ struct RectangleRules {
 
 struct Rectangle {
   std::array<Vec2, 4> corners;  ///< counter-clockwise
-  double certainty;  ///< 0 .. 1: share of the perimeter that was seen times the cosines of the angular deviations
+  double certainty = 0.0;  ///< 0 .. 1: share of the perimeter that was seen times the cosines of the angular deviations
 
   Vec2 centre() const { return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]); }
 };

@@ -12,7 +12,7 @@ struct VirtualScan {
   std::vector<Vec2> points;
   std::vector<Vec2> directions;
   std::vector<double> weights;
-  std::vector<int> holds;  ///< number of the hypothesis if two scans on it hold each other; -1 if they can slide
+  std::vector<int> side;  ///< of a rectangle: 4 times its number plus that of the side; -1 for a line
 };
 
 }  // namespace scanbench::align::ffs

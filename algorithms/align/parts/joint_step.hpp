@@ -28,4 +28,10 @@ struct JointStep {
 JointStep joint_step(std::span<const ScanShape> scans, const PartnerRules& rules, double longest_m,
                      std::vector<Pose2>& world_from_sensor);
 
+/// How well all points agree with the lines of the other scans: the sum over the same pairs of (1 - (d / gate)^2)^3,
+/// which is what Tukey's loss saves against points without partners. It grows with the number of pairs and falls with
+/// their distances.
+double agreement(std::span<const ScanShape> scans, const PartnerRules& rules, double longest_m,
+                 std::span<const Pose2> world_from_sensor);
+
 }  // namespace scanbench::align

@@ -28,9 +28,9 @@ std::string movement_text(double value);
 /// How the last round of a joint solution went.
 struct Outcome {
   ScanGroups groups;
-  bool slides;  ///< a scan has motions that the others do not determine
-  bool converged;
-  int rounds;
+  bool slides = false;  ///< a scan has motions that the others do not determine
+  bool converged = false;
+  int rounds = 0;
   Move last;
 };
 

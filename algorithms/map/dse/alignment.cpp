@@ -71,8 +71,9 @@ Registration MapAligner::by_matcher(const Observation& observation, std::span<co
 }
 
 std::string MapAligner::explained(const Registration& registration) const {
-  if (registration.status == Status::converged) return "";
-  if (matcher_ != nullptr) return method_ + " says " + std::string(to_string(registration.status));
+  if (registration.status == Status::converged && !registration.by_step) return "";
+  if (matcher_ != nullptr && !registration.by_step)
+    return method_ + " says " + std::string(to_string(registration.status));
   return mapping::explained(registration, registration_);
 }
 

@@ -85,7 +85,21 @@ Registration with_search(const Locate& locate, const Pose2& predicted, const Reg
   return best;
 }
 
+Registration from_step(const Locate& locate, const std::optional<Pose2>& stepped, const Pose2& predicted,
+                       const RegistrationRule& rule) {
+  if (!stepped) return with_search(locate, predicted, rule);
+  Registration found = locate(*stepped);
+  if (found.status != Status::no_match) return found;
+  found.status = Status::converged;
+  found.map_from_sensor = *stepped;
+  found.by_step = true;
+  return found;
+}
+
 std::string explained(const Registration& registration, const RegistrationRule& rule) {
+  if (registration.by_step)
+    return number_text(std::round(100 * registration.share)) +
+           " % of the scan meets the map; it is inserted where it meets the scan before";
   switch (registration.status) {
     case Status::converged:
       break;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/modules.hpp"
@@ -36,6 +37,7 @@ struct Registration {
   double share = 0.0;     ///< of total_weight that has partners within the narrow gate
   double rms_m = 0.0;     ///< weighted root mean square of their distances
   int iterations = 0;
+  bool by_step = false;  ///< the scan does not meet the map and is placed by the scan before it
 };
 
 /// `total_weight`: sum of the weights that all points of the scan would have; `lever_m`: typical distance of them from
@@ -52,7 +54,14 @@ using Locate = std::function<Registration(const Pose2& predicted)>;
 /// lose headings first. The result is the one of the largest share, of equal ones that of the smallest turn.
 Registration with_search(const Locate& locate, const Pose2& predicted, const RegistrationRule& rule);
 
-/// "2 of 3 motions are determined", "31 % of the scan meets the map": what a status other than `converged` means.
+/// What `locate` finds from `stepped`, the pose by the scan before; with_search() from the prediction if that is
+/// absent. A scan that does not meet the map at `stepped` stays there, `converged`: it is in a part that has no map
+/// yet.
+Registration from_step(const Locate& locate, const std::optional<Pose2>& stepped, const Pose2& predicted,
+                       const RegistrationRule& rule);
+
+/// "2 of 3 motions are determined", "31 % of the scan meets the map": what a status other than `converged` means,
+/// or by_step.
 std::string explained(const Registration& registration, const RegistrationRule& rule);
 
 }  // namespace scanbench::mapping

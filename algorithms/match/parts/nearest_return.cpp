@@ -4,6 +4,7 @@
 // side are farther away than the best return, so are all behind them: no table is needed to know when to stop.
 #include "algorithms/match/parts/nearest_return.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nanoflann.hpp>
@@ -11,7 +12,7 @@
 namespace scanbench::matching {
 namespace {
 
-constexpr int kFewBeams = 48;  // on both sides together; a search of the tree costs about as much
+constexpr std::size_t kFewBeams = 48;  // on both sides together; a search of the tree costs about as much
 
 /// The interface to a set of points that nanoflann needs.
 struct PointSet {
@@ -31,20 +32,42 @@ double square_from_ray(const Vec2& p, const Vec2& direction) {
   return d * d;
 }
 
+/// The two nearest of the returns that were looked at.
+class TwoNearest {
+ public:
+  explicit TwoNearest(double gate_m) : found_{.square = gate_m * gate_m, .others_square = gate_m * gate_m} {}
+  void look_at(std::size_t index, double square) {
+    if (square < found_.square || (!any_ && square == found_.square)) {
+      found_ = {index, square, found_.square};
+      any_ = true;
+    } else if (square < found_.others_square) {
+      found_.others_square = square;
+    }
+  }
+  /// Square of the distance beyond which nothing changes.
+  double reach() const { return found_.others_square; }
+  std::optional<Nearest> result() const { return any_ ? std::optional(found_) : std::nullopt; }
+
+ private:
+  Nearest found_;
+  bool any_ = false;
+};
+
 }  // namespace
 
 class NearestReturn::Tree {
  public:
   explicit Tree(const std::vector<Vec2>& points) : set_{points}, index_(2, set_, {10}) { index_.buildIndex(); }
-  std::optional<std::size_t> find(const Vec2& p, double gate_m) const {
-    std::size_t index = 0;
-    double square = 0.0;
-    nanoflann::KNNResultSet<double> best(1);
-    best.init(&index, &square);
+  std::optional<Nearest> find(const Vec2& p, double gate_m) const {
+    std::array<std::size_t, 2> indices{};
+    std::array<double, 2> squares{};
+    nanoflann::KNNResultSet<double> best(2);
+    best.init(indices.data(), squares.data());
     const std::array<double, 2> query{p.x(), p.y()};
     index_.findNeighbors(best, query.data(), nanoflann::SearchParams());
-    if (best.size() == 0 || square > gate_m * gate_m) return std::nullopt;
-    return index;
+    TwoNearest found(gate_m);
+    for (std::size_t k = 0; k < best.size(); ++k) found.look_at(indices[k], squares[k]);
+    return found.result();
   }
 
  private:
@@ -53,7 +76,10 @@ class NearestReturn::Tree {
 };
 
 NearestReturn::NearestReturn(const ReturnedPoints& scan)
-    : scan_(scan), sense_(scan.scan.sensor.geometry.angle_step() < 0 ? -1.0 : 1.0) {}
+    : scan_(scan), sense_(scan.scan.sensor.geometry.angle_step() < 0 ? -1.0 : 1.0) {
+  rays_.reserve(scan.size());
+  for (std::size_t k = 0; k < scan.size(); ++k) rays_.push_back({scan.direction(k), scan.points[k]});
+}
 NearestReturn::~NearestReturn() = default;
 
 /// The return whose beam is the last at or before the bearing of p, counted in the sense of the scan.
@@ -71,48 +97,49 @@ std::size_t NearestReturn::at_bearing(const Vec2& p, std::size_t hint) const {
     return behind == scan_.beams.begin() ? n - 1 : static_cast<std::size_t>(behind - scan_.beams.begin()) - 1;
   }
   // From the hint on while the point is on the far side of the next ray, back while it is on the near side of this one.
-  for (std::size_t steps = 0; steps < n && sense_ * cross(scan_.direction(next(k)), p) > 0; ++steps) k = next(k);
-  for (std::size_t steps = 0; steps < n && sense_ * cross(scan_.direction(k), p) < 0; ++steps) k = previous(k);
+  for (std::size_t steps = 0; steps < n && sense_ * cross(rays_[next(k)].direction, p) > 0; ++steps) k = next(k);
+  for (std::size_t steps = 0; steps < n && sense_ * cross(rays_[k].direction, p) < 0; ++steps) k = previous(k);
   return k;
 }
 
-std::optional<std::size_t> NearestReturn::find(const Vec2& p, double gate_m, std::size_t hint) {
-  const std::size_t n = scan_.size();
-  if (n == 0) return std::nullopt;
-  double best = gate_m * gate_m;
-  std::optional<std::size_t> found;
+std::optional<Nearest> NearestReturn::find(const Vec2& p, double gate_m, std::size_t hint) {
+  if (rays_.empty()) return std::nullopt;
+  TwoNearest nearest(gate_m);
+  std::size_t left = rays_.size();
   const auto look_at = [&](std::size_t k) {
-    const double square = (scan_.points[k] - p).squaredNorm();
-    if (square > best || (square == best && found)) return;
-    best = square;
-    found = k;
+    nearest.look_at(k, (rays_[k].point - p).squaredNorm());
+    --left;
   };
+  const auto within_reach = [&](std::size_t k) {
+    return left > 0 && square_from_ray(p, rays_[k].direction) <= nearest.reach();
+  };
+  // Both neighbours of the bearing first: they tell how far the walk has to go.
   std::size_t down = at_bearing(p, hint), up = next(down);
-  bool open_down = true, open_up = true;
-  std::size_t left = n;
-  for (int looked = 0; left > 0 && (open_down || open_up); looked += 2) {
-    if (looked >= kFewBeams) {
-      if (!tree_) tree_ = std::make_unique<Tree>(scan_.points);
-      return tree_->find(p, gate_m);
-    }
-    if (open_down) {
-      open_down = square_from_ray(p, scan_.direction(down)) <= best;
-      if (open_down) {
-        look_at(down);
-        down = previous(down);
-        --left;
-      }
-    }
-    if (open_up && left > 0) {
-      open_up = square_from_ray(p, scan_.direction(up)) <= best;
-      if (open_up) {
-        look_at(up);
-        up = next(up);
-        --left;
-      }
-    }
+  if (within_reach(down)) look_at(down);
+  if (within_reach(up)) look_at(up);
+  const std::size_t enough = left > kFewBeams ? left - kFewBeams : 0;
+  for (down = previous(down); within_reach(down) && left > enough; down = previous(down)) look_at(down);
+  for (up = next(up); within_reach(up) && left > enough; up = next(up)) look_at(up);
+  if (left > 0 && left == enough) {
+    if (!tree_) tree_ = std::make_unique<Tree>(scan_.points);
+    return tree_->find(p, gate_m);
   }
-  return found;
+  return nearest.result();
+}
+
+std::optional<std::size_t> NearestReturn::follow(const Vec2& p, double gate_m, Track& track) {
+  if (track.partner < rays_.size()) {
+    // The others are at least so far away now. The partner is within the gate, for others_m is at most the gate.
+    const double others = track.others_m - (p - track.searched_at).norm();
+    if (others > 0 && (rays_[track.partner].point - p).squaredNorm() <= others * others) return track.partner;
+  }
+  const std::optional<Nearest> found = find(p, gate_m, track.partner);
+  if (!found) {
+    track.others_m = 0.0;
+    return std::nullopt;
+  }
+  track = {p, found->index, std::sqrt(found->others_square)};
+  return found->index;
 }
 
 }  // namespace scanbench::matching

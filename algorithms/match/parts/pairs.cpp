@@ -19,14 +19,17 @@ double variance_across(const ReturnedPoints& scan, std::size_t k, const Vec2& no
 }  // namespace
 
 std::vector<Pair> nearest_pairs(const ReturnedPoints& current, const Pose2& reference_from_current, double gate_m,
-                                NearestReturn& reference, std::vector<std::size_t>& hints) {
+                                NearestReturn& reference, std::vector<Track>& tracks, std::size_t every) {
   std::vector<Pair> pairs;
-  pairs.reserve(current.size());
-  for (std::size_t k = 0; k < current.size(); ++k) {
+  pairs.reserve(current.size() / every + 1);
+  std::size_t last = Track::kNone;
+  for (std::size_t k = 0; k < current.size(); k += every) {
     const Vec2 p = reference_from_current * current.points[k];
-    const auto nearest = reference.find(p, gate_m, hints[k]);
+    // Neighbours have neighbours as partners: a good place to begin a first search.
+    if (tracks[k].partner == Track::kNone) tracks[k].partner = last;
+    const auto nearest = reference.follow(p, gate_m, tracks[k]);
     if (!nearest) continue;
-    hints[k] = *nearest;
+    last = *nearest;
     pairs.push_back({k, *nearest, p, 0.0});
   }
   return pairs;

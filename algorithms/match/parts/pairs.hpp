@@ -15,13 +15,13 @@ struct Pair {
   std::size_t current = 0;
   std::size_t reference = 0;
   Vec2 point = Vec2::Zero();  ///< the current return, in the reference frame
-  double residual = 0.0;      ///< distance that the matcher minimises [m]
+  double residual = 0.0;      ///< what the matcher minimises: a distance [m] or its square
 };
 
-/// The nearest return within `gate_m` of every current one. `hints`, one per current return, carry the partners from
-/// call to call; any values at first.
+/// The nearest return within `gate_m` of every `every`th current one. `tracks`, one per current return, carry the
+/// partners from call to call.
 std::vector<Pair> nearest_pairs(const ReturnedPoints& current, const Pose2& reference_from_current, double gate_m,
-                                NearestReturn& reference, std::vector<std::size_t>& hints);
+                                NearestReturn& reference, std::vector<Track>& tracks, std::size_t every = 1);
 
 /// Removes pairs without a local line at both ends and pairs whose lines differ by more than 20 degrees: their ends are
 /// on two sides of a corner.

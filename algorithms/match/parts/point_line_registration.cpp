@@ -44,13 +44,13 @@ Match register_points_on_lines(const ReturnedPoints& reference, const std::vecto
   on_lines.reserve(current.size());
   for (std::size_t k = 0; k < current.size(); ++k) on_lines.push_back(current_lines[k].project(current.points[k]));
   NearestReturn nearest(reference);
-  std::vector<std::size_t> hints(current.size(), reference.size());
+  std::vector<Track> tracks(current.size());
   Pose2 pose = guess;
   PairInformation information;
   bool settled = false, near = false;
   double last_size = 0.0;
   for (int iteration = 0; iteration < rules.max_iterations && !settled; ++iteration) {
-    std::vector<Pair> pairs = nearest_pairs(current, pose, rules.gate_m, nearest, hints);
+    std::vector<Pair> pairs = nearest_pairs(current, pose, rules.gate_m, nearest, tracks);
     const double overlap = static_cast<double>(pairs.size()) / static_cast<double>(current.size());
     if (current.size() == 0 || !(overlap >= rules.min_overlap)) return no_match(guess);
     keep_aligned(pairs, lines, current_lines, pose);

@@ -1,5 +1,4 @@
-// Force field simulation and virtual scans as aligners, and simultaneous ICP beside them: what must hold by mechanics,
-// and what they say of input that they cannot align.
+// All aligners: what must hold by mechanics, and what they say of input that they cannot align.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,7 +57,8 @@ std::pair<double, double> relative_error(const std::vector<Pose2>& poses, const 
 }
 
 class AllToAll : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Aligners, AllToAll, ::testing::Values("ffs", "virtual_scans", "simultaneous_icp"),
+INSTANTIATE_TEST_SUITE_P(Aligners, AllToAll,
+                         ::testing::Values("ffs", "virtual_scans", "simultaneous_icp", "point_to_line"),
                          [](const auto& test) { return test.param; });
 
 TEST_P(AllToAll, BringScansOfARoomTogetherFromManyStarts) {
@@ -144,9 +144,10 @@ TEST_P(AllToAll, LeaveEqualScansWhereTheyAre) {
 }
 
 TEST_P(AllToAll, SayWhenTheIterationsWereUsedUp) {
-  const std::string limit = GetParam() == "simultaneous_icp" ? "max_rounds" : "max_iterations";
+  const bool simulates = GetParam() == "ffs" || GetParam() == "virtual_scans";
+  const std::string limit = simulates ? "max_iterations" : "max_rounds";
   ParamSet params{{limit, std::int64_t{2}}};
-  if (limit == "max_iterations") params.emplace("cooling_iterations", std::int64_t{2});
+  if (simulates) params.emplace("cooling_iterations", std::int64_t{2});
   const Alignment result = align(GetParam(), scans_of(room(), path()), perturbed(path(), 1), params);
   EXPECT_NE(result.status, Status::converged);
   EXPECT_NE(result.message.find("moved"), std::string::npos) << result.message;

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "algorithms/match/optimal/wall_pairs.hpp"
+#include "algorithms/match/parts/extrapolation.hpp"
 #include "algorithms/match/parts/nearest_return.hpp"
 #include "algorithms/match/parts/pose_information.hpp"
 #include "algorithms/match/parts/scan_points.hpp"
@@ -30,14 +31,17 @@ void expect_nearest_by_brute_force(const OwnedScan& owned) {
   for (int trial = 0; trial < 2000; ++trial) {
     const Vec2 p(12.0 * rng.uniform() - 6.0, 12.0 * rng.uniform() - 6.0);
     const double gate = trial % 3 == 0 ? 0.2 : 20.0;
-    double least = gate;
-    for (const Vec2& q : points.points) least = std::min(least, (q - p).norm());
+    std::vector<double> distances{gate, gate};
+    for (const Vec2& q : points.points) distances.push_back((q - p).norm());
+    std::ranges::sort(distances);
     const auto found = nearest.find(p, gate, trial % 2 == 0 ? hint : points.size());
     if (found) {
-      EXPECT_DOUBLE_EQ((points.points[*found] - p).norm(), least);
-      hint = *found;
+      EXPECT_DOUBLE_EQ((points.points[found->index] - p).norm(), distances[0]);
+      EXPECT_DOUBLE_EQ(std::sqrt(found->square), distances[0]);
+      EXPECT_DOUBLE_EQ(std::sqrt(found->others_square), distances[1]);
+      hint = found->index;
     } else {
-      EXPECT_EQ(least, gate);
+      EXPECT_EQ(distances[0], gate);
     }
   }
 }
@@ -57,6 +61,53 @@ TEST(NearestReturn, IsThatOfBruteForce) {
       if (i % 7 == 0 || (i > 100 && i < 200)) holes.ranges[i] = testing::kInf;
     expect_nearest_by_brute_force(holes);
   }
+}
+
+TEST(NearestReturn, FollowsAPointThatMovesAsBruteForceDoes) {
+  const OwnedScan owned = with_noise(cast(ring_sensor(360), testing::random_room(4)), 0.05, 4);
+  const Scan scan = owned.view();
+  const ReturnedPoints points = returned_points(scan);
+  NearestReturn nearest(points);
+  CounterRng rng(8, RngStream::pose);
+  const auto about = [&](double most) { return most * (2.0 * rng.uniform() - 1.0); };
+  for (const double step_m : {1e-4, 3e-3, 0.05, 1.0}) {
+    Track track;
+    Vec2 p = points.points[50] + Vec2(0.1, 0.05);
+    for (int trial = 0; trial < 500; ++trial) {
+      double least = 0.5;
+      for (const Vec2& q : points.points) least = std::min(least, (q - p).norm());
+      const auto found = nearest.follow(p, 0.5, track);
+      const double distance = found ? (points.points[*found] - p).norm() : 0.5;
+      ASSERT_DOUBLE_EQ(distance, least) << step_m << " " << trial;
+      p += Vec2(about(step_m), about(step_m));
+    }
+  }
+}
+
+TEST(Extrapolation, JumpsToTheLeastErrorOfAStraightWalk) {
+  // Each step covers a tenth of what remains to 1; errors are squared distances from there, above a floor.
+  Extrapolation extrapolation;
+  const Eigen::Vector3d direction(0.6, 0.0, 0.8);
+  double at = 0.0;
+  std::vector<double> factors;
+  for (int k = 0; k < 3; ++k) {
+    const double step = 0.1 * (1.0 - at);
+    factors.push_back(extrapolation.factor(step * direction, 0.3 + (1.0 - at) * (1.0 - at)));
+    at += factors.back() * step;
+  }
+  EXPECT_EQ(factors[0], 1.0);
+  EXPECT_EQ(factors[1], 1.0);
+  EXPECT_NEAR(factors[2], 10.0, 1e-9);
+  EXPECT_NEAR(at, 1.0, 1e-12);
+}
+
+TEST(Extrapolation, LeavesStepsAloneThatTurnOrWhoseErrorsGrowFaster) {
+  Extrapolation turning, growing;
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_EQ(turning.factor({std::cos(0.3 * k), std::sin(0.3 * k), 0.0}, std::pow(0.5, k)), 1.0);
+    EXPECT_EQ(growing.factor({1.0, 0.0, 0.0}, 100.0 - k * k / 10.0), 1.0);
+  }
+  EXPECT_EQ(turning.factor(Eigen::Vector3d::Zero(), 0.0), 1.0);
 }
 
 TEST(LocalLines, OfAWallAreTheWall) {

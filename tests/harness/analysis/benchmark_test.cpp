@@ -233,6 +233,8 @@ TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
   input.rows = made_up_rows();
   input.cells = {{"x", "a", 1, "ok", "", 0, 0}, {"x", "b", 1, "timeout", "after 3 s", 0, 0}};
   for (const std::string& page : {benchmark_html(input, kSpec), benchmark_markdown(input, kSpec)}) {
+    EXPECT_THAT(page, HasSubstr("b ranks first of 3 extractors, with F1 [%] 85.00; a is next with 80.00, a difference "
+                                "that may be chance."));
     EXPECT_THAT(page, HasSubstr("3 extractors on 2 conditions"));
     EXPECT_THAT(page, HasSubstr("2 seeds make 4 recordings with 40 scans"));
     EXPECT_THAT(page, HasSubstr("noise of 2 cm"));
@@ -242,6 +244,27 @@ TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
     EXPECT_THAT(page, HasSubstr("1 of 2 cells ok"));
     EXPECT_THAT(page, HasSubstr("after 3 s"));
   }
+}
+
+TEST(Benchmark, PageShowsAllNumbersOfScansOfAWorld) {
+  std::string longer = kScene;
+  longer.replace(longer.find("scans: 4"), 8, "scans: 6");
+  ReportInput input;
+  input.scenarios = {parse_scenario(kScene, "x.yaml"), parse_scenario(longer, "y.yaml")};
+  for (Scenario& scenario : input.scenarios) std::get<SimulatedInput>(scenario.input).world.name = "room";
+  input.rows = made_up_rows();
+  EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr("<td>4, 6</td>"));
+}
+
+TEST(Benchmark, PageBeginsWithTheFirstInRankAndNamesMissingCells) {
+  ReportInput input;
+  input.title = "small";
+  input.scenarios = two_scenarios();
+  input.rows = made_up_rows();
+  std::erase_if(input.rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
+  EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr("<p><b>a ranks first of 3 extractors, with F1 [%] 80.00"));
+  std::erase_if(input.rows, [](const SummaryRow& r) { return r.scenario == "y" && r.seed == 2; });
+  EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr("<p><b>No extractor has a result in every cell"));
 }
 
 std::string matching_scene(const std::string& metrics) {
@@ -308,6 +331,49 @@ TEST(Benchmark, OfMatchersNeedsMatchSlotsAndTheirMetrics) {
   EXPECT_THAT(refusal(matching_scene("[pose_efficiency, trajectory, timing]"), "{of: match, baseline: a}"),
               HasSubstr("no metric pose_efficiency with errors"));
   EXPECT_THAT(refusal(good, "{of: poses, baseline: a}"), HasSubstr("extract"));
+}
+
+std::string aligning_scene(const std::string& metrics) {
+  return std::string(kScene).substr(0, std::string(kScene).find("pipelines")) + R"(pipelines:
+  - {name: a, extract: {module: iepf}, align: {module: ffs}}
+  - {name: b, extract: {module: iepf}, align: {module: point_to_line}}
+metrics: )" +
+         metrics + "\n";
+}
+
+TEST(Benchmark, RanksAlignersByTheShareOfScansPlacedAndAnAlignerThatFailsLast) {
+  const std::string scene = aligning_scene("[alignment, timing]");
+  const std::vector<Scenario> scenarios{parse_scenario(scene, "x.yaml"), parse_scenario(scene, "y.yaml")};
+  std::vector<SummaryRow> rows;
+  add_rows(rows, "a", "placed", {0.5, 1.0, 0.5, 1.0});
+  add_rows(rows, "b", "placed", {1.0, 1.0, 1.0, 0.8});
+  add_rows(rows, "a", "error_ratio", {0.1, 0.1, 0.1, 0.1});
+  add_rows(rows, "b", "error_ratio", {0.5, 0.5, 0.5, 0.5});
+  const BenchmarkSpec spec{"what", "a", "x", "align"};
+  auto ranking = rank_pipelines(scenarios, rows, spec);
+  ASSERT_EQ(ranking.size(), 2U);
+  EXPECT_EQ(ranking[0].name, "b");
+  EXPECT_NEAR(ranking[0].values.at("placed").mean, 0.95, 1e-12);
+  const Table table = ranking_table(ranking, spec);
+  EXPECT_EQ(table.columns[2].head, "error / start");
+  EXPECT_FALSE(table.rows[1].cells[2].best) << "it errs less, but places 20 points fewer";
+  ReportInput input;
+  input.scenarios = scenarios;
+  input.rows = rows;
+  EXPECT_THAT(benchmark_html(input, spec), HasSubstr("<b>b ranks first of 2 aligners, with scans placed [%] 95.0; a is "
+                                                     "next with 75.0"));
+  std::erase_if(rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
+  EXPECT_EQ(rank_pipelines(scenarios, rows, spec)[0].name, "a");
+}
+
+TEST(Benchmark, OfAlignersNeedsAlignSlotsAndTheirMetric) {
+  const auto refusal = [](const std::string& scene) {
+    const std::vector<Scenario> scenarios{parse_scenario(scene, "x.yaml")};
+    return config_refusal([&] { read_benchmark(parse_yaml("{of: align, baseline: a}"), scenarios); });
+  };
+  EXPECT_EQ(refusal(aligning_scene("[alignment, timing]")), "");
+  EXPECT_THAT(refusal(kScene), HasSubstr("has no slot align"));
+  EXPECT_THAT(refusal(aligning_scene("[timing]")), HasSubstr("no metric alignment"));
 }
 
 TEST(ErrorBins, RootMeanSquareOfEverySeedAndTheirGeometricMean) {

@@ -411,7 +411,8 @@ TEST(Runner, ASelectionKeepsTheOtherCellsOfAnEarlierRun) {
 TEST(Runner, WithoutABenchmarkRemovesThatOfAnEarlierRun) {
   const testing::TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
-  run_here(two_scenarios(), {.out = out, .benchmark = BenchmarkSpec{.about = "", .baseline = "one", .example = "one"}});
+  run_here(two_scenarios(),
+           {.out = out, .rules = {.benchmark = BenchmarkSpec{.about = "", .baseline = "one", .example = "one"}}});
   EXPECT_TRUE(fs::exists(out / "benchmark.json"));
   run_here({scenario_with("other", {extract_with("a", "test_line")})}, {.out = out, .resume = true});
   EXPECT_FALSE(fs::exists(out / "benchmark.json"));

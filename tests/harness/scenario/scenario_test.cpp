@@ -225,11 +225,11 @@ TEST(ShippedSuites, RunClearOfWalls) {
 TEST(ShippedSuites, ExtractorsAreComparedOnEveryWorldSensorAndNoise) {
   const Suite suite = load_suite(source_dir() / "scenarios/suites/extractors.yaml");
   ASSERT_EQ(suite.scenarios.size(), 6U * 3U * 3U * 2U);
-  ASSERT_TRUE(suite.benchmark.has_value());
-  EXPECT_EQ(suite.benchmark->about, suite.about);
-  EXPECT_EQ(suite.benchmark->levels.size(), 6U + 3U + 3U + 2U);
-  EXPECT_EQ(suite.benchmark->levels.back().factor, "returns");
-  EXPECT_EQ(suite.benchmark->levels.back().scenarios.size(), 6U * 3U * 3U);
+  ASSERT_TRUE(suite.rules.benchmark.has_value());
+  EXPECT_EQ(suite.rules.benchmark->about, suite.about);
+  EXPECT_EQ(suite.rules.benchmark->levels.size(), 6U + 3U + 3U + 2U);
+  EXPECT_EQ(suite.rules.benchmark->levels.back().factor, "returns");
+  EXPECT_EQ(suite.rules.benchmark->levels.back().scenarios.size(), 6U * 3U * 3U);
   for (const auto& scenario : suite.scenarios) {
     const SensorNoise& noise = std::get<SimulatedInput>(scenario.input).sensor.noise;
     EXPECT_GT(noise.sigma_m, 0.0) << scenario.name;
@@ -334,7 +334,7 @@ pipelines: [{name: lt, extract: {module: line_tracking, params: {threshold_m: 0.
     EXPECT_EQ(std::get<double>(params.at("threshold_m")), i % 2 == 0 ? 0.03 : 0.2);
     EXPECT_EQ(std::get<std::int64_t>(params.at("min_points")), 7);
   }
-  EXPECT_FALSE(suite.benchmark.has_value());
+  EXPECT_FALSE(suite.rules.benchmark.has_value());
 }
 
 }  // namespace

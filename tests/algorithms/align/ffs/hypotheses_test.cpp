@@ -121,12 +121,17 @@ TEST(VirtualScan, PointsLieOnTheirHypothesesWithWeightsByCertainty) {
   ASSERT_EQ(scan.points.size(), scan.weights.size());
   ASSERT_EQ(scan.points.size(), scan.directions.size());
   for (std::size_t k = 0; k < scan.points.size(); ++k) {
-    const bool on_line = scan.holds[k] < 0;
+    const bool on_line = scan.side[k] < 0;
     EXPECT_NEAR(scan.weights[k], on_line ? 0.4 : 1.2, 1e-12);
     double nearest = 1e9;
     if (on_line) nearest = distance(scan.points[k], Segment{{0, 0}, {4, 0}});
-    if (!on_line)
-      for (const Segment& side : testing::box(0, 0, 2, 1)) nearest = std::min(nearest, distance(scan.points[k], side));
+    if (!on_line) {
+      const std::vector<Segment> sides = testing::box(0, 0, 2, 1);
+      for (const Segment& side : sides) nearest = std::min(nearest, distance(scan.points[k], side));
+      EXPECT_EQ(scan.side[k] / 4, 1) << "the second hypothesis";
+      const Vec2 from = hypotheses[1].corners[static_cast<std::size_t>(scan.side[k] % 4)];
+      EXPECT_NEAR(cross(scan.directions[k], scan.points[k] - from), 0.0, 1e-12) << "on the side that begins there";
+    }
     EXPECT_LT(nearest, 1e-12);
   }
 }

@@ -111,6 +111,22 @@ TEST(Search, ThatFindsNothingStaysAtThePrediction) {
   EXPECT_TRUE(found.map_from_sensor == Pose2(1, 2, 0.5));
 }
 
+TEST(FromStep, AScanThatDoesNotMeetTheMapStaysWhereTheScanBeforePutsIt) {
+  const Walls room(testing::box(-3, -2, 4, 2), {0, 0, 0});
+  const RegistrationRule rule{};
+  const Locate locate = [&](const Pose2& from) { return room.on(from, rule); };
+  const Registration away = from_step(locate, Pose2(50, 5, 1), Pose2(49, 5, 1), rule);
+  EXPECT_EQ(away.status, Status::converged);
+  EXPECT_TRUE(away.by_step);
+  EXPECT_TRUE(away.map_from_sensor == Pose2(50, 5, 1));
+  EXPECT_NE(explained(away, rule), "");
+
+  const Registration here = from_step(locate, Pose2(0.1, 0.05, 0.02), Pose2(50, 5, 1), rule);
+  EXPECT_FALSE(here.by_step);
+  EXPECT_NEAR(here.map_from_sensor.translation().norm(), 0.0, 1e-6);
+  EXPECT_EQ(from_step(locate, std::nullopt, Pose2(50, 5, 1), rule).status, Status::no_match);
+}
+
 TEST(Registration, OfNothingIsNoMatch) {
   const FindPairs nothing = [](const Pose2&, double) { return std::vector<PointOnLine>{}; };
   EXPECT_EQ(register_on_lines(nothing, {}, 0.0, 1.0, {}).status, Status::no_match);

@@ -1,0 +1,82 @@
+// Runs with progress and writes reports.
+#include "app/running.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/context.hpp"
+#include "app/drawing.hpp"
+#include "app/fault_notes.hpp"
+#include "app/progress.hpp"
+#include "core/error.hpp"
+#include "harness/report/plain_text.hpp"
+#include "harness/report/run_report.hpp"
+#include "harness/run/runner.hpp"
+#include "harness/store/cell_status.hpp"
+#include "harness/store/run_scenarios.hpp"
+
+namespace scanbench::app {
+namespace {
+
+void note_cell(Progress& progress, FaultNotes& faults, const harness::CellResult& cell) {
+  if (cell.record.outcome.status == harness::CellStatus::ok) return;
+  progress.failure();
+  if (const std::string note = faults.note(cell); !note.empty()) progress.note(note);
+}
+
+/// Draws the figures of a run, unless the user wants none, and writes its report. `failure`: why they were not drawn.
+harness::ReportInput write_report(const harness::RunResult& result, bool figures, Progress& progress,
+                                  std::string& failure) {
+  const auto scenarios = harness::load_run_scenarios(result.out);
+  if (figures) failure = draw_within_limits(result.out, scenarios, false, progress);
+  auto report = harness::load_report_input(result.out, scenarios);
+  harness::write_reports(result.out, report);
+  return report;
+}
+
+/// The message about missing cells: their number, the reason of the first, and whether an earlier run remains.
+std::string missing_text(const harness::RunResult& result) {
+  const auto is_missing = [](const harness::CellResult& cell) { return !cell.done; };
+  const auto first = std::ranges::find_if(result.cells, is_missing);
+  return fmt::format("scanbench: {} of {} cells are missing; {}: {}{}\n",
+                     std::ranges::count_if(result.cells, is_missing), result.cells.size(),
+                     harness::to_string(first->key), harness::plain_line(first->record.outcome.message),
+                     result.old_run_kept ? "; the earlier run in " + result.out.string() + " is unchanged" : "");
+}
+
+}  // namespace
+
+FinishedRun run_and_report(const std::vector<harness::Scenario>& scenarios, harness::RunOptions options,
+                           const Presentation& presentation) {
+  Progress progress(progress_style(presentation.quiet));
+  FaultNotes faults;
+  options.progress = [&](const harness::RunProgress& now) {
+    if (now.cell != nullptr) note_cell(progress, faults, *now.cell);
+    const double total = static_cast<double>(now.total);
+    progress.update(total > 0 ? 0.95 * static_cast<double>(now.done) / total : 0.0, now.what);
+  };
+  FinishedRun finished;
+  options.finish = [&](const harness::RunResult& result) {
+    const InterruptGuard guard;
+    try {
+      finished.report = write_report(result, presentation.figures, progress, finished.figure_failure);
+    } catch (const ConfigError& error) {
+      if (result.exit_code() != kIncomplete) throw;  // else the report fails for the same reason
+      say(fmt::format("scanbench: {}\n", error.what()));
+    }
+  };
+  finished.result = harness::run(scenarios, options);
+  for (const auto& line : faults.repeated()) progress.note(line);
+  progress.finish();
+  return finished;
+}
+
+std::string unfinished_text(const harness::RunResult& result) {
+  if (result.interrupted)
+    return fmt::format("scanbench: interrupted; the finished cells of a new run stay in {} (--resume continues)\n",
+                       result.out.string());
+  return result.exit_code() == kIncomplete ? missing_text(result) : "";
+}
+
+}  // namespace scanbench::app

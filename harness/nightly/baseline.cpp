@@ -1,0 +1,234 @@
+// Writes and reads baselines.
+#include "harness/nightly/baseline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/special_values.hpp"
+#include "harness/analysis/statistics.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/files/hash.hpp"
+#include "harness/store/json_file.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using metrics::MetricRow;
+
+Json number(double value) {
+  if (std::isnan(value)) return Json();  // JSON has no NaN and no infinities
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return value;
+}
+
+double number_of(const Json& json) {
+  if (json.is_null()) return kNaN;
+  if (json == "inf") return kInf;
+  if (json == "-inf") return -kInf;
+  return json.get<double>();
+}
+
+/// The cells of one pipeline in one scenario, in the order of the run.
+struct Group {
+  std::string scenario;
+  std::string pipeline;
+  std::vector<const CellResults*> cells;
+};
+
+std::vector<Group> groups_of(const RunResults& results) {
+  std::vector<Group> groups;
+  for (const auto& cell : results.cells) {
+    if (groups.empty() || groups.back().scenario != cell.key.scenario || groups.back().pipeline != cell.key.pipeline) {
+      const auto known = std::ranges::find_if(groups, [&](const Group& group) {
+        return group.scenario == cell.key.scenario && group.pipeline == cell.key.pipeline;
+      });
+      if (known != groups.end()) {
+        known->cells.push_back(&cell);
+        continue;
+      }
+      groups.push_back({cell.key.scenario, cell.key.pipeline, {}});
+    }
+    groups.back().cells.push_back(&cell);
+  }
+  return groups;
+}
+
+/// Of the values of all seeds, to find in a moment whether anything has changed.
+std::string hash_of(const Group& group) {
+  Json values = Json::array();
+  for (const auto* cell : group.cells)
+    for (const auto& row : cell->rows) values.push_back({cell->key.seed, row.metric, number(row.value)});
+  return sha256_hex(values.dump());
+}
+
+Json metric_json(const Group& group, const MetricRow& example) {
+  Json listed = Json::array();
+  std::vector<double> values;
+  for (const auto* cell : group.cells) {
+    const auto row = std::ranges::find(cell->rows, example.metric, &MetricRow::metric);
+    values.push_back(row == cell->rows.end() ? kNaN : row->value);
+    listed.push_back(number(values.back()));
+  }
+  const MeanInterval mean = mean_interval(values);
+  return {{"unit", example.unit},
+          {"median", number(median(values))},
+          {"ci_low", number(mean.low)},
+          {"ci_high", number(mean.high)},
+          {"values", std::move(listed)}};
+}
+
+Json group_json(const Group& group) {
+  Json seeds = Json::array();
+  Json recordings = Json::array();
+  std::map<std::string, const MetricRow*> metrics;
+  for (const auto* cell : group.cells) {
+    seeds.push_back(cell->key.seed);
+    recordings.push_back(cell->recording.substr(0, 16));
+    for (const auto& row : cell->rows) metrics.emplace(row.metric, &row);
+  }
+  Json listed = Json::object();
+  for (const auto& [name, row] : metrics) listed[name] = metric_json(group, *row);
+  return {{"scenario", group.scenario}, {"pipeline", group.pipeline}, {"hash", hash_of(group)}, {"seeds", seeds},
+          {"recordings", recordings},   {"metrics", listed}};
+}
+
+void read_group(const Json& json, RunResults& results) {
+  const auto seeds = json.at("seeds").get<std::vector<std::uint64_t>>();
+  const Json& recordings = json.at("recordings");
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    CellResults cell;
+    cell.key = {json.at("scenario"), json.at("pipeline"), seeds[i]};
+    cell.status = "ok";
+    cell.recording = recordings.at(i);
+    for (const auto& [name, metric] : json.at("metrics").items()) {
+      MetricRow row;
+      row.metric = name;
+      row.subject = "all";
+      row.unit = metric.at("unit");
+      row.value = number_of(metric.at("values").at(i));
+      cell.rows.push_back(std::move(row));
+    }
+    results.cells.push_back(std::move(cell));
+  }
+}
+
+/// One value per metric: of the subject "all", else the mean of those that are defined.
+std::vector<MetricRow> gate_rows(const std::vector<MetricRow>& rows, const Gates& gates) {
+  std::map<std::string, std::vector<const MetricRow*>> by_metric;
+  for (const auto& row : rows)
+    if (gates.is_gate(row.metric)) by_metric[row.metric].push_back(&row);
+  std::vector<MetricRow> reduced;
+  for (const auto& [metric, subjects] : by_metric) {
+    MetricRow row = *subjects.front();
+    const auto all = std::ranges::find(subjects, std::string("all"), &MetricRow::subject);
+    if (all != subjects.end()) {
+      row = **all;
+    } else {
+      double sum = 0.0;
+      double count = 0.0;
+      for (const auto* subject : subjects) {
+        if (!std::isfinite(subject->value)) continue;
+        sum += subject->value;
+        count += 1.0;
+      }
+      row.value = count > 0 ? sum / count : kNaN;
+    }
+    row.subject = "all";
+    reduced.push_back(std::move(row));
+  }
+  return reduced;
+}
+
+void check_complete(const RunResults& results) {
+  for (const auto& cell : results.cells)
+    if (!cell.ok())
+      throw ConfigError(
+          fmt::format("{}: {} is {}: a baseline must be complete", results.name, to_string(cell.key), cell.status));
+  if (results.cells.empty()) throw ConfigError(results.name + ": it has no cells");
+}
+
+}  // namespace
+
+RunResults gate_values(const RunResults& results, const Gates& gates) {
+  RunResults reduced = results;
+  for (auto& cell : reduced.cells) {
+    cell.rows = gate_rows(cell.rows, gates);
+    cell.recording = cell.recording.substr(0, 16);
+  }
+  return reduced;
+}
+
+std::vector<fs::path> baseline_files(const fs::path& baselines, const std::string& suite) {
+  std::vector<fs::path> files;
+  const fs::path folder = baselines / suite;
+  std::error_code absent;
+  if (!fs::is_directory(folder, absent)) return files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".json" && !is_temporary_name(entry.path().filename().string()))
+      files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+Baseline load_baseline(const fs::path& file) {
+  return with_json_of(file, [&](const Json& json) {
+    if (json.value("program", Json()) != "scanbench" || json.value("kind", Json()) != "baseline")
+      throw ConfigError(file.string() + ": not a baseline of scanbench");
+    if (json.at("schema") != 1)
+      throw ConfigError(file.string() + ": schema is " + json.at("schema").dump() + "; allowed: 1");
+    Baseline baseline{file, json.at("accepted"), json.at("reason"), {}};
+    baseline.results.name = "baseline " + file.stem().string();
+    baseline.results.provenance.commit = json.at("commit");
+    baseline.results.provenance.compiler = json.at("compiler");
+    baseline.results.provenance.processor = json.at("processor");
+    for (const auto& [scenario, settings] : json.at("settings").items())
+      baseline.results.settings[scenario] = settings.get<std::map<std::string, std::string>>();
+    for (const auto& group : json.at("groups")) read_group(group, baseline.results);
+    return baseline;
+  });
+}
+
+fs::path accept_baseline(const fs::path& baselines, const std::string& suite, const RunResults& results,
+                         const Gates& gates, const std::string& reason) {
+  if (reason.find_first_not_of(" \t\n") == std::string::npos)
+    throw ConfigError("--reason is empty; allowed: why the baseline moves, for those who read it later");
+  check_complete(results);
+  const RunResults reduced = gate_values(results, gates);
+  Json groups = Json::array();
+  for (const auto& group : groups_of(reduced)) groups.push_back(group_json(group));
+  const auto files = baseline_files(baselines, suite);
+  if (!files.empty()) {
+    const Json newest = load_json_object(files.back());
+    if (newest.value("groups", Json()) == groups)
+      throw ConfigError(files.back().string() + " has these values already; nothing to accept");
+  }
+  Json settings = Json::object();
+  for (const auto& [scenario, values] : reduced.settings) settings[scenario] = values;
+  const Json json{{"schema", 1},
+                  {"program", "scanbench"},
+                  {"kind", "baseline"},
+                  {"suite", suite},
+                  {"accepted", utc_now()},
+                  {"reason", reason},
+                  {"commit", reduced.provenance.commit},
+                  {"compiler", reduced.provenance.compiler},
+                  {"processor", reduced.provenance.processor},
+                  {"settings", settings},
+                  {"groups", groups}};
+  const std::size_t number_of_newest = files.empty() ? 0 : std::strtoul(files.back().stem().c_str(), nullptr, 10);
+  const fs::path file = baselines / suite / fmt::format("{:04}.json", number_of_newest + 1);
+  make_folders(file.parent_path());
+  write_file_atomically(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  return file;
+}
+
+}  // namespace scanbench::harness

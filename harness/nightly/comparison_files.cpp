@@ -1,0 +1,140 @@
+// Writes a comparison as JSON, Markdown and JUnit XML.
+#include "harness/nightly/comparison_files.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "harness/analysis/verdict.hpp"
+#include "harness/nightly/comparison_tables.hpp"
+#include "harness/report/plain_text.hpp"
+#include "harness/report/table.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json();  // JSON has no NaN
+}
+
+Json cell_json(const CellKey& key) {
+  return {{"scenario", key.scenario}, {"pipeline", key.pipeline}, {"seed", key.seed}};
+}
+
+Json cells_json(const std::vector<CellKey>& cells) {
+  Json list = Json::array();
+  for (const auto& key : cells) list.push_back(cell_json(key));
+  return list;
+}
+
+Json statuses_json(const std::vector<StatusChange>& changes) {
+  Json list = Json::array();
+  for (const auto& change : changes) {
+    Json entry = cell_json(change.cell);
+    entry["before"] = change.before;
+    entry["after"] = change.after;
+    entry["message"] = plain_line(change.message);
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json change_json(const MetricChange& change) {
+  Json pairs = Json::array();
+  for (const auto& pair : change.pairs)
+    pairs.push_back({{"seed", pair.seed}, {"before", number(pair.before)}, {"after", number(pair.after)}});
+  return {{"scenario", change.scenario},
+          {"pipeline", change.pipeline},
+          {"metric", change.metric.metric},
+          {"unit", change.metric.unit},
+          {"gate", change.gate},
+          {"finding", to_string(change.finding)},
+          {"before", number(change.before)},
+          {"after", number(change.after)},
+          {"difference", number(change.difference.mean)},
+          {"ci_low", number(change.difference.low)},
+          {"ci_high", number(change.difference.high)},
+          {"tolerance", change.metric.tolerance},
+          {"effect", number(change.effect)},
+          {"p", number(change.p)},
+          {"q", number(change.q)},
+          {"undefined_now", change.lost},
+          {"pairs", std::move(pairs)}};
+}
+
+/// Text for XML: no characters that XML 1.0 forbids.
+std::string xml(const std::string& text) {
+  return html_escaped(plain_line(text));
+}
+
+std::string test_case(const std::string& group, const std::string& name, const std::string& outcome) {
+  return fmt::format("  <testcase classname=\"{}\" name=\"{}\"{}\n", xml(group), xml(name),
+                     outcome.empty() ? "/>" : ">" + outcome + "</testcase>");
+}
+
+}  // namespace
+
+std::string comparison_json(const Comparison& comparison) {
+  Json changes = Json::array();
+  for (const auto& change : comparison.changes) changes.push_back(change_json(change));
+  const Json json{{"schema", 1},
+                  {"verdict", verdict_word(comparison)},
+                  {"sentence", verdict_sentence(comparison)},
+                  {"before", comparison.before},
+                  {"after", comparison.after},
+                  {"differing", comparison.differing},
+                  {"cells_compared", comparison.cells},
+                  {"gates", comparison.gates},
+                  {"broken", statuses_json(comparison.broken)},
+                  {"mended", statuses_json(comparison.mended)},
+                  {"failing", cells_json(comparison.failing)},
+                  {"missing", cells_json(comparison.missing)},
+                  {"absent_metrics", comparison.absent},
+                  {"added", cells_json(comparison.added)},
+                  {"changes", std::move(changes)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string comparison_markdown(const Comparison& comparison) {
+  std::string out = "**" + markdown_escaped(plain_line(verdict_sentence(comparison), 2000)) + "**\n";
+  if (!comparison.differing.empty()) {
+    out += "\nWhat differs:\n\n";
+    for (const auto& difference : comparison.differing) out += "- " + markdown_escaped(plain_line(difference)) + "\n";
+  }
+  for (const auto& table : comparison_tables(comparison)) out += "\n" + to_markdown(table);
+  return out;
+}
+
+std::string comparison_junit(const Comparison& comparison) {
+  std::string cases;
+  std::size_t tests = 0;
+  std::size_t failures = 0;
+  for (const auto& change : comparison.changes) {
+    if (!change.gate) continue;
+    ++tests;
+    const bool worse = change.finding == Finding::worse;
+    failures += worse;
+    cases += test_case(change.scenario + "." + change.pipeline, change.metric.metric,
+                       worse ? "<failure message=\"" + xml(change_sentence(change)) + "\"/>" : "");
+  }
+  for (const auto& broken : comparison.broken) {
+    ++tests;
+    ++failures;
+    cases += test_case(broken.cell.scenario + "." + broken.cell.pipeline, "seed " + std::to_string(broken.cell.seed),
+                       fmt::format("<failure message=\"{}: {}\"/>", xml(broken.after), xml(broken.message)));
+  }
+  for (const auto& key : comparison.missing) {
+    ++tests;
+    cases += test_case(key.scenario + "." + key.pipeline, "seed " + std::to_string(key.seed),
+                       "<error message=\"the cell is missing\"/>");
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<testsuite name=\"scanbench\" tests=\"{}\" failures=\"{}\" errors=\"{}\">\n{}</testsuite>\n",
+      tests, failures, comparison.missing.size(), cases);
+}
+
+}  // namespace scanbench::harness

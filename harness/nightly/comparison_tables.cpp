@@ -1,0 +1,128 @@
+// Makes the tables of a comparison.
+#include "harness/nightly/comparison_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "harness/analysis/verdict.hpp"
+#include "harness/report/plain_text.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+constexpr std::size_t kLargestTable = 200;  ///< rows; more are counted
+
+std::string shown(double value) {
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("–");
+}
+
+std::string signed_number(double value) {
+  return std::isfinite(value) ? fmt::format("{:+.3g}", value) : std::string("–");
+}
+
+std::string interval(const MetricChange& change) {
+  if (change.difference.count < 2) return "–";
+  return fmt::format("{:+.3g} … {:+.3g}", change.difference.low, change.difference.high);
+}
+
+std::string worst_seed(const MetricChange& change) {
+  const SeedPair* worst = change.finding == Finding::same ? nullptr : change.worst();
+  return worst == nullptr ? "–" : std::to_string(worst->seed);
+}
+
+void add_cells(Table& table, const std::string& what, const std::vector<CellKey>& cells) {
+  for (const auto& key : cells)
+    table.rows.push_back({{what, key.scenario, key.pipeline, std::to_string(key.seed), ""}, {}, false});
+}
+
+void add_changes(Table& table, const std::string& what, const std::vector<StatusChange>& changes) {
+  for (const auto& [key, before, after, message] : changes) {
+    const std::string text = before + " → " + after + (message.empty() ? "" : ": " + plain_line(message));
+    table.rows.push_back({{what, key.scenario, key.pipeline, std::to_string(key.seed), text}, {}, false});
+  }
+}
+
+void shorten(Table& table) {
+  if (table.rows.size() <= kLargestTable) return;
+  table.caption +=
+      fmt::format("{}And {} more rows.", table.caption.empty() ? "" : " ", table.rows.size() - kLargestTable);
+  table.rows.resize(kLargestTable);
+}
+
+}  // namespace
+
+Table change_table(const std::string& id, const std::string& title, const std::vector<const MetricChange*>& changes) {
+  Table table{id,
+              title,
+              "",
+              {"scenario", "pipeline", "metric", "finding"},
+              {{"", "before"},
+               {"", "now"},
+               {"", "difference"},
+               {"", "95 % interval"},
+               {"", "tolerance"},
+               {"", "effect"},
+               {"", "q"},
+               {"", "seeds"},
+               {"", "worst seed"}},
+              {}};
+  for (const MetricChange* change : changes) {
+    const std::string unit = change->metric.unit.empty() ? "" : " [" + change->metric.unit + "]";
+    std::string finding(to_string(change->finding));
+    if (change->lost > 0) finding += fmt::format(" (undefined on {})", change->lost);
+    table.rows.push_back({{change->scenario, change->pipeline, change->metric.metric + unit, finding},
+                          {{shown(change->before)},
+                           {shown(change->after)},
+                           {signed_number(change->difference.mean)},
+                           {interval(*change)},
+                           {shown(change->metric.tolerance)},
+                           {std::isfinite(change->effect) ? fmt::format("{:+.2f}", change->effect) : "–"},
+                           {std::isfinite(change->q) ? fmt::format("{:.2g}", change->q) : "–"},
+                           {std::to_string(change->pairs.size())},
+                           {worst_seed(*change)}},
+                          false});
+  }
+  shorten(table);
+  return table;
+}
+
+std::optional<Table> completeness_table(const Comparison& comparison) {
+  Table table{"completeness", "Cells", "", {"what", "scenario", "pipeline", "seed", "status"}, {}, {}};
+  add_changes(table, "no longer ok", comparison.broken);
+  add_cells(table, "missing", comparison.missing);
+  add_cells(table, "not ok in both", comparison.failing);
+  add_changes(table, "ok again", comparison.mended);
+  add_cells(table, "new, not compared", comparison.added);
+  for (const auto& metric : comparison.absent)
+    table.rows.push_back({{"metric without values", metric, "", "", ""}, {}, false});
+  if (table.rows.empty()) return std::nullopt;
+  shorten(table);
+  return table;
+}
+
+std::vector<Table> comparison_tables(const Comparison& comparison, bool all) {
+  std::vector<Table> tables;
+  const auto add = [&](const char* id, const char* title, Finding finding, bool gates_only, const char* caption) {
+    Table table = change_table(id, title, changes_with(comparison, finding, gates_only));
+    if (table.rows.empty()) return;
+    table.caption = caption + (table.caption.empty() ? "" : " " + table.caption);
+    tables.push_back(std::move(table));
+  };
+  add("worse", "What became worse", Finding::worse, false,
+      "Differences are now − before, over equal seeds. The effect is the mean difference over its standard deviation; "
+      "q "
+      "is the share of false alarms among all gates that are as certain (Benjamini–Hochberg). Only gates fail.");
+  if (auto cells = completeness_table(comparison)) tables.push_back(std::move(*cells));
+  add("uncertain", "Changed by more than the tolerance, but not on enough seeds to be certain", Finding::uncertain,
+      true, "More seeds would tell.");
+  add("better", "What became better", Finding::better, false, "");
+  if (!all) return tables;
+  add("changed", "Changed, of metrics without a better direction", Finding::changed, false, "");
+  add("within", "Changed within the tolerance", Finding::within, false, "");
+  add("same", "Equal to the bit", Finding::same, false, "");
+  return tables;
+}
+
+}  // namespace scanbench::harness

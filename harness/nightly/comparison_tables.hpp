@@ -1,0 +1,24 @@
+// The tables of a comparison, for the terminal and for pages.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/analysis/comparison.hpp"
+#include "harness/report/table.hpp"
+
+namespace scanbench::harness {
+
+/// A row per change: scenario, pipeline, metric; before, after, difference with its interval, tolerance, effect, q, the
+/// seed that became worse by most.
+Table change_table(const std::string& id, const std::string& title, const std::vector<const MetricChange*>& changes);
+
+/// Cells that are broken, mended, failing in both runs, missing or new; nullopt if there are none.
+std::optional<Table> completeness_table(const Comparison& comparison);
+
+/// What a reader of a comparison needs, in this order: worse, uncertain, better, changed without a direction,
+/// completeness. Tables without rows are left out; with `all`, every change is shown.
+std::vector<Table> comparison_tables(const Comparison& comparison, bool all = false);
+
+}  // namespace scanbench::harness

@@ -1,0 +1,198 @@
+// Stores, judges and shows a night.
+#include "harness/nightly/night.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "harness/analysis/comparison.hpp"
+#include "harness/analysis/run_results.hpp"
+#include "harness/analysis/verdict.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/nightly/baseline.hpp"
+#include "harness/nightly/comparison_files.hpp"
+#include "harness/nightly/night_page.hpp"
+#include "harness/report/run_report.hpp"
+#include "harness/report/shown_scan.hpp"
+#include "harness/store/manifest.hpp"
+#include "harness/store/run_folder.hpp"
+#include "harness/store/run_lock.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kTrendNights = 30;
+constexpr std::size_t kPictures = 6;
+constexpr std::size_t kListedChanges = 40;  // with a trend
+
+struct Reference {
+  std::string text;
+  RunResults results;
+  bool is_baseline = false;
+};
+
+std::string text_of(const Baseline& baseline) {
+  return fmt::format("baseline {} of {} ({})", baseline.file.stem().string(), baseline.accepted.substr(0, 10),
+                     baseline.reason);
+}
+
+std::optional<fs::path> chosen_baseline(const NightPlan& plan) {
+  const auto files = baseline_files(plan.baselines, plan.suite);
+  if (plan.baseline.empty()) return files.empty() ? std::nullopt : std::optional(files.back());
+  for (const auto& file : files)
+    if (file.stem() == plan.baseline) return file;
+  std::string known;
+  for (const auto& file : files) known += (known.empty() ? "" : ", ") + file.stem().string();
+  throw ConfigError(fmt::format("{} has no baseline '{}' of {}; known: {}", plan.baselines.string(), plan.baseline,
+                                plan.suite, known.empty() ? "none" : known));
+}
+
+std::optional<Reference> reference_of(const NightPlan& plan, const Store& store, std::int64_t tonight) {
+  if (const auto file = chosen_baseline(plan)) {
+    const Baseline baseline = load_baseline(*file);
+    return Reference{text_of(baseline), baseline.results, true};
+  }
+  const auto nights = store.nights(plan.suite);
+  for (std::size_t i = nights.size(); i-- > 0;) {
+    const Night& night = nights[i];
+    if (night.id == tonight || night.verdict != "PASS") continue;
+    return Reference{"the last good night, " + night.start, store.load(night.id), false};
+  }
+  return std::nullopt;
+}
+
+Comparison compare_with(const Reference& reference, const RunResults& now, const Gates& gates) {
+  if (!reference.is_baseline) return compare(reference.results, now, gates);
+  return compare(reference.results, gate_values(now, gates), gates);
+}
+
+/// Gates that became worse first, then what else the page lists.
+std::vector<const MetricChange*> listed_changes(const Comparison& comparison) {
+  std::vector<const MetricChange*> listed;
+  for (const Finding finding : {Finding::worse, Finding::uncertain, Finding::better})
+    for (const MetricChange* change : changes_with(comparison, finding))
+      if (listed.size() < kListedChanges) listed.push_back(change);
+  return listed;
+}
+
+/// `frame` receives the number of the scan.
+std::optional<ScanPicture> picture_of(const fs::path& run, const ScanChoice& choice, const std::string& when,
+                                      std::size_t* frame = nullptr) try {
+  const ShownScan shown = show_scan(run, choice);
+  if (frame != nullptr) *frame = shown.frame;
+  return ScanPicture{when + ": " + shown.text, picture_bytes(shown.scene, "scan.png")};
+} catch (const ConfigError&) {  // a pipeline without lines, or a run without scans.csv
+  return std::nullopt;
+}
+
+/// The worst scan of the worst seed of each pipeline that became worse.
+std::vector<PicturePair> pictures_of(const fs::path& run, const fs::path& last_good, const Comparison& comparison) {
+  std::vector<PicturePair> pictures;
+  std::vector<std::pair<std::string, std::string>> seen;
+  for (const MetricChange* change : changes_with(comparison, Finding::worse)) {
+    const std::pair place{change->scenario, change->pipeline};
+    const SeedPair* worst = change->worst();
+    if (pictures.size() == kPictures || worst == nullptr || std::ranges::find(seen, place) != seen.end()) continue;
+    seen.push_back(place);
+    ScanChoice choice{.scenario = change->scenario, .pipeline = change->pipeline, .seed = worst->seed};
+    PicturePair pair;
+    pair.title = fmt::format("{}/{}/{}: the worst scan", change->scenario, change->pipeline, worst->seed);
+    std::size_t frame = 0;
+    pair.now = picture_of(run, choice, "now", &frame);
+    if (!pair.now) continue;
+    if (fs::exists(last_good / kManifestFile)) {
+      choice.frame = std::to_string(frame);
+      pair.before = picture_of(last_good, choice, "in the last good night");
+    }
+    pictures.push_back(std::move(pair));
+  }
+  return pictures;
+}
+
+/// Where the run folder of the last good night is kept.
+fs::path last_good_folder(const fs::path& run) {
+  const fs::path whole = fs::absolute(run).lexically_normal();
+  return whole.parent_path() / (whole.filename().string() + ".last_good");
+}
+
+/// Keeps a good night: cells and recordings as links to the same files, because nobody writes into a file that is
+/// there.
+void keep_good_night(const fs::path& run) {
+  const fs::path kept = last_good_folder(run);
+  StagedFolder staged(kept);
+  const auto links = fs::copy_options::recursive | fs::copy_options::create_hard_links;
+  for (const char* folder : {"cells", "recordings", "effective", "inputs"})
+    if (fs::exists(run / folder)) fs::copy(run / folder, staged.path() / folder, links);
+  for (const char* file : {"manifest.json", "effective.yaml", "summary.csv"})
+    if (fs::exists(run / file)) fs::copy_file(run / file, staged.path() / file);
+  staged.commit();
+}
+
+}  // namespace
+
+void check_plan(const NightPlan& plan) {
+  if (const auto file = chosen_baseline(plan)) load_baseline(*file);
+}
+
+NightOutcome close_night(const NightPlan& plan, Store& store) {
+  const RunLock lock(plan.run);
+  refuse_linked_folders(plan.run);
+  NightInput input;
+  input.suite = plan.suite;
+  input.reused = plan.reused;
+  input.now = load_run_results(plan.run);
+  input.facts = manifest_facts(plan.run);
+  if (fs::exists(plan.run / kReportPage)) input.report = kReportPage.name();
+  const std::int64_t tonight = store.add(plan.suite, plan.run, input.now);
+
+  NightOutcome outcome;
+  const auto reference = reference_of(plan, store, tonight);
+  if (reference) {
+    const Comparison comparison = compare_with(*reference, input.now, plan.gates);
+    outcome.sentence = verdict_sentence(comparison);
+    outcome.exit_code = comparison.exit_code();
+    store.set_verdict(tonight, verdict_word(comparison), outcome.sentence);
+    input.reference = reference->text;
+    for (const MetricChange* change : listed_changes(comparison))
+      input.trends[change->scenario + "/" + change->pipeline + "/" + change->metric.metric] =
+          store.trend(plan.suite, change->scenario, change->pipeline, change->metric.metric, kTrendNights);
+    input.pictures = pictures_of(plan.run, last_good_folder(plan.run), comparison);
+    write_file_atomically(plan.run / kComparisonJson, comparison_json(comparison));
+    write_file_atomically(plan.run / kComparisonMarkdown, comparison_markdown(comparison));
+    write_file_atomically(plan.run / kComparisonJunit, comparison_junit(comparison));
+    input.comparison = comparison;
+  } else {
+    const auto bad = std::ranges::count_if(input.now.cells, [](const CellResults& cell) { return !cell.ok(); });
+    const bool missing = std::ranges::any_of(
+        input.now.cells, [](const CellResults& cell) { return cell.status == "missing" && cell.requested; });
+    outcome.exit_code = missing ? 4 : bad > 0 ? 1 : 0;
+    outcome.sentence = fmt::format(
+        "{}: this is the first night of the suite, so nothing can be worse; {} of {} cells "
+        "are ok.",
+        missing   ? "INCOMPLETE"
+        : bad > 0 ? "FAIL"
+                  : "PASS",
+        std::ssize(input.now.cells) - bad, input.now.cells.size());
+    store.set_verdict(tonight, missing ? "INCOMPLETE" : bad > 0 ? "FAIL" : "PASS", outcome.sentence);
+  }
+  if (const auto files = baseline_files(plan.baselines, plan.suite); files.size() > 1) {
+    const Baseline oldest = load_baseline(files.front());
+    input.drift = compare(oldest.results, gate_values(input.now, plan.gates), plan.gates);
+    input.drift_reference = text_of(oldest);
+  }
+  input.sentence = outcome.sentence;
+  input.nights = store.nights(plan.suite);
+  outcome.page = plan.run / kNightPage;
+  write_file_atomically(outcome.page, night_page(input));
+  refresh_manifest(plan.run);
+  if (outcome.exit_code == 0) keep_good_night(plan.run);
+  return outcome;
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,51 @@
+// The page of a night: what a maintainer opens in the morning. It answers "is anything worse?" first.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/analysis/comparison.hpp"
+#include "harness/nightly/store.hpp"
+#include "harness/store/run_file.hpp"
+
+namespace scanbench::harness {
+
+inline const RunFile kNightPage("nightly.html");
+
+/// A picture of one scan with a pipeline's lines, as PNG.
+struct ScanPicture {
+  std::string caption;
+  std::string png;
+};
+
+/// The scan that shows a change: as it was in the last good night, if that is known, and as it is now.
+struct PicturePair {
+  std::string title;  ///< "abcdef/iepf/3: f1 from 0.93 to 0.9"
+  std::optional<ScanPicture> before;
+  std::optional<ScanPicture> now;
+};
+
+struct NightInput {
+  std::string suite;
+  std::string sentence;  ///< the verdict; its first word is PASS, FAIL or INCOMPLETE
+  RunResults now;
+  std::optional<Comparison> comparison;  ///< none: the first night, with nothing to compare with
+  std::string reference;                 ///< "baseline 0003 of 2026-03-01 (reason)", "the night of ..."
+  std::optional<Comparison> drift;       ///< against the oldest baseline that is kept
+  std::string drift_reference;
+  std::vector<Night> nights;  ///< of this suite, oldest first, this one last
+  /// Of every change that the page lists: the values of the last nights, by "scenario/pipeline/metric".
+  std::map<std::string, std::vector<TrendPoint>> trends;
+  std::vector<PicturePair> pictures;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< how to get the numbers again
+  std::size_t reused = 0;                                  ///< cells that were not run again, because nothing changed
+  std::string report;  ///< the run's own report beside this page: a relative link; empty: there is none
+};
+
+/// Self-contained HTML: no request, light and dark, readable without JavaScript.
+std::string night_page(const NightInput& input);
+
+}  // namespace scanbench::harness

@@ -1,0 +1,69 @@
+// The store: one SQLite file with the results of every night. It is made from run folders, and can be made again from
+// them. Others may read it while it is written (write-ahead log).
+//
+// Schema 1 (docs/formats.md):
+//   meta(key, value)                                  program = scanbench, schema = 1
+//   nights(night, suite, start, commit_hash, compiler, libraries, processor, command, folder, verdict, sentence)
+//   settings(night, scenario, path, value)            effective settings (harness/scenario/effective.hpp)
+//   cells(cell, night, scenario, pipeline, seed, status, message, recording, requested)
+//   metrics(metric, name, unit)
+//   metric_rows(cell, position, metric, subject, value, count)      rows of metrics.csv; NULL: not defined
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/analysis/run_results.hpp"
+#include "harness/nightly/database.hpp"
+
+namespace scanbench::harness {
+
+/// A row of the table `nights`.
+struct Night {
+  std::int64_t id = 0;
+  std::string suite;
+  std::string start;  ///< UTC, ISO 8601, of the run
+  std::string commit;
+  std::string folder;    ///< of the run
+  std::string verdict;   ///< PASS, FAIL, INCOMPLETE; empty: not judged
+  std::string sentence;  ///< the verdict's sentence
+};
+
+/// The value of one metric of one pipeline in a past night: the mean over its seeds.
+struct TrendPoint {
+  std::int64_t night = 0;
+  std::string start;
+  std::string commit;
+  double value = 0.0;
+};
+
+class Store {
+ public:
+  /// Opens the file, and makes it if there is none. Throws ConfigError for a file of another program, of another schema
+  /// version, one that is cut off, and one that another program keeps locked for ten seconds.
+  explicit Store(const std::filesystem::path& file);
+
+  /// Adds a night, all of it or nothing.
+  std::int64_t add(const std::string& suite, const std::filesystem::path& folder, const RunResults& results);
+  /// The same for a run that may be there already (same start and folder): its older rows are removed.
+  std::int64_t replace(const std::string& suite, const std::filesystem::path& folder, const RunResults& results);
+  void set_verdict(std::int64_t night, const std::string& verdict, const std::string& sentence);
+
+  std::vector<Night> nights(const std::string& suite) const;  ///< oldest first
+  RunResults load(std::int64_t night) const;
+
+  /// The last `count` nights of a suite, oldest first; nights without a value are left out.
+  std::vector<TrendPoint> trend(const std::string& suite, const std::string& scenario, const std::string& pipeline,
+                                const std::string& metric, std::size_t count) const;
+
+ private:
+  void create();
+  std::int64_t insert(const std::string& suite, const std::string& place, const RunResults& results);
+  void check_schema() const;
+  mutable Database database_;
+};
+
+}  // namespace scanbench::harness

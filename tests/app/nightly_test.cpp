@@ -1,0 +1,187 @@
+// The verbs nightly, accept and store.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "harness/nightly/store.hpp"
+#include "tests/app/program.hpp"
+
+namespace scanbench::app_test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+/// A folder with a suite of one room, two pipelines and four seeds.
+class Nightly : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("room.yaml",
+                  room_with("metrics:", "  - {name: lt, extract: {module: line_tracking, params: {}}}\nmetrics:"));
+    folder_.write(
+        "suite.yaml",
+        "schema: 1\nscenarios: [room.yaml]\nseeds: {first: 1, count: 4}\ngates: {f1: 0.005, sigma_offset: 0.001}\n");
+  }
+  Outcome here(const Args& args) const { return run(args, {}, folder_.path()); }
+  Outcome night(const Args& more = {}) const {
+    Args args{"nightly", "suite.yaml", "--no-figures"};
+    args.insert(args.end(), more.begin(), more.end());
+    if (std::ranges::find(more, "--store") == more.end()) args.insert(args.end(), {"--store", "nights.sqlite"});
+    return here(args);
+  }
+  std::string page() const { return read(folder_ / "out/nightly/suite/nightly.html"); }
+
+  const Args worsened_ = {"--set", "pipelines.iepf.extract.params.threshold_m=2"};
+  Folder folder_;
+};
+
+TEST_F(Nightly, FailsWhenAParameterMakesAGateWorseAndPassesWhenItIsRestored) {
+  const Outcome first = night();
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_THAT(first.out, HasSubstr("PASS: this is the first night of the suite"));
+  ASSERT_EQ(here({"accept", "out/nightly/suite", "--reason", "first"}).code, 0);
+  const Outcome worse = night(worsened_);
+  EXPECT_EQ(worse.code, 1) << worse.err;
+  EXPECT_THAT(worse.out, AllOf(HasSubstr("FAIL: "), HasSubstr(" of iepf in room "), HasSubstr("95 % interval"),
+                               HasSubstr("over 4 seeds")));
+  EXPECT_THAT(worse.out, HasSubstr("4 of 8 cells were not run again"));  // those of lt
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("baseline 0001"));
+  EXPECT_THAT(html, HasSubstr("threshold_m: 0.1 -&gt; 2"));
+  EXPECT_THAT(html, HasSubstr("in the last good night: room/iepf/"));
+  EXPECT_THAT(html, Not(HasSubstr("http")));  // self-contained
+  const Outcome restored = night();
+  EXPECT_EQ(restored.code, 0) << restored.out;
+  EXPECT_THAT(restored.out, HasSubstr("PASS: none of 4 gates is worse (4 equal to the bit)."));
+  EXPECT_THAT(here({"accept", "out/nightly/suite", "--reason", "again"}).err, HasSubstr("has these values already"));
+}
+
+TEST_F(Nightly, WithoutABaselineIsComparedWithTheLastGoodNight) {
+  ASSERT_EQ(night().code, 0);
+  EXPECT_EQ(night(worsened_).code, 1);
+  EXPECT_EQ(night(worsened_).code, 1);  // a bad night is no reference
+  EXPECT_EQ(night().code, 0);
+}
+
+TEST_F(Nightly, KilledInItsMiddleAndStartedAgainEqualsAnUnbrokenOne) {
+  ASSERT_EQ(night({"--out", "whole", "--store", "whole.sqlite"}).code, 0);
+  {
+    const Child child(command({"nightly", "suite.yaml", "--store", "broken.sqlite", "--no-figures", "--out", "broken"}),
+                      {}, folder_.path());
+    child.wait_until([&] {
+      return fs::exists(folder_ / "broken/cells/room/iepf/2/status.json") ||
+             fs::exists(folder_ / ".broken.new/cells/room/iepf/2/status.json");
+    });
+    child.interrupt(SIGKILL);
+  }
+  ASSERT_EQ(night({"--out", "broken", "--store", "broken.sqlite"}).code, 0);
+  const auto summary = [&](const char* run) {  // without the times
+    std::string kept;
+    std::istringstream lines(read(folder_ / run / "summary.csv"));
+    for (std::string line; std::getline(lines, line);)
+      if (line.find(",t_") == std::string::npos) kept += line + "\n";
+    return kept;
+  };
+  EXPECT_EQ(summary("whole"), summary("broken"));
+  const auto rows = [&](const char* file) {
+    const harness::Store store(folder_ / file);
+    const auto nights = store.nights("suite");
+    EXPECT_EQ(nights.size(), 1U);
+    std::map<std::string, double> values;
+    for (const auto& cell : store.load(nights.front().id).cells)
+      for (const auto& row : cell.rows)
+        if (!row.metric.starts_with("t_"))
+          values[to_string(cell.key) + "/" + row.metric + "/" + row.subject] = row.value;
+    return values;
+  };
+  const auto whole = rows("whole.sqlite");
+  EXPECT_GT(whole.size(), 50U);
+  EXPECT_THAT(whole, testing::ContainerEq(rows("broken.sqlite")));
+}
+
+TEST_F(Nightly, StoreIsMadeAgainFromRunFolders) {
+  ASSERT_EQ(night().code, 0);
+  const Outcome made = here({"store", "again.sqlite", "out/nightly/suite"});
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("8 cells"));
+  const harness::Store again(folder_ / "again.sqlite");
+  ASSERT_EQ(again.nights("suite").size(), 1U);
+  EXPECT_EQ(again.load(again.nights("suite").front().id).cells.size(), 8U);
+}
+
+TEST_F(Nightly, SaysBeforeTheNightWhatCannotBeUsed) {
+  folder_.write("text.sqlite", "no database, only text, and enough of it to be looked at\n");
+  const Outcome text = night({"--store", "text.sqlite"});
+  EXPECT_EQ(text.code, 2);
+  EXPECT_THAT(text.err, HasSubstr("text.sqlite: not a store of scanbench"));
+  const Outcome baseline = night({"--baseline", "0007"});
+  EXPECT_EQ(baseline.code, 2);
+  EXPECT_THAT(baseline.err, HasSubstr("baselines has no baseline '0007' of suite; known: none"));
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  folder_.write("suite.yaml", "schema: 1\nscenarios: [room.yaml]\ngates: {f2: 0.1}\n");
+  EXPECT_THAT(night().err, AllOf(HasSubstr("suite.yaml:3:9: there is no metric f2"), HasSubstr("did you mean 'f1'?")));
+  folder_.write("suite.yaml", "schema: 1\nscenarios: [room.yaml]\ngates: {f1: -1}\n");
+  EXPECT_THAT(night().err, HasSubstr("suite.yaml:3:13: the tolerance of f1 is -1; allowed: >= 0"));
+  folder_.write("suite.yaml", "schema: 1\nscenarios: [room.yaml]\ngates: {n_true: 1}\n");
+  EXPECT_THAT(night().err, HasSubstr("suite.yaml:3:9: no value of n_true is better than another"));
+}
+
+TEST_F(Nightly, IsIncompleteWhereAScenarioIsGone) {
+  folder_.write("second.yaml", room());
+  folder_.write("suite.yaml", "schema: 1\nscenarios: [room.yaml, second.yaml]\ngates: {f1: 0.005}\n");
+  ASSERT_EQ(night().code, 0);
+  folder_.write("suite.yaml", "schema: 1\nscenarios: [room.yaml]\ngates: {f1: 0.005}\n");
+  const Outcome less = night({"--out", "less"});
+  EXPECT_EQ(less.code, 4) << less.out;
+  EXPECT_THAT(less.out, HasSubstr("INCOMPLETE: 1 cell is missing, first second/iepf/1."));
+}
+
+/// Opens a page in headless Chromium, lets `script` act on it and returns the text that it leaves in the title.
+std::string title_after(const fs::path& page, const std::string& script, const Folder& folder) {
+  std::string html = read(page);
+  html.replace(html.rfind("</body>"), 7, "<script>" + script + "</script></body>");
+  const fs::path copy = folder.write("opened.html", html);
+  const Outcome dom =
+      Child({"/usr/bin/chromium", "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
+             "--disable-background-networking", "--disable-component-update", "--disable-sync",
+             "--user-data-dir=" + (folder / "profile").string(), "--dump-dom", "file://" + copy.string()},
+            {}, folder.path())
+          .wait();
+  const auto from = dom.out.find("<title>");
+  return from == std::string::npos ? dom.err : dom.out.substr(from + 7, dom.out.find("</title>") - from - 7);
+}
+
+TEST_F(Nightly, PageSortsFollowsItsLinksAndRequestsNothing) {
+  if (!fs::exists("/usr/bin/chromium")) GTEST_SKIP() << "chromium is not installed";
+  ASSERT_EQ(night().code, 0);
+  ASSERT_EQ(night(worsened_).code, 1);
+  const fs::path html = folder_ / "out/nightly/suite/nightly.html";
+  // The first table with a metric column: click its heading twice; the rows are then in both orders.
+  const std::string sorted = title_after(html, R"js(
+    const table = [...document.querySelectorAll('table')].find(t => t.tHead && t.tBodies[0].rows.length > 2);
+    const heads = table.tHead.rows[table.tHead.rows.length - 1].cells;
+    const column = () => [...table.tBodies[0].rows].map(r => r.cells[2].textContent);
+    heads[2].click(); const down = column(); heads[2].click(); const up = column();
+    document.title = String(up.join() === [...up].sort((a, b) => a.localeCompare(b)).join()) + ' ' +
+        String(down.join() === [...up].reverse().join() || down[0] >= down[down.length - 1]) + ' ' + heads[2].getAttribute('aria-sort');
+  )js",
+                                         folder_);
+  EXPECT_EQ(sorted, "true true ascending");
+  EXPECT_EQ(title_after(html, R"js(
+    const links = [...document.querySelectorAll('nav a')];
+    links[0].click();
+    document.title = location.hash + ' ' + links.every(a => document.querySelector(a.getAttribute('href'))) + ' ' +
+        performance.getEntriesByType('resource').filter(r => !r.name.startsWith('data:')).length;
+  )js",
+                        folder_),
+            "#worse-section true 0");
+}
+
+}  // namespace
+}  // namespace scanbench::app_test

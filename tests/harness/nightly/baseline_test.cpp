@@ -1,0 +1,97 @@
+// Baselines: accepted values as files.
+#include "harness/nightly/baseline.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/special_values.hpp"
+#include "harness/analysis/comparison.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "tests/harness/analysis/made_up_runs.hpp"
+#include "tests/support/inputs.hpp"
+#include "tests/support/runs.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+using testing::f1_run;
+using ::testing::HasSubstr;
+using testing::TemporaryFolder;
+
+Gates f1_gate() {
+  return Gates(GateSpec{{{"f1", 0.01}}});
+}
+
+TEST(Baseline, GivesBackTheValuesOfTheGatesToTheBit) {
+  const TemporaryFolder folder;
+  const RunResults run = f1_run({0.1, 1.0 / 3.0, kNaN});
+  const Baseline read = load_baseline(accept_baseline(folder.path(), "suite", run, f1_gate(), "first"));
+  EXPECT_EQ(read.reason, "first");
+  EXPECT_EQ(read.file.filename(), "0001.json");
+  const Comparison c = compare(read.results, gate_values(run, f1_gate()), f1_gate());
+  ASSERT_EQ(c.changes.size(), 1U);
+  EXPECT_EQ(c.changes[0].finding, Finding::same);
+  EXPECT_EQ(c.changes[0].pairs.size(), 3U);
+  EXPECT_EQ(c.exit_code(), 0);
+}
+
+TEST(Baseline, KeepsOneValuePerGateAndCell) {
+  RunResults run = f1_run({0.5});
+  auto& rows = run.cells[0].rows;
+  rows[0].subject = "wall 1";
+  rows.push_back(rows[0]);
+  rows.back().subject = "wall 2";
+  rows.back().value = 0.75;
+  rows.push_back(rows[0]);
+  rows.back().metric = "precision";
+  const RunResults reduced = gate_values(run, f1_gate());
+  ASSERT_EQ(reduced.cells[0].rows.size(), 1U);
+  EXPECT_EQ(reduced.cells[0].rows[0].subject, "all");
+  EXPECT_EQ(reduced.cells[0].rows[0].value, 0.625);
+}
+
+TEST(Baseline, MovesOnPurposeOnly) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const RunResults& run, const std::string& reason) {
+    return config_refusal([&] { accept_baseline(folder.path(), "suite", run, f1_gate(), reason); });
+  };
+  accept_baseline(folder.path(), "suite", f1_run({0.5, 0.6}), f1_gate(), "first");
+  EXPECT_THAT(refusal(f1_run({0.5, 0.6}), "again"), HasSubstr("has these values already"));
+  EXPECT_THAT(refusal(f1_run({0.7, 0.6}), "  "), HasSubstr("--reason is empty"));
+  RunResults crashed = f1_run({0.7, 0.6});
+  crashed.cells[1].status = "crashed";
+  EXPECT_THAT(refusal(crashed, "faster"), HasSubstr("room/iepf/2 is crashed: a baseline must be complete"));
+  accept_baseline(folder.path(), "suite", f1_run({0.7, 0.6}), f1_gate(), "better corners");
+  const auto files = baseline_files(folder.path(), "suite");
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(load_baseline(files[1]).reason, "better corners");
+  EXPECT_TRUE(baseline_files(folder.path(), "other").empty());
+}
+
+TEST(Baseline, RefusesFilesOfOthers) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    write_file_atomically(folder.path() / "0001.json", text);
+    return config_refusal([&] { load_baseline(folder.path() / "0001.json"); });
+  };
+  EXPECT_THAT(refusal("{}"), HasSubstr("0001.json: not a baseline of scanbench"));
+  EXPECT_THAT(refusal("[1, 2"), HasSubstr("0001.json"));
+  EXPECT_THAT(refusal(R"({"program": "scanbench", "kind": "baseline", "schema": 9})"), HasSubstr("schema is 9"));
+  EXPECT_THAT(refusal(R"({"program": "scanbench", "kind": "baseline", "schema": 1})"), HasSubstr("0001.json"));
+}
+
+TEST(Baseline, ThatLacksAMetricIsComparedWithoutIt) {
+  const TemporaryFolder folder;
+  const Baseline old = load_baseline(accept_baseline(folder.path(), "suite", f1_run({0.5, 0.6}), f1_gate(), "first"));
+  RunResults run = f1_run({0.5, 0.6});
+  for (auto& cell : run.cells) {
+    cell.rows.push_back(cell.rows[0]);
+    cell.rows.back().metric = "recall";
+  }
+  const Gates both(GateSpec{{{"f1", 0.01}, {"recall", 0.01}}});
+  EXPECT_EQ(compare(old.results, gate_values(run, both), both).exit_code(), 0);
+}
+
+}  // namespace
+}  // namespace scanbench::harness

@@ -1,0 +1,65 @@
+// A comparison as JSON, Markdown and JUnit XML.
+#include "harness/nightly/comparison_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/special_values.hpp"
+#include "tests/harness/analysis/made_up_runs.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+using testing::f1_run;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Gates f1_gate() {
+  return Gates(GateSpec{{{"f1", 0.01}}});
+}
+
+Comparison worse_and_broken() {
+  RunResults now = f1_run({0.5, 0.41, 0.3});
+  now.cells[2].status = "crashed";
+  now.cells[2].message = "</testcase><script>alert(1)</script> | \x1b[31m";
+  now.cells[2].rows.clear();
+  return compare(f1_run({0.9, 0.8, 0.7}), now, f1_gate());
+}
+
+TEST(ComparisonFiles, JsonHasEveryPair) {
+  const auto json = nlohmann::json::parse(comparison_json(worse_and_broken()));
+  EXPECT_EQ(json.at("verdict"), "FAIL");
+  EXPECT_EQ(json.at("broken").at(0).at("after"), "crashed");
+  const auto& change = json.at("changes").at(0);
+  EXPECT_EQ(change.at("metric"), "f1");
+  EXPECT_EQ(change.at("pairs").size(), 2U);
+  EXPECT_EQ(change.at("pairs").at(1).at("after"), 0.41);
+  const auto lost = nlohmann::json::parse(comparison_json(compare(f1_run({0.9, 0.8}), f1_run({0.9, kNaN}), f1_gate())));
+  EXPECT_TRUE(lost.at("changes").at(0).at("pairs").at(1).at("after").is_null());
+}
+
+TEST(ComparisonFiles, JunitCountsAFailurePerGateAndCell) {
+  const std::string xml = comparison_junit(worse_and_broken());
+  EXPECT_THAT(xml, HasSubstr("<testsuite name=\"scanbench\" tests=\"2\" failures=\"2\" errors=\"0\">"));
+  EXPECT_THAT(xml, HasSubstr("classname=\"room.iepf\" name=\"f1\"><failure message=\"f1 of iepf in room fell"));
+  const std::string good = comparison_junit(compare(f1_run({0.9}), f1_run({0.9}), f1_gate()));
+  EXPECT_THAT(good, HasSubstr("tests=\"1\" failures=\"0\" errors=\"0\""));
+  const std::string missing = comparison_junit(compare(f1_run({0.9, 0.8}), f1_run({0.9}), f1_gate()));
+  EXPECT_THAT(missing, HasSubstr("errors=\"1\""));
+  EXPECT_THAT(missing, HasSubstr("<error message=\"the cell is missing\"/>"));
+}
+
+TEST(ComparisonFiles, TextOfModulesCannotLeaveItsPlace) {
+  const Comparison comparison = worse_and_broken();
+  const std::string xml = comparison_junit(comparison);
+  EXPECT_THAT(xml, Not(HasSubstr("<script>")));
+  EXPECT_THAT(xml, Not(HasSubstr("\x1b")));
+  const std::string markdown = comparison_markdown(comparison);
+  EXPECT_THAT(markdown, Not(HasSubstr("<script>")));
+  EXPECT_THAT(markdown, HasSubstr("**FAIL: 1 of 1 gate is worse, and 1 cell is no longer ok."));
+}
+
+}  // namespace
+}  // namespace scanbench::harness
