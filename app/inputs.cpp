@@ -25,9 +25,14 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-/// Throws ConfigError, with the nearest file, if there is no such file.
+/// Throws ConfigError for a folder, and, with the nearest file, if there is no such file.
 void check_exists(const std::string& file) {
   std::error_code error;
+  if (fs::is_directory(file, error))
+    throw ConfigError(file + ": a folder, not a regular file; allowed: a scenario or suite file" +
+                      (fs::exists(fs::path(file) / "effective.yaml", error)
+                           ? ", like " + (fs::path(file) / "effective.yaml").string()
+                           : ""));
   if (fs::exists(fs::symlink_status(file, error))) return;
   const std::string near = nearest_file(file);
   throw ConfigError(file + ": no such file" + (near.empty() ? "" : "; did you mean '" + near + "'?"));

@@ -49,10 +49,22 @@ std::string unknown_option(const CLI::App& app, int argc, char** argv) {
   return "";
 }
 
+/// "'check' needs FILE: scenario or suite files" for the first argument that the chosen verb lacks; empty if none.
+std::string missing_argument(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty()) return "";
+  for (const CLI::Option* option : chosen.back()->get_options())
+    if (option->get_required() && option->count() == 0)
+      return "'" + chosen.back()->get_name() + "' needs " + option->get_name() + ": " + option->get_description();
+  return "";
+}
+
 // CLI11's message for `scanbench rnu` is only that a subcommand is required; this one names the verbs.
 std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
     if (const std::string option = unknown_option(app, argc, argv); !option.empty()) return option;
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+    if (const std::string argument = missing_argument(app); !argument.empty()) return argument;
   const std::string first = argc > 1 ? argv[1] : "";
   if (dynamic_cast<const CLI::RequiredError*>(&error) == nullptr || !app.get_subcommands().empty() ||
       (!first.empty() && first.front() == '-'))

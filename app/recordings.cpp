@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/inputs.hpp"
+#include "app/option_checks.hpp"
 #include "app/progress.hpp"
 #include "harness/exchange/export.hpp"
 #include "harness/exchange/polygon_files.hpp"
@@ -142,7 +143,9 @@ void add_recordings(Context& context) {
   simulate_verb->add_option("-o,--out", options->out, "the run folder (default: out/<name of the file>)");
   simulate_verb->add_option("--seed", options->seeds, "seeds, separated by commas, that replace the file's")
       ->delimiter(',');
-  simulate_verb->add_option("-j,--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024))->capture_default_str();
+  simulate_verb->add_option("-j,--jobs", options->jobs, "threads")
+      ->check(whole_number("number of threads", 1, 1024))
+      ->capture_default_str();
   simulate_verb->add_option("--set", options->sets, "KEY=VALUE: replaces a value of the file (dotted keys)")
       ->take_all();
   simulate_verb->add_flag("-q,--quiet", options->quiet, "print only errors");
@@ -157,7 +160,7 @@ void add_recordings(Context& context) {
   auto formats = harness::export_formats();
   formats.emplace_back(kPolygons);
   export_verb->add_option("--format", options->format, "carmen, csv, tum (poses) or polygons (of every cell)")
-      ->check(CLI::IsMember(formats))
+      ->check(one_of("format", formats))
       ->capture_default_str();
   export_verb->add_option("-o,--out", options->out, "the folder to write to (default: RUN/export)");
   export_verb->callback([&context, options] {

@@ -9,6 +9,7 @@
 
 #include "app/forecast.hpp"
 #include "app/inputs.hpp"
+#include "app/option_checks.hpp"
 #include "app/progress.hpp"
 #include "app/running.hpp"
 #include "harness/report/plain_text.hpp"
@@ -107,7 +108,7 @@ void add_run(Context& context) {
   verb->add_option("-o,--out", options->out, "the run folder (default: out/<name of the first file>)");
   verb->add_option("--seed", options->seeds, "seeds, separated by commas, that replace the file's")->delimiter(',');
   verb->add_option("-j,--jobs", options->jobs, "number of cells that run at the same time")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_number("number of cells", 1, 1024))
       ->capture_default_str();
   verb->add_option("--set", options->sets, "KEY=VALUE: replaces a value of the file (dotted keys)")->take_all();
   verb->add_option("--only", options->only,

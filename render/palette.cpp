@@ -40,11 +40,27 @@ MethodStyle method_style(std::string_view name) {
 }
 
 std::vector<MethodStyle> method_styles(std::span<const std::string> names) {
+  std::set<std::string_view> left(names.begin(), names.end());
   std::map<std::string_view, std::size_t> looks;
-  for (const std::string& name : names) looks[name] = 0;
-  std::set<std::size_t> taken;
-  for (auto& [name, index] : looks)  // by the alphabet
-    for (index = look_of(name); taken.size() < kLooks && !taken.insert(index).second;) index = (index + 1) % kLooks;
+  std::set<std::size_t> taken, colors;
+  const auto take = [&](std::string_view name, std::size_t index) {
+    looks[name] = index;
+    taken.insert(index);
+    colors.insert(index % kColors.size());
+  };
+  // First, by the alphabet, the methods whose own colour is free: these look as in every other figure.
+  for (const std::string_view name : left)
+    if (!colors.contains(look_of(name) % kColors.size())) take(name, look_of(name));
+  // The others take a free colour as long as there is one, then any look that is free.
+  for (const std::string_view name : left) {
+    if (looks.contains(name)) continue;
+    const auto is_free = [&](std::size_t index) {
+      return colors.size() < kColors.size() ? !colors.contains(index % kColors.size()) : !taken.contains(index);
+    };
+    std::size_t index = look_of(name);
+    while (taken.size() < kLooks && !is_free(index)) index = (index + 1) % kLooks;
+    take(name, index);
+  }
   std::vector<MethodStyle> styles;
   for (const std::string& name : names) styles.push_back(look(looks.at(name)));
   return styles;

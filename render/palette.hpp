@@ -31,7 +31,9 @@ struct MethodStyle {
 /// share a colour, seldom a whole look.
 MethodStyle method_style(std::string_view name);
 
-/// The same for the methods of one figure; if two share a whole look, the later one in the alphabet takes the next.
+/// The same for the methods of one figure. Up to seven methods have different colours, more have different looks: where
+/// two share a colour by their names, the first in the alphabet keeps it, and the other one takes the next that is
+/// free.
 std::vector<MethodStyle> method_styles(std::span<const std::string> names);
 
 /// Mixed with white: 0 gives the colour, 1 white.

@@ -163,6 +163,11 @@ void check_together(const SensorParams& p) {
   if (!(p.range_min_m < p.range_max_m))
     throw ParamError("range_min_m", "range_min_m is " + number_text(p.range_min_m) +
                                         "; allowed: less than range_max_m, " + number_text(p.range_max_m));
+  if (p.relative_from_m > 0 && p.relative_from_m < p.range_max_m && p.sigma_m > 0 && p.sigma_relative == 0)
+    throw ParamError("sigma_relative",
+                     "sigma_relative is 0, so that readings from relative_from_m, " + number_text(p.relative_from_m) +
+                         " m, on have no noise; allowed: relative_from_m: 0, the constant part at all "
+                         "ranges, or sigma_relative > 0");
   const double sweep = p.time_per_beam_s * static_cast<double>(p.beams - 1);
   if (!(sweep <= p.scan_period_s))
     throw ParamError("time_per_beam_s", "time_per_beam_s makes a sweep of " + number_text(sweep) +
@@ -192,7 +197,7 @@ SensorModel make_sensor(const std::string& preset_name, const ParamSet& override
     }
     const std::string near = nearest_name(preset_name, names);
     throw ConfigError("unknown sensor preset '" + preset_name + "'" +
-                      (near.empty() ? "" : "; did you mean '" + near + "'?") + "; known: " + known);
+                      (near.empty() ? "; " : "; did you mean '" + near + "'? ") + "known: " + known);
   }
   ParamSet set = found->second.params;
   for (const auto& [name, value] : overrides) set.insert_or_assign(name, value);

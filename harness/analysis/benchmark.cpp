@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "core/index.hpp"
 #include "core/special_values.hpp"
 
 namespace scanbench::harness {
@@ -62,6 +63,34 @@ std::map<std::string, int> conditions_won(const CellValues& rank, const Benchmar
     for (std::size_t i = 0; i < means.size(); ++i) won[pipelines[i]] += means[i] == best;
   }
   return won;
+}
+
+/// Whether a pipeline has a value in every cell of these scenarios.
+bool is_complete(const CellValues& values, const std::string& pipeline, const std::vector<std::uint64_t>& seeds,
+                 const std::vector<std::string>& scenarios) {
+  return std::ranges::all_of(seeds, [&](std::uint64_t seed) {
+    return std::ranges::all_of(scenarios, [&](const std::string& scenario) {
+      const auto found = values.find({pipeline, seed, scenario});
+      return found != values.end() && std::isfinite(found->second);
+    });
+  });
+}
+
+/// Index of the best mean but for that of `without`; -1: none.
+int best_of(const std::vector<MeanInterval>& values, const BenchmarkColumn& column, int without = -1) {
+  int best = -1;
+  for (int i = 0; i < static_cast<int>(values.size()); ++i) {
+    const double mean = values[as_index(i)].mean;
+    if (i == without || !std::isfinite(mean)) continue;
+    if (best < 0 || better(column.description(), mean, values[as_index(best)].mean)) best = i;
+  }
+  return best;
+}
+
+/// The difference per seed, of the logarithms where the mean is geometric.
+std::vector<double> differences(std::vector<double> a, const std::vector<double>& b, bool geometric) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = geometric ? std::log(a[i]) - std::log(b[i]) : a[i] - b[i];
+  return a;
 }
 
 }  // namespace
@@ -155,6 +184,40 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenario
   const std::vector<double> adjusted = holm_adjusted(p_values);
   for (std::size_t i = 0; i < ranking.size(); ++i) ranking[i].next_p = adjusted[i];
   return ranking;
+}
+
+std::vector<LevelResult> results_by_level(const std::vector<Scenario>& scenarios, const std::vector<SummaryRow>& rows,
+                                          const BenchmarkSpec& spec, const std::vector<std::string>& names) {
+  const BenchmarkColumn& rank = spec.subject().rank_column();
+  const CellValues values = values_of(rows, rank.metric);
+  const std::vector<std::uint64_t> seeds = seeds_of(rows);
+  const std::vector<std::string> in_run = scenario_names(scenarios);
+  std::vector<LevelResult> results;
+  std::vector<double> p_values;
+  for (const BenchmarkLevel& level : spec.levels) {
+    std::vector<std::string> conditions;
+    std::ranges::copy_if(level.scenarios, std::back_inserter(conditions),
+                         [&](const auto& name) { return std::ranges::find(in_run, name) != in_run.end(); });
+    if (conditions.empty()) continue;
+    LevelResult result{level.factor, level.level, {}};
+    std::vector<std::vector<double>> by_seed;
+    for (const auto& name : names) {
+      by_seed.push_back(is_complete(values, name, seeds, conditions)
+                            ? per_seed(values, name, seeds, conditions, rank.geometric)
+                            : std::vector<double>(seeds.size(), kNaN));
+      result.values.push_back(mean_interval(by_seed.back()));
+    }
+    result.best = best_of(result.values, rank);
+    result.second = best_of(result.values, rank, result.best);
+    p_values.push_back(result.second < 0
+                           ? kNaN
+                           : paired_p_value(differences(by_seed[as_index(result.best)],
+                                                        by_seed[as_index(result.second)], rank.geometric)));
+    results.push_back(std::move(result));
+  }
+  const std::vector<double> adjusted = holm_adjusted(p_values);
+  for (std::size_t i = 0; i < results.size(); ++i) results[i].p = adjusted[i];
+  return results;
 }
 
 }  // namespace scanbench::harness

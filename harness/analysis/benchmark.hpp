@@ -53,6 +53,20 @@ std::vector<std::uint64_t> seeds_of(const std::vector<SummaryRow>& rows);
 std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenarios, const std::vector<SummaryRow>& rows,
                                            const BenchmarkSpec& spec);
 
+/// The rank's metric at one level of a factor: averaged over its conditions for every seed, then over the seeds.
+struct LevelResult {
+  std::string factor;
+  std::string level;
+  std::vector<MeanInterval> values;  ///< one per name; all NaN for a pipeline with missing cells at this level
+  int best = -1;                     ///< index of the best value; -1 if no pipeline has one
+  int second = -1;                   ///< the best of the others
+  double p = 1.0;                    ///< of the difference of these two, as RankedPipeline::next_p, over all levels
+};
+
+/// One result per level of the specification that has scenarios in the run; `names` are pipelines.
+std::vector<LevelResult> results_by_level(const std::vector<Scenario>& scenarios, const std::vector<SummaryRow>& rows,
+                                          const BenchmarkSpec& spec, const std::vector<std::string>& names);
+
 /// Head of the column that compares a pipeline with the next in rank: "F1 − next", "MSE / bound over next".
 std::string next_head(const BenchmarkColumn& rank);
 

@@ -11,6 +11,7 @@
 
 #include "core/geometry/geometry.hpp"
 #include "harness/report/html_page.hpp"
+#include "harness/report/level_table.hpp"
 #include "harness/report/plain_text.hpp"
 #include "harness/report/ranking_table.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
@@ -198,6 +199,31 @@ std::vector<std::pair<std::string, std::string>> definitions(const BenchmarkSpec
   return all;
 }
 
+std::vector<std::string> names_of(const std::vector<RankedPipeline>& ranking) {
+  std::vector<std::string> names;
+  for (const auto& ranked : ranking) names.push_back(ranked.name);
+  return names;
+}
+
+/// The table by levels and its sentence; empty if the suite has no factors.
+std::string levels_html(const ReportInput& input, const BenchmarkSpec& spec,
+                        const std::vector<RankedPipeline>& ranking) {
+  const auto names = names_of(ranking);
+  const auto results = results_by_level(input.scenarios, input.rows, spec, names);
+  if (results.empty()) return "";
+  return fmt::format("<h2>Which is best under which condition</h2>\n<p>{}</p>\n<div class=\"compact plain\">{}</div>\n",
+                     html_escaped(best_by_level_text(results, names, spec)),
+                     to_html(level_table(results, names, spec)));
+}
+
+std::string levels_markdown(const ReportInput& input, const BenchmarkSpec& spec,
+                            const std::vector<RankedPipeline>& ranking) {
+  const auto names = names_of(ranking);
+  const auto results = results_by_level(input.scenarios, input.rows, spec, names);
+  if (results.empty()) return "";
+  return "\n" + to_markdown(level_table(results, names, spec)) + "\n" + best_by_level_text(results, names, spec) + "\n";
+}
+
 std::string figure_html(const ReportInput& input, const std::string& name, const std::string& number) {
   const auto figure = std::ranges::find(input.figures, name, &FigureFile::name);
   if (figure == input.figures.end()) return "";
@@ -228,6 +254,7 @@ std::string benchmark_html(const ReportInput& input, const BenchmarkSpec& spec) 
          "</div>\n";
   out += "<h2>Ranking</h2>\n<div class=\"compact\">" + to_html(ranking_table(ranking, spec)) + "</div>\n";
   out += fmt::format("<p>{}</p>\n", html_escaped(significance_text(ranking)));
+  out += levels_html(input, spec, ranking);
   out += "<h2>Figures</h2>\n<div class=\"beside\">\n";
   for (const auto& [name, number] : numbered_figures(spec)) out += figure_html(input, name, number);
   out += "</div>\n<h2>How the columns are defined</h2>\n<p>" + html_escaped(spec.subject().method) + "</p>\n<dl>\n";
@@ -246,7 +273,8 @@ std::string benchmark_markdown(const ReportInput& input, const BenchmarkSpec& sp
   std::string out = "# " + input.title + "\n\n" + markdown_escaped(answer_text(ranking, spec) + " " + spec.about) +
                     "\n\n" + markdown_status(input.cells);
   out += "\n" + run_text(input, spec) + "\n\n" + to_markdown(worlds_table(input)) + "\n" +
-         to_markdown(sensors_table(input)) + "\n" + to_markdown(ranks) + "\n" + significance_text(ranking) + "\n";
+         to_markdown(sensors_table(input)) + "\n" + to_markdown(ranks) + "\n" + significance_text(ranking) + "\n" +
+         levels_markdown(input, spec, ranking);
   for (const auto& [name, number] : numbered_figures(spec))
     if (const auto figure = std::ranges::find(input.figures, name, &FigureFile::name); figure != input.figures.end())
       out += fmt::format("\n![{0}](figures/{1}.svg)\n\n{2}. {0}\n", figure->caption, name, number);

@@ -54,6 +54,7 @@ std::string fault_of(const LineFeature& line, int beams) {
       !std::isfinite(line.line.alpha))
     return "is not finite";
   if (line.covariance && !line.covariance->allFinite()) return "has a covariance that is not finite";
+  if (line.covariance && line.covariance->diagonal().minCoeff() < 0) return "has a negative variance";
   if (line.points < 0) return "has " + std::to_string(line.points) + " points";
   if (!std::isfinite(line.rms_m) || line.rms_m < 0) return "has an rms that is not finite or negative";
   if (beams == 0) return "";

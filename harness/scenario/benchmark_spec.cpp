@@ -105,8 +105,11 @@ BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& 
 }
 
 std::string benchmark_json(const BenchmarkSpec& spec) {
-  const nlohmann::ordered_json json{
+  nlohmann::ordered_json json{
       {"about", spec.about}, {"of", spec.of}, {"baseline", spec.baseline}, {"example", spec.example}};
+  auto& levels = json["levels"] = nlohmann::ordered_json::array();
+  for (const auto& level : spec.levels)
+    levels.push_back({{"factor", level.factor}, {"level", level.level}, {"scenarios", level.scenarios}});
   return json.dump(2) + "\n";
 }
 

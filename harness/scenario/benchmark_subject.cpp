@@ -59,7 +59,10 @@ BenchmarkSubject extractors() {
            "The bound is that of a line whose beams are known, from the returns between its first and last beam. A "
            "ratio below 1 is possible if an extractor used beams of two runs of one wall for one line.",
            "Noise is Gaussian, equal at all ranges, and known to the extractors that take it as a parameter; there are "
-           "no mixed pixels, lost returns, rounding or moving bodies. Walls are straight.",
+           "no mixed pixels, rounding or moving bodies. Walls are straight. Returns are lost only where a world or a "
+           "sensor above says so.",
+           "A lost return does not end a true line: an extractor that ends its line where many returns in a row are "
+           "missing has a split or a false line there.",
            "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition "
            "and seed, varies less."},
       .shows_example = true,
@@ -116,8 +119,8 @@ BenchmarkSubject matchers() {
            "answers only easy pairs has smaller errors than one that always answers.",
            "The bound is that of a matcher with known assignments of beams to walls. Ends of walls are not in it, so "
            "that a ratio below 1 is possible.",
-           "Noise is Gaussian, equal at all ranges, and known to the matchers; there are no mixed pixels, lost returns "
-           "or moving bodies. Walls are straight.",
+           "Noise is Gaussian, equal at all ranges, and known to the matchers; there are no mixed pixels or moving "
+           "bodies. Walls are straight. Returns are lost only where a world or a sensor above says so.",
            "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition "
            "and seed, varies less."},
       .shows_example = false,

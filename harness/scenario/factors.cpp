@@ -36,7 +36,7 @@ std::vector<Variant> read_levels(const YamlEntry& factor) {
   std::vector<Variant> levels;
   for (const auto& level : entries_of(factor.value, "the factor " + factor.key, "{level: {key: value}}")) {
     require_folder_name(level.key, level.mark, "the level's name");
-    levels.push_back({"-" + level.key, {}, level.mark});
+    levels.push_back({"-" + level.key, {}, level.mark, {{factor.key, level.key}}});
     for (const auto& entry :
          entries_of(level.value, "the level " + level.key, "{key: value}, with dotted keys like sensor.sigma_m"))
       levels.back().sets.push_back(entry.key + "=" + value_text(entry.value, entry.key));
@@ -56,7 +56,8 @@ std::vector<Variant> read_variants(const YamlNode& factors) {
     std::vector<Variant> more;
     for (const Variant& variant : variants) {
       for (const Variant& level : levels) {
-        more.push_back({variant.suffix + level.suffix, variant.sets, level.mark});
+        more.push_back({variant.suffix + level.suffix, variant.sets, level.mark, variant.levels});
+        more.back().levels.push_back(level.levels.front());
         more.back().sets.insert(more.back().sets.end(), level.sets.begin(), level.sets.end());
       }
     }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/yaml/reader.hpp"
@@ -14,9 +15,10 @@ namespace scanbench::harness {
 
 /// One level of every factor.
 struct Variant {
-  std::string suffix;             ///< end of the scenarios' names: "-urg-5cm"
-  std::vector<std::string> sets;  ///< "key=value", as after --set
-  Mark mark;                      ///< of the last factor's level
+  std::string suffix;                                            ///< end of the scenarios' names: "-urg-5cm"
+  std::vector<std::string> sets;                                 ///< "key=value", as after --set
+  Mark mark;                                                     ///< of the last factor's level
+  std::vector<std::pair<std::string, std::string>> levels = {};  ///< {factor, level}: {"sensor", "urg"}, ...
 };
 
 /// All combinations, the last factor varying fastest. Throws PlacedError.

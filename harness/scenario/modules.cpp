@@ -32,6 +32,17 @@ auto with_kind(std::string_view kind, const Use& use) {
   throw ConfigError("no kind of module is called " + quoted_excerpt(kind) + known_names(kind, module_kinds()));
 }
 
+/// "extract" -> "line extractor": what a reader calls a module of this kind.
+std::string noun_of(std::string_view kind) {
+  if (kind == LineExtractor::kKind) return "line extractor";
+  if (kind == Aligner::kKind) return "aligner";
+  if (kind == ScanMatcher::kKind) return "scan matcher";
+  if (kind == Mapper::kKind) return "mapper";
+  if (kind == SegmentMerger::kKind) return "segment merger";
+  if (kind == metrics::MetricFamily::kKind) return "metric family";
+  return std::string(kind);
+}
+
 }  // namespace
 
 const std::vector<std::string>& module_kinds() {
@@ -54,7 +65,7 @@ ModuleEntry find_module(std::string_view kind, std::string_view name) {
   return with_kind(kind, [&](auto tag) -> ModuleEntry {
     const auto* entry = Registry<typename decltype(tag)::type>::find(name);
     if (entry == nullptr)
-      throw ConfigError("no " + std::string(kind) + " is called " + quoted_excerpt(name) +
+      throw ConfigError("no " + noun_of(kind) + " is called " + quoted_excerpt(name) +
                         known_names(name, module_names(kind)));
     return {entry->info, entry->params};
   });

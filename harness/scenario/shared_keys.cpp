@@ -63,6 +63,10 @@ PipelineSpec read_pipeline(const YamlNode& node, bool scans) {
     const YamlNode* slot_node = map.find(slot.kind);
     if (slot_node == nullptr) continue;
     marks.push_back(slot_node->mark);
+    if (slot_node->kind != YamlKind::map)
+      throw PlacedError(slot_node->mark, fmt::format("{} of {} is {}; allowed: {{module: NAME}} or {{module: NAME, "
+                                                     "params: {{key: value}}}}",
+                                                     slot.kind, pipeline.name, describe_node(*slot_node)));
     pipeline.slots.push_back(
         read_module(*slot_node, std::string(slot.kind), "module", fmt::format("{} of {}", slot.kind, pipeline.name)));
   }

@@ -52,13 +52,17 @@ class SuiteReader {
         add(std::move(plain), node.mark);
         continue;
       }
-      for (const Variant& variant : variants) add(load_variant(path, plain.name, variant), node.mark);
+      for (const Variant& variant : variants) {
+        add(load_variant(path, plain.name, variant), node.mark);
+        add_levels(plain.name, variant);
+      }
     }
     if (suite_.scenarios.empty())
       throw PlacedError(files.mark, "scenarios is empty; allowed: at least one scenario file");
     if (benchmark == nullptr) return;
     suite_.rules.benchmark = read_benchmark(*benchmark, suite_.scenarios);
     suite_.rules.benchmark->about = suite_.about;
+    suite_.rules.benchmark->levels = levels_;
   }
 
  private:
@@ -112,9 +116,28 @@ class SuiteReader {
     suite_.scenarios.push_back(std::move(scenario));
   }
 
+  /// Enters the scenario that was added last at its level of every factor.
+  void add_levels(const std::string& file, const Variant& variant) {
+    auto levels = variant.levels;
+    levels.insert(levels.begin(), {"scenario", file});
+    for (const auto& [factor, level] : levels) {
+      const auto same = [&](const BenchmarkLevel& l) { return l.factor == factor && l.level == level; };
+      auto found = std::ranges::find_if(levels_, same);
+      if (found == levels_.end()) found = levels_.insert(end_of(factor), {factor, level, {}});
+      found->scenarios.push_back(suite_.scenarios.back().name);
+    }
+  }
+
+  /// Behind the last level of a factor, so that the levels of one factor are neighbours.
+  std::vector<BenchmarkLevel>::iterator end_of(const std::string& factor) {
+    const auto last = std::ranges::find(levels_.rbegin(), levels_.rend(), factor, &BenchmarkLevel::factor);
+    return last == levels_.rend() ? levels_.end() : last.base();
+  }
+
   YamlMap map_;
   const std::vector<std::string>& sets_;
   Suite& suite_;
+  std::vector<BenchmarkLevel> levels_;
   std::vector<std::uint64_t> seeds_;
   const YamlNode* pipelines_ = nullptr;
   std::optional<std::vector<ModuleChoice>> metrics_;

@@ -168,7 +168,10 @@ std::optional<BenchmarkSpec> load_benchmark(const fs::path& run) {
   if (!fs::exists(path)) return std::nullopt;
   const auto json = load_json_object(path);
   try {
-    const BenchmarkSpec spec{json.at("about"), json.at("baseline"), json.at("example"), json.value("of", "extract")};
+    BenchmarkSpec spec{json.at("about"), json.at("baseline"), json.at("example"), json.value("of", "extract")};
+    if (json.contains("levels"))
+      for (const auto& level : json.at("levels"))
+        spec.levels.push_back({level.at("factor"), level.at("level"), level.at("scenarios")});
     if (const auto slots = benchmark_slots(); std::ranges::find(slots, spec.of) == slots.end())
       throw ConfigError(path.string() + ": no benchmark ranks modules of the kind " + spec.of);
     return spec;

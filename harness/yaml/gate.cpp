@@ -168,7 +168,8 @@ YamlNode parse_yaml(std::string_view text, std::size_t max_bytes) {
   std::istringstream stream{std::string(text)};
   try {
     YAML::Parser parser(stream);
-    if (!parser.HandleNextDocument(builder)) throw PlacedError({1, 1}, "the file is empty");
+    if (!parser.HandleNextDocument(builder))
+      throw PlacedError({1, 1}, "the file is empty; allowed: keys and values, the first one schema: 1");
 
     class SecondDocument : public TreeBuilder {
       void OnDocumentStart(const YAML::Mark& mark) override {

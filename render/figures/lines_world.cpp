@@ -49,7 +49,7 @@ class LinesWorld : public Figure {
       panel.title =
           fmt::format("{}: {}, {}", names_of(input.results, group), counted(found, "line"), to_string(placed.source));
       add_path(input, placed.world_from_sensor, kPathStroke, panel);
-      lines.draw({method_style(named.pipeline).color, kLineWidth, Dash::solid}, false, panel);
+      lines.draw({method_color(input.results, group.front()), kLineWidth, Dash::solid}, false, panel);
       if (recording.truth) panel.items.emplace_back(Lines{true_walls(recording, Pose2()), kWallStroke});
       set_view(ends_of(lines.found()), wall_ends, panel);
       scene.panels.push_back(std::move(panel));

@@ -66,7 +66,7 @@ class Map : public Figure {
     const PlacedFrames placed = place_frames(input.recording, named.result);
     const std::vector<Vec2> points = all_points(input.recording, placed.world_from_sensor, kPointBudget / panels);
     const Lines lines{.segments = segments_of(named),
-                      .stroke = {method_style(named.pipeline).color, kLineWidth, Dash::solid}};
+                      .stroke = {method_color(input.results, group.front()), kLineWidth, Dash::solid}};
     const std::vector<Vec2> ends = ends_of(lines.segments);
     Panel panel{.title = names_of(input.results, group) + ": " + counted(lines.segments.size(), "line"),
                 .tell_outside = "point"};

@@ -117,7 +117,7 @@ class ScanOverlay : public Figure {
       panel.items.emplace_back(
           Lines{true_walls(recording, recording.truth->world_from_sensor[scan.frame].inverse()), kUnderlay});
     panel.items.emplace_back(Points{.points = points, .color = kBlack, .size_pt = 1.1});
-    lines.draw({method_style(named.pipeline).color, kLineWidth, Dash::solid}, true, panel);
+    lines.draw({method_color(input.results, group.front()), kLineWidth, Dash::solid}, true, panel);
     panel.items.emplace_back(Arrow{.pose = Pose2(), .length_pt = 12, .stroke = kSensorStroke});
     // The view contains the points and the found lines, but not walls far away.
     std::vector<Vec2> seen = points;

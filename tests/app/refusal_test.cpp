@@ -38,7 +38,8 @@ TEST(Refusals, OfTheCommandLineSayWhatIsAllowed) {
   folder.write("room.yaml", room());
   EXPECT_THAT(refusal_in(folder, {"rnu"}), AllOf(HasSubstr("'rnu'"), HasSubstr("did you mean 'run'?")));
   EXPECT_THAT(refusal_in(folder, {}), HasSubstr("a verb is missing"));
-  EXPECT_THAT(refusal_in(folder, {"run"}), HasSubstr("FILE"));
+  EXPECT_THAT(refusal_in(folder, {"run"}), HasSubstr("'run' needs FILE: scenario or suite files"));
+  EXPECT_THAT(refusal_in(folder, {"compare", "out"}), HasSubstr("'compare' needs B: the run folder"));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--frobnicate"}), HasSubstr("--frobnicate"));
   EXPECT_THAT(refusal_in(folder, {"run", "nowhere.yaml"}), HasSubstr("nowhere.yaml: no such file"));
   EXPECT_THAT(refusal_in(folder, {"run", "rom.yaml"}), HasSubstr("did you mean 'room.yaml'?"));
@@ -50,8 +51,11 @@ TEST(Refusals, OfTheCommandLineSayWhatIsAllowed) {
                 AllOf(HasSubstr(std::string("'") + seed + "'"), HasSubstr("0 .. 9007199254740992")));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--seed", "4,4"}), HasSubstr("4 is given twice"));
   for (const char* jobs : {"0", "many"})
-    EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--jobs", jobs}),
-                AllOf(HasSubstr("--jobs"), HasSubstr("1 to 1024")));
+    EXPECT_THAT(
+        refusal_in(folder, {"run", "room.yaml", "--jobs", jobs}),
+        AllOf(HasSubstr(std::string("--jobs: '") + jobs + "'"), HasSubstr("allowed: a whole number 1 .. 1024")));
+  EXPECT_THAT(refusal_in(folder, {"export", "out", "--format", "csw"}),
+              AllOf(HasSubstr("'csw' is no format; did you mean 'csv'?"), HasSubstr("allowed: carmen, csv")));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--only", "smf"}),
               AllOf(HasSubstr("'smf'"), HasSubstr("known: room, iepf")));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--set", "trajectory.scan=3"}),
@@ -102,7 +106,8 @@ TEST(Refusals, OfWhatIsNoTextOrNoScenarioAtAll) {
   EXPECT_THAT(refusal_of("schema: 1\nworld: " + std::string(100000, '[')), HasSubstr("x.yaml:"));
   EXPECT_THAT(refusal_of("- 1\n- 2\n"), HasSubstr("x.yaml:1:1: "));
   const Folder folder;
-  EXPECT_THAT(refusal_in(folder, {"check", "."}), HasSubstr("not a regular file"));
+  EXPECT_THAT(refusal_in(folder, {"check", "."}),
+              HasSubstr(".: a folder, not a regular file; allowed: a scenario or suite file"));
   EXPECT_THAT(refusal_in(folder, {"check", "/dev/null"}), HasSubstr("not a regular file"));
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <set>
 #include <string>
 #include <tuple>
@@ -100,6 +101,34 @@ TEST(Methods, OfOneFigureDifferAndTheirOrderDoesNotMatter) {
   std::vector<MethodStyle> backwards = method_styles(names);
   std::ranges::reverse(backwards);
   EXPECT_EQ(backwards, forwards);
+}
+
+TEST(Methods, OfAFigureOfUpToSevenHaveDifferentColours) {
+  const auto colors_of = [](const std::vector<std::string>& names) {
+    std::set<std::tuple<int, int, int>> colors;
+    for (const auto& [color, dash, marker] : method_styles(names)) colors.emplace(color.r, color.g, color.b);
+    return colors.size();
+  };
+  const std::vector<std::string> collide{"no_alignment", "navigation_map"};
+  EXPECT_EQ(method_style(collide[0]).color, method_style(collide[1]).color);
+  EXPECT_EQ(colors_of(collide), 2U);
+  EXPECT_EQ(method_styles(collide)[1], method_style(collide[1]));  // the first in the alphabet keeps its look
+  const std::vector<std::string> many = some_names(70);
+  for (std::size_t first = 0; first < many.size(); first += 7)
+    EXPECT_EQ(colors_of({many.begin() + static_cast<std::ptrdiff_t>(first),
+                         many.begin() + static_cast<std::ptrdiff_t>(first) + 7}),
+              7U);
+}
+
+TEST(Methods, ThatShareNoColourLookAsTheirNamesSay) {
+  const std::vector<std::string> names = some_names(60);
+  std::vector<std::string> apart;
+  for (const std::string& name : names)
+    if (std::ranges::none_of(apart, [&](const auto& a) { return method_style(a).color == method_style(name).color; }))
+      apart.push_back(name);
+  ASSERT_EQ(apart.size(), 7U);
+  const std::vector<MethodStyle> styles = method_styles(apart);
+  for (std::size_t i = 0; i < apart.size(); ++i) EXPECT_EQ(styles[i], method_style(apart[i])) << apart[i];
 }
 
 // A dozen methods cannot have a colour each.

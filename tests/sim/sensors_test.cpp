@@ -89,7 +89,11 @@ std::string complaint(const std::string& preset, const ParamSet& overrides) {
 }
 
 TEST(Sensors, FaultsAreNamed) {
-  EXPECT_THAT(complaint("urg_04l", {}), HasSubstr("unknown sensor preset 'urg_04l'; did you mean 'urg_04lx'?"));
+  EXPECT_THAT(complaint("urg_04l", {}),
+              HasSubstr("unknown sensor preset 'urg_04l'; did you mean 'urg_04lx'? known: custom, "));
+  EXPECT_THAT(complaint("urg_04lx", {{"sigma_relative", 0.0}}),
+              HasSubstr("have no noise; allowed: relative_from_m: 0"));
+  EXPECT_EQ(complaint("urg_04lx", {{"sigma_relative", 0.0}, {"sigma_m", 0.0}}), "no error");
   EXPECT_THAT(complaint("urg_04lx", {{"sigma", 1.0}}), HasSubstr("did you mean 'sigma_m'"));
   EXPECT_THAT(complaint("urg_04lx", {{"sigma_m", -1.0}}), HasSubstr("sigma_m"));
   EXPECT_THAT(complaint("custom", {{"range_min_m", 40.0}}), HasSubstr("range_min_m is 40; allowed: less than"));

@@ -21,16 +21,18 @@ HiddenBreak::HiddenBreak(const BeamLine& fit, std::span<const BeamReading> readi
   const int n = static_cast<int>(readings.size());
   if (n < 2 * min_readings) return;
   const Tails sums = tails_of(fit, readings, noise, End::first, n);
-  const Eigen::Matrix2d whole = fit.information.inverse();
+  // Not fit.information: it is that of the step before the last one, and noise may jump at a range.
+  const Eigen::Matrix2d all = sums.back().information;
+  const Eigen::Matrix2d whole = all.inverse();
   const auto point = [&](int i) {
     const Vec2& d = readings[as_index(i)].direction;
     return Vec2(fit.range(d) * d);
   };
   for (int first = min_readings; first <= n - min_readings; ++first) {
     const Tail& before = sums[as_index(first)];
-    const Eigen::Matrix2d behind = fit.information - before.information;
-    if (!(before.information.determinant() > 1e-9 * fit.information.determinant()) ||
-        !(behind.determinant() > 1e-9 * fit.information.determinant()))
+    const Eigen::Matrix2d behind = all - before.information;
+    if (!(before.information.determinant() > 1e-9 * all.determinant()) ||
+        !(behind.determinant() > 1e-9 * all.determinant()))
       continue;
     const bool longer_first = (point(first - 1) - point(0)).norm() >= (point(n - 1) - point(first)).norm();
     const Eigen::Matrix2d a = before.information.inverse(), b = behind.inverse();

@@ -30,6 +30,12 @@ std::string names_of(const std::vector<NamedResult>& results, const std::vector<
   return names;
 }
 
+Color method_color(const std::vector<NamedResult>& results, std::size_t index) {
+  std::vector<std::string> names;
+  for (const NamedResult& named : results) names.push_back(named.pipeline);
+  return method_styles(names)[index].color;
+}
+
 void add_method_legend(const std::vector<NamedResult>& results, const std::vector<std::vector<std::size_t>>& groups,
                        double width_pt, Scene& scene) {
   if (groups.size() > kListedMethods)
@@ -37,9 +43,8 @@ void add_method_legend(const std::vector<NamedResult>& results, const std::vecto
         {.text = "lines found, in the colour of the method", .stroke = Stroke{kGrey, width_pt, Dash::solid}});
   else
     for (const auto& group : groups)
-      scene.legend.push_back(
-          {.text = names_of(results, group),
-           .stroke = Stroke{method_style(results[group.front()].pipeline).color, width_pt, Dash::solid}});
+      scene.legend.push_back({.text = names_of(results, group),
+                              .stroke = Stroke{method_color(results, group.front()), width_pt, Dash::solid}});
 }
 
 Scene small_multiples(std::size_t panels) {

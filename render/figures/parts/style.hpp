@@ -48,6 +48,9 @@ std::vector<std::vector<std::size_t>> groups_of_equal(std::size_t n, Equal equal
 /// The pipelines of a group: "iepf, smf".
 std::string names_of(const std::vector<NamedResult>& results, const std::vector<std::size_t>& group);
 
+/// Colour of one of the results of a figure; up to seven results have different ones.
+Color method_color(const std::vector<NamedResult>& results, std::size_t index);
+
 /// A swatch for each group, in the colour of its first method, if they are few; else one entry that explains the
 /// colours.
 void add_method_legend(const std::vector<NamedResult>& results, const std::vector<std::vector<std::size_t>>& groups,

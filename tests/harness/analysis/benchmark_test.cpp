@@ -9,6 +9,7 @@
 #include "harness/analysis/error_bins.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/report/benchmark_report.hpp"
+#include "harness/report/level_table.hpp"
 #include "harness/report/page_input.hpp"
 #include "harness/report/ranking_table.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
@@ -167,6 +168,61 @@ TEST(Benchmark, FileOfTheRunReadsBack) {
   EXPECT_EQ(spec->baseline, "a");
   EXPECT_EQ(spec->example, "x");
   folder.write("benchmark.json", "{\"baseline\": 3}");
+  EXPECT_THAT(config_refusal([&] { load_benchmark(folder.path()); }), HasSubstr("benchmark.json"));
+}
+
+/// x and y are the two levels of a factor.
+BenchmarkSpec spec_with_levels() {
+  BenchmarkSpec spec = kSpec;
+  spec.levels = {{"light", "day", {"x"}}, {"light", "night", {"y"}}, {"place", "here", {"x", "y"}}};
+  return spec;
+}
+
+TEST(Benchmark, NamesTheBestAtEveryLevelOfAFactor) {
+  const std::vector<std::string> names{"a", "b", "c"};
+  auto rows = made_up_rows();
+  for (auto& row : rows)  // night: a is 0.1 and 0.2 behind b
+    if (row.pipeline == "a" && row.metric == "f1" && row.scenario == "x") row.value = row.seed == 1 ? 0.90 : 0.98;
+  const auto results = results_by_level(two_scenarios(), rows, spec_with_levels(), names);
+  ASSERT_EQ(results.size(), 3u);
+  EXPECT_EQ(results[0].best, 0);  // day: a 0.94, b 0.85, c 0.45
+  EXPECT_EQ(results[0].second, 1);
+  EXPECT_EQ(results[1].best, 1);  // night: a 0.75, b 0.85, c 0.25
+  EXPECT_NEAR(results[0].values[0].mean, 0.94, 1e-12);
+  EXPECT_NEAR(results[1].values[2].mean, 0.25, 1e-12);
+  EXPECT_NEAR(results[2].values[1].mean, 0.85, 1e-12);  // both
+  const Table table = level_table(results, names, spec_with_levels());
+  ASSERT_EQ(table.columns.size(), 3u);
+  EXPECT_EQ(table.columns[1].group, "light");
+  EXPECT_EQ(table.columns[1].head, "night");
+  EXPECT_TRUE(table.rows[0].cells[0].best);
+  EXPECT_FALSE(table.rows[1].cells[0].best);
+  EXPECT_EQ(table.rows[1].cells[1].text, "85.00");
+  const std::string text = best_by_level_text(results, names, spec_with_levels());
+  EXPECT_THAT(text,
+              HasSubstr("b has the best F1 at light night, place here; a at light day."));  // here: a 0.845, b 0.85
+}
+
+TEST(Benchmark, APipelineWithMissingCellsHasNoValueAtTheirLevel) {
+  auto rows = made_up_rows();
+  std::erase_if(rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
+  const auto results = results_by_level(two_scenarios(), rows, spec_with_levels(), {"a", "b", "c"});
+  ASSERT_EQ(results.size(), 3u);
+  EXPECT_TRUE(std::isfinite(results[0].values[1].mean));
+  EXPECT_TRUE(std::isnan(results[1].values[1].mean));
+  EXPECT_EQ(results[1].best, 0);
+  EXPECT_EQ(level_table(results, {"a", "b", "c"}, spec_with_levels()).rows[1].cells[1].text, "–");
+}
+
+TEST(Benchmark, LevelsOfTheRunReadBack) {
+  const TemporaryFolder folder;
+  folder.write("benchmark.json", benchmark_json(spec_with_levels()));
+  const auto spec = load_benchmark(folder.path());
+  ASSERT_TRUE(spec.has_value());
+  ASSERT_EQ(spec->levels.size(), 3u);
+  EXPECT_EQ(spec->levels[1].level, "night");
+  EXPECT_EQ(spec->levels[2].scenarios, (std::vector<std::string>{"x", "y"}));
+  folder.write("benchmark.json", R"({"about": "", "baseline": "a", "example": "x", "levels": [{"factor": 3}]})");
   EXPECT_THAT(config_refusal([&] { load_benchmark(folder.path()); }), HasSubstr("benchmark.json"));
 }
 

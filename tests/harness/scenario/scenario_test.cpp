@@ -224,12 +224,17 @@ TEST(ShippedSuites, RunClearOfWalls) {
 
 TEST(ShippedSuites, ExtractorsAreComparedOnEveryWorldSensorAndNoise) {
   const Suite suite = load_suite(source_dir() / "scenarios/suites/extractors.yaml");
-  ASSERT_EQ(suite.scenarios.size(), 4U * 3U * 3U);
+  ASSERT_EQ(suite.scenarios.size(), 6U * 3U * 3U * 2U);
   ASSERT_TRUE(suite.rules.benchmark.has_value());
   EXPECT_EQ(suite.rules.benchmark->about, suite.about);
+  EXPECT_EQ(suite.rules.benchmark->levels.size(), 6U + 3U + 3U + 2U);
+  EXPECT_EQ(suite.rules.benchmark->levels.back().factor, "returns");
+  EXPECT_EQ(suite.rules.benchmark->levels.back().scenarios.size(), 6U * 3U * 3U);
   for (const auto& scenario : suite.scenarios) {
     const SensorNoise& noise = std::get<SimulatedInput>(scenario.input).sensor.noise;
-    EXPECT_EQ(noise.sigma_relative, 0.0) << scenario.name;
+    EXPECT_GT(noise.sigma_m, 0.0) << scenario.name;
+    for (const double range_m : {0.5, 2.0, 4.0, 20.0})
+      EXPECT_EQ(noise.range_sigma(range_m), noise.sigma_m) << scenario.name << " at " << range_m;
     EXPECT_EQ(noise.quantum_m, 0.0) << scenario.name;
     // Thresholds are multiples of the noise.
     const auto iepf = std::ranges::find(scenario.pipelines, "iepf", &PipelineSpec::name);

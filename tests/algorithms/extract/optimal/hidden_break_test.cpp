@@ -146,5 +146,20 @@ TEST(HiddenBreak, ItsDoubtNeverShrinksTheCovariance) {
   }
 }
 
+TEST(HiddenBreak, AFitThatDidNotConvergeStaysFinite) {
+  // A sensor whose noise jumps at a range leaves the fit of a line across that range swinging: its information is then
+  // not that of the readings, and it is not their best line.
+  CounterRng rng(7, RngStream::range);
+  const auto readings = readings_of({0.5, 0.0}, {0.5, 0.0}, 0, rng);
+  const auto line = fit_beam_line(readings, noise());
+  ASSERT_TRUE(line);
+  BeamLine swinging = *line;
+  swinging.theta *= 1.2;
+  swinging.information *= 0.05;
+  const BeamLine averaged = HiddenBreak(swinging, readings, noise(), kLeast).average(swinging, 0.3);
+  EXPECT_TRUE(averaged.theta.allFinite());
+  EXPECT_TRUE(averaged.information.allFinite());
+}
+
 }  // namespace
 }  // namespace scanbench::extract
