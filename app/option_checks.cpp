@@ -32,7 +32,7 @@ CLI::Validator one_of(const std::string& what, const std::vector<std::string>& w
             return fmt::format("'{}' is no {}{}; allowed: {}", text, what,
                                near.empty() ? "" : "; did you mean '" + near + "'?", fmt::join(words, ", "));
           },
-          fmt::format("{}", fmt::join(words, "|"))};
+          fmt::format("{{{}}}", fmt::join(words, ","))};
 }
 
 }  // namespace scanbench::app

@@ -12,6 +12,7 @@ namespace scanbench::app {
 CLI::Validator whole_number(const std::string& what, int low, int high);
 
 /// Refuses what is none of these words: "'xml' is no format; allowed: carmen, csv".
+/// The shell completion reads the words from its description, {carmen,csv}.
 CLI::Validator one_of(const std::string& what, const std::vector<std::string>& words);
 
 }  // namespace scanbench::app

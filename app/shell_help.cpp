@@ -27,7 +27,7 @@ std::vector<std::string> option_names(const CLI::App& verb) {
   return names;
 }
 
-/// The allowed values of an option that has a list of them, which CLI11 keeps as the text "TEXT:{a,b}".
+/// The allowed values of an option that has a list of them, which one_of() and CLI11 keep as the text "TEXT:{a,b}".
 std::vector<std::string> values_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const auto open = type.find('{');
