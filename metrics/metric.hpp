@@ -51,7 +51,7 @@ bool better(const MetricDescription& metric, double a, double b);
 
 struct MetricInput {
   const ScanSet& observed;
-  const Truth* truth;  ///< nullptr for recorded logs
+  const Truth* truth = nullptr;  ///< nullptr for recorded logs
   const PipelineResult& result;
   const ReferencePoses* reference = nullptr;  ///< of a recorded log, if it has any
 };

@@ -44,10 +44,7 @@ struct FittedChain {
 class Extraction {
  public:
   Extraction(const Scan& scan, const SensorNoise& noise, int vertices, bool clutter)
-      : scan_(scan), noise_(noise), vertices_(vertices), clutter_(clutter), model_(scan, noise) {
-    // Mirrored, the scan of a scanner that rotates clockwise is counter-clockwise.
-    mirror_ = scan.sensor.geometry.angle_step() < 0 ? -1.0 : 1.0;
-  }
+      : scan_(scan), noise_(noise), vertices_(vertices), clutter_(clutter), model_(scan, noise) {}
 
   ScanLines run(SupportRules rules, Trace& trace) {
     if (model_.size() < 2) return lines_of_runs(scan_, model_.points(), {}, Fit::tls, rules);
@@ -269,7 +266,8 @@ class Extraction {
   int vertices_;
   bool clutter_;
   ScanModel model_;
-  double mirror_;
+  /// Mirrored, the scan of a scanner that rotates clockwise is counter-clockwise.
+  double mirror_ = scan_.sensor.geometry.angle_step() < 0 ? -1.0 : 1.0;
   std::vector<SegmentationPoint> points_;  // mirrored
   std::vector<BearingReading> readings_;
   std::vector<FittedChain> chains_;

@@ -14,6 +14,11 @@ namespace {
 
 using namespace extract;
 
+double cotangent(double angle_rad) {
+  const auto [sine, cosine] = portable::sincos(angle_rad);
+  return cosine / sine;
+}
+
 enum class Variant { ranges, points };
 enum class Threshold { constant, linear, incidence, adaptive };
 
@@ -59,10 +64,8 @@ class Sef final : public LineExtractor {
     }
   };
 
-  explicit Sef(const Params& params) : params_(params), adaptive_(params.lambda_rad) {
-    const auto [s, c] = portable::sincos(params.beta_min_rad);
-    cot_beta_min_ = c / s;
-  }
+  explicit Sef(const Params& params)
+      : params_(params), adaptive_(params.lambda_rad), cot_beta_min_(cotangent(params.beta_min_rad)) {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
     trace.stage(Stage::pre);

@@ -25,7 +25,7 @@ class Trace {
   /// True if a listener reads rows. Code that must prepare its rows checks this first.
   bool recording() const { return static_cast<bool>(listener_.row); }
   /// A stage of the work begins; the stage before it ends.
-  void stage(Stage begun) {
+  void stage(Stage begun) const {
     if (listener_.stage) listener_.stage(begun);
   }
   template <TraceRowType Row>

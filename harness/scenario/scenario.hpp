@@ -60,7 +60,7 @@ struct RecordedInput {
   std::string relations_sha256;  ///< as log_sha256
   ParamSet odometry_params;      ///< of the errors that are added to the poses of the log; effective
   sim::OdometryNoise odometry;
-  ParamSet params;               ///< of the reader: no-return value, first angle, pose triple, ...; effective
+  ParamSet params;  ///< of the reader: no-return value, first angle, pose triple, ...; effective
   std::string sensor_preset;
   ParamSet sensor_params;  ///< effective; its beam angles and range limits are unused, because the log has its own
   SensorModel sensor;

@@ -78,7 +78,7 @@ template <class To, class From>
 }
 
 [[gnu::always_inline]] inline bool none(Ints mask) {
-  const Longs pairs = bits<Longs>(mask);
+  const auto pairs = bits<Longs>(mask);
   std::int64_t any = 0;
   for (std::size_t k = 0; k < kLanes / 2; ++k) any |= pairs[k];
   return any == 0;
@@ -115,7 +115,7 @@ template <class To, class From>
 /// 1 / sqrt(v) with a relative error below 5e-6; finite for 0. An estimate from the exponent is improved by two Newton
 /// steps.
 [[gnu::always_inline]] inline Floats reciprocal_root(Floats v) {
-  Floats r = bits<Floats>(all(std::int32_t{0x5f3759df}) - (bits<Ints>(v) >> 1));
+  auto r = bits<Floats>(all(std::int32_t{0x5f3759df}) - (bits<Ints>(v) >> 1));
   const Floats half = v * all(0.5F);
   r = r * (all(1.5F) - half * r * r);
   return r * (all(1.5F) - half * r * r);
@@ -237,8 +237,11 @@ void point_forces(const FieldPoints& points, const Field& field, std::vector<Poi
 
 double stiffness_on_line(double spacing_m, const Field& field) {
   double sum = 0.0;
-  for (double d = 0.5 * spacing_m; d <= field.reach(); d += spacing_m)
+  const auto points = static_cast<std::int64_t>(field.reach() / spacing_m + 0.5);  // of either side
+  for (std::int64_t k = 0; k < points; ++k) {
+    const double d = (static_cast<double>(k) + 0.5) * spacing_m;
     sum += 2.0 * std::exp(-0.5 * d * d / (field.sigma * field.sigma)) / std::max(d, field.soft());
+  }
   return peak(field.sigma) * sum;
 }
 

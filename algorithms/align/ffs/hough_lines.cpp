@@ -45,7 +45,7 @@ std::vector<Voter> voters_of(std::span<const Vec2> points, const Vec2& origin, d
       if (cell.begin == cell.end) continue;
       Vec2 sum = Vec2::Zero();
       for (std::size_t k = cell.begin; k < cell.end; ++k) sum += points[grid.order()[k]] - origin;
-      const double n = static_cast<double>(cell.end - cell.begin);
+      const auto n = static_cast<double>(cell.end - cell.begin);
       voters.push_back({static_cast<float>(sum.x() / n), static_cast<float>(sum.y() / n), static_cast<float>(n)});
     }
   return voters;

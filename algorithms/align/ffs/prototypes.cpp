@@ -84,6 +84,7 @@ std::vector<Segment> prototypes_of(std::span<const Segment> segments, const Prot
     }
   }
   std::vector<Segment> result;
+  result.reserve(prototypes.size());
   for (const Prototype& p : prototypes) result.push_back(p.extent);
   return result;
 }

@@ -28,7 +28,7 @@ class HiddenBreak {
 
  private:
   struct Place {
-    double weight;               // density with this break, divided by that without
+    double weight = 0.0;         // density with this break, divided by that without
     Vec2 step;                   // from the line of all readings to that of the longer part
     Eigen::Matrix2d covariance;  // what the covariance of the line grows by
   };

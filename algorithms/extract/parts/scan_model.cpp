@@ -20,7 +20,7 @@ double median_of_five(std::span<const double> ranges, std::size_t i) {
   const std::size_t n = ranges.size();
   if (n < 5) return ranges[i];
   const std::size_t begin = std::min(i < 2 ? 0 : i - 2, n - 5);
-  std::array<double, 5> w;
+  std::array<double, 5> w{};
   std::copy_n(ranges.begin() + static_cast<std::ptrdiff_t>(begin), 5, w.begin());
   std::nth_element(w.begin(), w.begin() + 2, w.end());
   return w[2];
@@ -59,7 +59,7 @@ double ScanModel::place_cost() const {
 // Code length of the missing beams between points i-1 and i if one line continues across them.
 double ScanModel::gap_cost(std::size_t i) const {
   int missing = 0;
-  for (int b = points_.beams[i - 1] + 1; b < points_.beams[i]; ++b) missing += !scan_.valid(b);
+  for (int b = points_.beams[i - 1] + 1; b < points_.beams[i]; ++b) missing += scan_.valid(b) ? 0 : 1;
   if (missing == 0) return 0.0;
   const Vec2 chord = points_.points[i] - points_.points[i - 1];
   const double cos_incidence = std::fabs(cross(chord, direction(i))) / std::max(chord.norm(), 1e-12);

@@ -52,8 +52,8 @@ NormalEquations normal_equations(const Chain& chain, std::span<const BearingRead
     const std::array<double, 4> g = {-slope_p * from_p * scale, from_p * scale, -slope_q * from_q * scale,
                                      from_q * scale};
     const double error = (z.range_m - r) / z.sigma_m;
-    const Eigen::Index i = 2 * k;
-    const Eigen::Index j = 2 * ((k + 1) % static_cast<int>(chain.vertices.size()));
+    const Eigen::Index i = Eigen::Index{2} * k;
+    const Eigen::Index j = Eigen::Index{2} * ((k + 1) % static_cast<int>(chain.vertices.size()));
     const std::array<Eigen::Index, 4> index = {i, i + 1, j, j + 1};
     for (std::size_t a = 0; a < 4; ++a) {
       n.rhs[index[a]] += g[a] * error;

@@ -46,7 +46,7 @@ std::vector<Sums> running_sums(std::span<const SegmentationPoint> points) {
 // The cost of the points after one vertex up to the next, as a quadratic form of the two inverse ranges.
 class Wall {
  public:
-  Wall(const Vec2& p, const Vec2& q, const Sums& s) {
+  Wall(const Vec2& p, const Vec2& q, const Sums& s) : one_(0.5 * s.vv), fixed_(s.fixed) {
     // theta = u_p f + u_q g is the wall: theta . p = u_p, theta . q = u_q.
     const double sine = cross(p, q);
     const Vec2 f = -perpendicular(q) / sine, g = perpendicular(p) / sine;
@@ -58,8 +58,6 @@ class Wall {
     qq_ = 0.5 * form(g, g);
     p_ = -(f.x() * s.xv + f.y() * s.yv);
     q_ = -(g.x() * s.xv + g.y() * s.yv);
-    one_ = 0.5 * s.vv;
-    fixed_ = s.fixed;
   }
   double cost(double u_p, double u_q) const {
     const double half_misfit = u_p * (pp_ * u_p + pq_ * u_q + p_) + u_q * (qq_ * u_q + q_) + one_;
