@@ -227,6 +227,7 @@ void Dse::merge(std::vector<Stroke> placed, InsertionRow& row, Trace& trace) {
   const std::vector<std::size_t> near = map_.near(segments, reach_of(merge_));
   row.near_lines = static_cast<int>(near.size());
   std::vector<Stroke> old;
+  old.reserve(near.size());
   for (const std::size_t number : near) old.push_back(map_.strokes().at(number));
   // The ends of each map are projected on the other as it was before.
   const std::vector<Stroke> cut_map = with_vertices(old, ends_of(placed), insertion_);

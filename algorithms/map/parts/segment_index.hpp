@@ -16,6 +16,8 @@ class SegmentIndex {
  public:
   SegmentIndex();
   ~SegmentIndex();
+  SegmentIndex(const SegmentIndex&) = delete;
+  SegmentIndex& operator=(const SegmentIndex&) = delete;
   SegmentIndex(SegmentIndex&&) noexcept;
   SegmentIndex& operator=(SegmentIndex&&) noexcept;
 
