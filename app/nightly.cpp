@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/inputs.hpp"
+#include "app/option_checks.hpp"
 #include "app/progress.hpp"
 #include "app/running.hpp"
 #include "core/error.hpp"
@@ -106,7 +107,7 @@ void add_nightly(Context& context) {
                     "number of the baseline to compare with, such as 0003 (default: the newest; without baselines the "
                     "last good night)");
   night->add_option("-j,--jobs", options->jobs, "number of cells that run at the same time")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_number("number of cells", 1, 1024))
       ->capture_default_str();
   night->add_option("--seed", options->seeds, "seeds, separated by commas, that replace the file's")->delimiter(',');
   night->add_option("--set", options->sets, "KEY=VALUE: replaces a value of the file (dotted keys)")->take_all();

@@ -79,6 +79,9 @@ class FaultyLine final : public LineExtractor {
       case 9:
         line.segment.b = line.segment.a;
         break;
+      case 10:
+        line.covariance = -Eigen::Matrix2d::Identity();
+        break;
       default:
         break;
     }
@@ -94,7 +97,7 @@ const bool registered = Registry<LineExtractor>::add<FaultyLine>(
 
 TEST(Pipeline, RefusesALineThatBreaksTheContract) {
   ASSERT_TRUE(registered);
-  for (std::int64_t fault = 0; fault <= 8; ++fault) {
+  for (const std::int64_t fault : {0, 1, 2, 3, 4, 5, 6, 7, 8, 10}) {
     SCOPED_TRACE(fault);
     const PipelineSpec pipeline = testing::extract_with("p", "test_faulty_line", {{"fault", fault}});
     if (fault == 0) {
