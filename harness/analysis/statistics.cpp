@@ -170,31 +170,6 @@ double rank_p_value(std::span<const double> a, std::span<const double> b) {
   return 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), z));
 }
 
-MeanInterval sequence_interval(std::span<const double> all) {
-  const std::vector<double> values = finite(all);
-  const std::size_t n = values.size();
-  if (n == 0) return {kNaN, kNaN, kNaN, 0};
-  const double mean = mean_of(values);
-  const auto block = static_cast<std::size_t>(std::max(1.0, std::round(std::cbrt(static_cast<double>(n)))));
-  const std::size_t starts = n - block + 1;
-  CounterRng rng(1, RngStream::resampling, static_cast<std::uint32_t>(n));
-  std::vector<double> resampled(kResamples);
-  for (double& r : resampled) {
-    double sum = 0.0;
-    std::size_t count = 0;
-    while (count < n) {
-      const auto start = static_cast<std::size_t>(rng.uniform() * static_cast<double>(starts));
-      for (std::size_t i = 0; i < block && count < n; ++i, ++count) sum += values[start + i];
-    }
-    r = sum / static_cast<double>(n);
-  }
-  std::ranges::sort(resampled);
-  const auto end = [&](double probability) {
-    return resampled[static_cast<std::size_t>(std::min(probability * kResamples, kResamples - 1.0))];
-  };
-  return {mean, std::min(mean, end(kTail)), std::max(mean, end(1.0 - kTail)), static_cast<std::int64_t>(n)};
-}
-
 double median(std::span<const double> all) {
   return scanbench::median(finite(all));
 }

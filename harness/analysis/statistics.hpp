@@ -39,10 +39,6 @@ std::vector<double> benjamini_hochberg(std::span<const double> p_values);
 /// no pairs. NaN if a sample has no finite value.
 double rank_p_value(std::span<const double> a, std::span<const double> b);
 
-/// The mean of a sequence whose neighbours depend on each other, as scans of one recording do, with a 95 % interval by
-/// a seeded bootstrap of moving blocks (Kuensch, Annals of Statistics 1989) of n^(1/3) values. NaN values are left out.
-MeanInterval sequence_interval(std::span<const double> values);
-
 double median(std::span<const double> values);  ///< NaN values left out; NaN for none
 
 /// The interval between two of the values that contains the median of their distribution with at least 95 %

@@ -140,11 +140,14 @@ std::string definitions(const NightInput& input) {
   return out.empty() ? "" : "<dl>\n" + out + "</dl>\n";
 }
 
-std::string tables_of(const Comparison& comparison, const std::string& id) {
-  std::string out;
-  for (const auto& table : comparison_tables(comparison))
-    if (table.id == id) out += to_html(table);
-  return out;
+/// The table of that id. The page's own heading stands above it, unless it has `own_title`.
+std::string table_of(const Comparison& comparison, const std::string& id, bool own_title = false) {
+  for (auto& table : comparison_tables(comparison)) {
+    if (table.id != id) continue;
+    if (!own_title) table.title.clear();
+    return to_html(table);
+  }
+  return "";
 }
 
 /// A part of the page: the id of its heading, the heading, and what is below it. Empty parts are left out.
@@ -160,13 +163,12 @@ std::vector<Part> parts_of(const NightInput& input) {
     if (!body.empty()) parts.push_back({id, title, std::move(body)});
   };
   if (const auto& comparison = input.comparison) {
-    const auto table = [&](const char* id) { return tables_of(*comparison, id); };
-    const std::string worse = table("worse");
+    const std::string worse = table_of(*comparison, "worse");
     add("worse-section", "What became worse",
-        (worse.empty() ? "<p>Nothing.</p>\n" : worse) + pictures(input) + table("uncertain"));
+        (worse.empty() ? "<p>Nothing.</p>\n" : worse) + pictures(input) + table_of(*comparison, "uncertain", true));
     add("differs-section", "What differs", list_of(comparison->differing));
-    add("better-section", "What became better", table("better"));
-    add("cells-section", "Completeness", table("completeness"));
+    add("better-section", "What became better", table_of(*comparison, "better"));
+    add("cells-section", "Completeness", table_of(*comparison, "completeness"));
     add("matrix-section", "Pipelines × scenarios", matrix(*comparison));
   }
   if (!input.report.empty())

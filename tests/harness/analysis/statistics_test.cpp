@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <vector>
 
 #include "core/geometry/portable_math.hpp"
 #include "core/rng.hpp"
+#include "core/special_values.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -107,6 +110,61 @@ TEST(HolmAdjusted, MultipliesTheSmallestByTheirNumberAndNeverFalls) {
   EXPECT_TRUE(std::isnan(p[2]));
   EXPECT_DOUBLE_EQ(p[3], 0.06);
   EXPECT_EQ(holm_adjusted(std::array{0.9, 0.8})[1], 1.0);
+}
+
+// The example of Benjamini and Hochberg 1995, section 3: of 15 tests four are findings at 5 %, where Bonferroni's
+// correction leaves three.
+TEST(BenjaminiHochberg, GivesTheFindingsOfTheOriginalExample) {
+  const std::vector<double> p{0.0001, 0.0004, 0.0019, 0.0095, 0.0201, 0.0278, 0.0298, 0.0344,
+                              0.0459, 0.3240, 0.4262, 0.5719, 0.6528, 0.7590, 1.0000};
+  const auto q = benjamini_hochberg(p);
+  EXPECT_EQ(std::ranges::count_if(q, [](double value) { return value <= 0.05; }), 4);
+  EXPECT_NEAR(q[3], 0.0095 * 15 / 4, 1e-15);
+  EXPECT_TRUE(std::ranges::is_sorted(q));
+}
+
+TEST(BenjaminiHochberg, DoesNotCountWhatWasNotTested) {
+  const auto q = benjamini_hochberg(std::vector<double>{kNaN, 0.02, kNaN, 0.04});
+  EXPECT_TRUE(std::isnan(q[0]));
+  EXPECT_DOUBLE_EQ(q[1], 0.04);
+  EXPECT_DOUBLE_EQ(q[3], 0.04);
+}
+
+/// The two-sided p-value of the rank sum from all ways to choose which values belong to the first sample.
+double exact_rank_p(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> all(a);
+  all.insert(all.end(), b.begin(), b.end());
+  const auto statistic = [&](unsigned chosen) {
+    double u = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t j = 0; j < all.size(); ++j)
+        if ((chosen >> i & 1U) != 0 && (chosen >> j & 1U) == 0)
+          u += all[i] > all[j] ? 1.0 : all[i] == all[j] ? 0.5 : 0.0;
+    return std::abs(u - 0.5 * static_cast<double>(a.size() * b.size()));
+  };
+  const double seen = statistic((1U << a.size()) - 1U);
+  double extreme = 0.0;
+  double choices = 0.0;
+  for (unsigned chosen = 0; chosen < (1U << all.size()); ++chosen) {
+    if (std::popcount(chosen) != static_cast<int>(a.size())) continue;
+    choices += 1.0;
+    extreme += statistic(chosen) >= seen - 1e-9;
+  }
+  return extreme / choices;
+}
+
+TEST(RankTest, IsCloseToTheExactDistributionOfRanks) {
+  const std::vector<double> a{1.1, 2.3, 2.9, 3.3, 4.1, 5.2, 6.0, 7.7};
+  for (const double shift : {0.0, 1.0, 2.5, 4.0, 6.0}) {
+    std::vector<double> b;
+    for (const double v : a) b.push_back(v + shift + 0.05);
+    // The ranks of eight and eight have 65 sums: the normal distribution is a few hundredths from steps of that size.
+    EXPECT_NEAR(rank_p_value(a, b), exact_rank_p(a, b), 0.03) << shift;
+  }
+  EXPECT_NEAR(rank_p_value(a, std::vector<double>{2.9, 2.9, 3.3, 9.0, 9.0}), exact_rank_p(a, {2.9, 2.9, 3.3, 9.0, 9.0}),
+              0.03);  // ties
+  EXPECT_EQ(rank_p_value(std::vector<double>{1, 1}, std::vector<double>{1, 1, 1}), 1.0);
+  EXPECT_TRUE(std::isnan(rank_p_value(std::vector<double>{kNaN}, a)));
 }
 
 }  // namespace
