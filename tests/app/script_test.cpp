@@ -43,7 +43,7 @@ TEST_F(Script, SaysWhatItBuildsHowFarItIsAndHowLongItTook) {
   program("bin/ninja", R"(
 case " $* " in
   *" build.ninja "*) ;;
-  *" -n "*) for i in {1..40}; do echo "[$i/40] Building CXX object $i.o"; done ;;
+  *" -n "*) echo "[1/2] Re-running CMake..." ;;  # a dry run sees no further
   *) for i in {1..40}; do echo "[$i/40] Building CXX object $i.o"; done ;;
 esac)");
   const auto outcome = call({"list"});
