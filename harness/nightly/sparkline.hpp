@@ -1,4 +1,4 @@
-// A small line chart that stands in a line of text.
+// A small line chart inside a line of text.
 #pragma once
 
 #include <span>
