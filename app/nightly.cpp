@@ -54,6 +54,10 @@ int nightly(const Options& options, const std::vector<std::string>& argv) {
       run_and_report(scenarios, run_options, {.quiet = options.quiet, .figures = !options.no_figures});
   say(unfinished_text(finished.result));
   if (finished.result.interrupted) return kInterrupted;
+  if (finished.result.old_run_kept) {  // the folder has the earlier night: it must not count as this one
+    fmt::print("INCOMPLETE: cells are missing, so this night is neither stored nor judged\n");
+    return kIncomplete;
+  }
   plan.run = finished.result.out;
   plan.reused = static_cast<std::size_t>(
       std::ranges::count_if(finished.result.cells, [](const harness::CellResult& cell) { return cell.reused; }));
