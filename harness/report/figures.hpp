@@ -23,6 +23,10 @@ struct FigureFile {
 std::vector<FigureFile> draw_figures(const std::filesystem::path& run, const Scenario& scenario, bool pdf = false,
                                      const std::function<void(double, const std::string&)>& progress = {});
 
+/// Draws those figures of the scenarios that span all of them, once for the run, as run/figures/all_<figure>.
+std::vector<FigureFile> draw_run_wide_figures(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
+                                              bool pdf);
+
 /// Writes run/figures/<name>.svg and .png, and .pdf with `pdf`.
 void write_figure(const std::filesystem::path& run, const std::string& name, const render::Scene& scene, bool pdf);
 

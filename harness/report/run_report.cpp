@@ -108,6 +108,7 @@ void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenario
     };
     for (auto& figure : draw_figures(run, scenarios[i], pdf, part)) figures.push_back(std::move(figure));
   }
+  for (auto& figure : draw_run_wide_figures(run, scenarios, pdf)) figures.push_back(std::move(figure));
   save_figure_index(run, figures);
   refresh_manifest(run);
 }

@@ -14,22 +14,29 @@
 namespace scanbench::metrics {
 namespace {
 
-bool has_placed_lines(const PipelineResult& result) {
-  return !result.lines.empty() && result.world_from_sensor.size() == result.lines.size();
+/// The poses that place the lines of the scans: the pipeline's, or the true ones if it estimates none. Null if neither
+/// has one per scan.
+const std::vector<Pose2>* poses_of(const MetricInput& input) {
+  const PipelineResult& result = input.result;
+  const std::vector<Pose2>& poses =
+      result.world_from_sensor.empty() ? input.truth->world_from_sensor : result.world_from_sensor;
+  return !result.lines.empty() && poses.size() == result.lines.size() ? &poses : nullptr;
 }
 
 bool uses_map(const PipelineResult& result, FoundLines which) {
   return result.has_map && which == FoundLines::map_or_scans;
 }
 
-std::vector<Segment> found_lines(const PipelineResult& result, FoundLines which) {
+std::vector<Segment> found_lines(const MetricInput& input, FoundLines which) {
+  const PipelineResult& result = input.result;
   std::vector<Segment> lines;
   if (uses_map(result, which)) {
     for (const MapLine& line : result.map.lines) lines.push_back(line.segment);
     return lines;
   }
+  const std::vector<Pose2>* poses = poses_of(input);
   for (std::size_t f = 0; f < result.lines.size(); ++f)
-    for (const LineFeature& line : result.lines[f].lines) lines.push_back(result.world_from_sensor[f] * line.segment);
+    for (const LineFeature& line : result.lines[f].lines) lines.push_back((*poses)[f] * line.segment);
   return lines;
 }
 
@@ -59,14 +66,14 @@ std::int64_t RasterComparison::covered() const {
 }
 
 bool can_compare_rasters(const MetricInput& input, const RasterRules& rules) {
-  return knows_walls(input) && (uses_map(input.result, rules.found) || has_placed_lines(input.result));
+  return knows_walls(input) && (uses_map(input.result, rules.found) || poses_of(input) != nullptr);
 }
 
 RasterComparison compare_rasters(const MetricInput& input, const RasterRules& rules) {
   SCANBENCH_ASSERT(can_compare_rasters(input, rules));
   const Surfaces surfaces = join_walls(input.truth->walls);
   RasterComparison both;
-  both.found_lines = found_lines(input.result, rules.found);
+  both.found_lines = found_lines(input, rules.found);
   both.visible_lines = visible_lines(input, surfaces, rules.min_hits_per_m);
   both.pixel_m = rules.resolution_m;
   const double tolerance = rules.tolerance_m / rules.resolution_m;

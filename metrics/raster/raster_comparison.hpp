@@ -27,7 +27,7 @@ struct RasterRules {
               "returns over the run that make a part of a wall visible"),
         choice("found", &RasterRules::found, {{FoundLines::map_or_scans, "map_or_scans"}, {FoundLines::scans, "scans"}},
                "the lines that are compared: those of the map, or of all scans if there is no map; or those of the "
-               "scans, placed by the poses of the pipeline")};
+               "scans, placed by the poses of the pipeline, or by the true ones if it estimates none")};
   }
 };
 
@@ -46,7 +46,7 @@ struct RasterComparison {
   std::int64_t covered() const;  ///< visible pixels near a found one
 };
 
-/// True if there are walls, and the map or the poses of the scans that the rules request.
+/// True if there are walls, and the map or the lines of scans that the rules request.
 bool can_compare_rasters(const MetricInput& input, const RasterRules& rules);
 
 /// Throws ConfigError if the lines are too long for the resolution (LineRaster::kMostPixels) or OSMesa is missing. The
