@@ -30,13 +30,16 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"harness/run",
      {"core", "sim", "metrics", "harness/files", "harness/exchange", "harness/scenario", "harness/store"}},
     {"harness/analysis", {"core", "metrics", "harness/files", "harness/scenario", "harness/store"}},
+    {"harness/page", {"core", "harness/files"}},
     {"harness/report",
-     {"core", "sim", "metrics", "render", "harness/files", "harness/scenario", "harness/store", "harness/analysis"}},
+     {"core", "sim", "metrics", "render", "harness/files", "harness/scenario", "harness/store", "harness/analysis",
+      "harness/page"}},
     {"harness/nightly",
-     {"core", "metrics", "harness/files", "harness/scenario", "harness/store", "harness/analysis", "harness/report"}},
+     {"core", "metrics", "harness/files", "harness/scenario", "harness/store", "harness/analysis", "harness/page",
+      "harness/report"}},
     {"app",
      {"core", "harness/files", "harness/exchange", "harness/scenario", "harness/store", "harness/run",
-      "harness/analysis", "harness/report", "harness/nightly"}},
+      "harness/analysis", "harness/page", "harness/report", "harness/nightly"}},
 };
 
 // Headers of a library that only one folder may name.
