@@ -79,7 +79,7 @@ std::optional<Vectors> BlockSystem::solve(std::span<const Eigen::Vector3d> right
   const std::size_t rows = diagonal_.size();
   std::vector<Eigen::Matrix3d> inverse;
   inverse.reserve(rows);
-  for (const Eigen::Matrix3d& block : diagonal_) inverse.push_back(block.inverse());
+  for (const Eigen::Matrix3d& block : diagonal_) inverse.emplace_back(block.inverse());
   const auto precondition = [&](const Vectors& residual, Vectors& z) {
     for (std::size_t k = 0; k < rows; ++k) z[k] = inverse[k] * residual[k];
   };
