@@ -72,7 +72,8 @@ class Drive final : public FilmKind {
       panel.items.emplace_back(Points{.points = points, .color = kFaintPoints, .size_pt = 0.8});
     else
       panel.items.emplace_back(Lines{walls, kWalls});
-    set_view(walls.empty() ? points : ends_of(walls), places, panel);
+    for (const Vec2& end : ends_of(walls)) places.push_back(end);
+    set_view(points, places, panel);
     return panel;
   }
 };

@@ -1,6 +1,7 @@
-// Mean shift that climbs: the points of phase 1 of Lakaemper 2009 on their way to the modes of the density, from above
-// and by direction.
+// Mean shift that climbs: the points of phase 1 of Lakaemper 2009 on their paths to the modes of the density, from
+// above and by direction.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -21,7 +22,8 @@ namespace scanbench::render {
 namespace {
 
 constexpr std::size_t kMostPaths = 1500;
-constexpr double kSettledM = 0.002;  // a step that cannot be seen
+constexpr std::size_t kStepsPerIteration = 12;  // mean shift needs few iterations; between them points move evenly
+constexpr double kSettledM = 0.002;             // a step that cannot be seen
 const Stroke kTrail{kSky, 0.6, Dash::solid};
 
 /// Paths of equal length: a point that has arrived stays at its mode.
@@ -44,6 +46,16 @@ std::size_t length_of(const std::vector<std::vector<Vec3>>& paths) {
   return length;
 }
 
+/// The point after a number of steps; it stays at the end of its path. A direction that leaves at 180 deg and continues
+/// at 0 jumps.
+Vec3 point_at(const std::vector<Vec3>& path, std::size_t step) {
+  const std::size_t passed = step / kStepsPerIteration;
+  if (passed + 1 >= path.size()) return path.back();
+  const Vec3 &from = path[passed], &to = path[passed + 1];
+  if (std::abs(to.z() - from.z()) > kPi / 2) return from;
+  return from + (to - from) * (static_cast<double>(step % kStepsPerIteration) / kStepsPerIteration);
+}
+
 class MeanShiftClimbs final : public FilmKind {
  public:
   using Params = NoParams;
@@ -59,23 +71,27 @@ class MeanShiftClimbs final : public FilmKind {
     if (!rows) return std::nullopt;
     const auto paths = std::make_shared<const std::vector<std::vector<Vec3>>>(paths_of(*rows));
     if (paths->empty()) return std::nullopt;
-    const auto steps = chosen_steps(length_of(*paths), most);
+    const auto steps = chosen_steps((length_of(*paths) - 1) * kStepsPerIteration + 1, most);
     const auto scene = [&input, paths, steps, views = views_of(*paths)](std::size_t k) {
       std::vector<Panel> panels{views.first, views.second};
       Polyline trail_above{.points = {}, .stroke = kTrail};
       Points above{.points = {}, .color = kBlack, .size_pt = 2.2}, beside = above;
       for (const auto& path : *paths) {
-        const std::size_t now = std::min(steps[k], path.size() - 1);
-        for (std::size_t t = 0; t <= now; ++t) trail_above.points.emplace_back(path[t].head<2>());
+        const std::size_t passed = std::min(steps[k] / kStepsPerIteration, path.size() - 1);
+        const Vec3 now = point_at(path, steps[k]);
+        for (std::size_t t = 0; t <= passed; ++t) trail_above.points.emplace_back(path[t].head<2>());
+        trail_above.points.emplace_back(now.head<2>());
         trail_above.points.emplace_back(NAN, NAN);  // ends this trail
-        above.points.emplace_back(path[now].head<2>());
-        beside.points.emplace_back(path[now].x(), degrees(path[now].z()));
+        above.points.emplace_back(now.head<2>());
+        beside.points.emplace_back(now.x(), degrees(now.z()));
       }
       panels[0].items = {std::move(trail_above), std::move(above)};
       panels[1].items = {std::move(beside)};
-      return film_scene(fmt::format("{}: mean shift, phase 1, iteration {}", input.title, steps[k]), std::move(panels),
-                        {{.text = "centres of segments", .marker = Marker::dot, .marker_size_pt = 2.4},
-                         {.text = "their way to the modes", .stroke = kTrail}});
+      return film_scene(
+          fmt::format("{}: mean shift, phase 1, iteration {}", input.title, steps[k] / kStepsPerIteration),
+          std::move(panels),
+          {{.text = "centres of segments", .marker = Marker::dot, .marker_size_pt = 2.4},
+           {.text = "their paths to the modes", .stroke = kTrail}});
     };
     return Film{steps.size(), scene,
                 fmt::format("{}: {} climb to the modes of their density.", input.title, rows->counted_pieces())};
