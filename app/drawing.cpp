@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "core/error.hpp"
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/run/worker.hpp"
 #include "harness/store/cell_status.hpp"

@@ -23,7 +23,7 @@
 #include "app/show.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_folder.hpp"
 

@@ -10,7 +10,7 @@
 #include "app/fault_notes.hpp"
 #include "app/progress.hpp"
 #include "core/error.hpp"
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/run/runner.hpp"
 #include "harness/store/cell_status.hpp"

@@ -9,9 +9,9 @@
 #include "core/names.hpp"
 #include "core/params.hpp"
 #include "harness/analysis/agreement.hpp"
-#include "harness/report/html_page.hpp"
+#include "harness/page/html_page.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/report/paper_tables.hpp"
-#include "harness/report/plain_text.hpp"
 #include "harness/store/summary.hpp"
 
 namespace scanbench::harness {

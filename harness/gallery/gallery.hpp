@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "harness/gallery/catalogue.hpp"
+#include "harness/page/table.hpp"
 #include "harness/report/figures.hpp"
-#include "harness/report/table.hpp"
 
 namespace scanbench::harness {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "harness/report/html_page.hpp"
+#include "harness/page/html_page.hpp"
 
 namespace scanbench::harness {
 namespace {

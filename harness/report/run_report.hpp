@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/page/table.hpp"
 #include "harness/report/page_input.hpp"
-#include "harness/report/table.hpp"
 #include "harness/store/run_file.hpp"
 
 namespace scanbench::harness {

@@ -1,5 +1,5 @@
 // Tables as terminal text, Markdown and HTML.
-#include "harness/report/table.hpp"
+#include "harness/page/table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -17,4 +17,8 @@ std::string plain_line(std::string_view text, std::size_t limit = 600);
 /// Escapes text for Markdown, on one line, so that it makes no HTML, table column, link or emphasis.
 std::string markdown_escaped(std::string_view text);
 
+/// The text as one word of a POSIX shell: as it is, or in single quotes if it has other characters than letters, digits
+/// and -_./=:,+@%.
+std::string shell_word(std::string_view text);
+
 }  // namespace scanbench::harness

@@ -1,5 +1,5 @@
 // Replaces characters that a terminal or a page would interpret.
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 
 #include <algorithm>
 
@@ -101,6 +101,14 @@ std::string markdown_escaped(std::string_view text) {
     }
   }
   return out;
+}
+
+std::string shell_word(std::string_view text) {
+  constexpr std::string_view kSafe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=:,+@%";
+  if (!text.empty() && text.find_first_not_of(kSafe) == std::string_view::npos) return std::string(text);
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
 }
 
 }  // namespace scanbench::harness

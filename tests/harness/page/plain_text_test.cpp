@@ -1,12 +1,12 @@
 // Characters from modules and file names, and those that reach a reader.
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "harness/report/table.hpp"
+#include "harness/page/table.hpp"
 
 namespace scanbench::harness {
 namespace {

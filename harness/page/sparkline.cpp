@@ -1,5 +1,5 @@
 // Draws a small line chart as inline SVG.
-#include "harness/nightly/sparkline.hpp"
+#include "harness/page/sparkline.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/special_values.hpp"
-#include "harness/report/table.hpp"
+#include "harness/page/table.hpp"
 
 namespace scanbench::harness {
 namespace {

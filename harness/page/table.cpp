@@ -1,11 +1,11 @@
 // Writes a table for a terminal, as Markdown and as HTML. Best values are marked by characters, not by colour alone.
-#include "harness/report/table.hpp"
+#include "harness/page/table.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -36,6 +36,16 @@ Table plain(Table table) {
     for (auto& cell : row.cells) cell.text = plain_line(cell.text);
   }
   return table;
+}
+
+std::string html_content(const TableCell& cell) {
+  std::string text = html_escaped(marked(cell));
+  const std::string hint = cell.hint.empty() ? "" : " title=\"" + html_escaped(cell.hint) + "\"";
+  if (!cell.link.empty())
+    text = fmt::format("<a href=\"{}\"{}>{}</a>", html_escaped(cell.link), hint, text);
+  else if (!hint.empty())
+    text = fmt::format("<span{}>{}</span>", hint, text);
+  return cell.spread.empty() ? text : text + "<small>" + html_escaped(cell.spread) + "</small>";
 }
 
 bool has_groups(const Table& table) {
@@ -226,9 +236,8 @@ std::string to_html(const Table& table) {
     for (std::size_t c = 0; c < row.cells.size(); ++c) {
       const bool first = c == 0 || table.columns[c].group != table.columns[c - 1].group;
       const auto& cell = row.cells[c];
-      const std::string spread = cell.spread.empty() ? "" : "<small>" + html_escaped(cell.spread) + "</small>";
-      out += fmt::format("<td class=\"{}{}{}\">{}{}</td>", cell.best ? "best " : "", cell.published ? "published " : "",
-                         first ? "first" : "", html_escaped(marked(cell)), spread);
+      out += fmt::format("<td class=\"{}{}{}\">{}</td>", cell.best ? "best " : "", cell.published ? "published " : "",
+                         first ? "first" : "", html_content(cell));
     }
     out += "</tr>\n";
   }
