@@ -3,12 +3,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <sstream>
 #include <string>
@@ -122,6 +122,7 @@ FfmpegPipe::FfmpegPipe(const fs::path& ffmpeg, fs::path target, int width, int h
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
   std::vector<std::string> words = arguments(ffmpeg, staged_, width, height, fps);
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   const int error = posix_spawn(&child_, ffmpeg.c_str(), &actions, nullptr, argv.data(), environ);

@@ -36,6 +36,7 @@ const RunFile kFilmFiles[] = {RunFile("figures/*.apng"), RunFile("figures/*.mp4"
 
 const Scenario& scenario_of(const std::vector<Scenario>& all, const std::string& name, const fs::path& run) {
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const Scenario& scenario : all) names.push_back(scenario.name);
   const auto found = std::ranges::find(all, name, &Scenario::name);
   if (found != all.end()) return *found;

@@ -48,6 +48,7 @@ std::vector<Iteration> iterations_of(const TraceRows* trace, std::size_t scans) 
       at->second.hypotheses.push_back(
           {{row.x1_m, row.y1_m}, {row.x2_m, row.y2_m}, {row.x3_m, row.y3_m}, {row.x4_m, row.y4_m}});
   std::vector<Iteration> iterations;
+  iterations.reserve(found.size());
   for (auto& [number, iteration] : found) iterations.push_back(std::move(iteration));
   return iterations;
 }

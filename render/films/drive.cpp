@@ -65,6 +65,7 @@ class Drive final : public FilmKind {
   static Panel background(const Recording& recording, const std::vector<Pose2>& poses) {
     Panel panel;
     std::vector<Vec2> places;
+    places.reserve(poses.size());
     for (const Pose2& pose : poses) places.push_back(pose.translation());
     const std::vector<Segment> walls = true_walls(recording, Pose2());
     const std::vector<Vec2> points = all_points(recording, poses, kBackgroundPoints);

@@ -49,6 +49,7 @@ struct Changes {
     for (auto it = born.begin(); it != born.upper_bound(frame); ++it) lines[it->second.first] = it->second.second;
     for (auto it = gone.begin(); it != gone.upper_bound(frame); ++it) lines.erase(it->second);
     std::vector<Segment> segments;
+    segments.reserve(lines.size());
     for (const auto& [number, segment] : lines) segments.push_back(segment);
     return segments;
   }

@@ -101,6 +101,7 @@ class MeanShiftClimbs final : public FilmKind {
   static std::pair<Panel, Panel> views_of(const std::vector<std::vector<Vec3>>& paths) {
     Panel above{.title = "a) from above"};
     std::vector<Vec2> places;
+    places.reserve(paths.size());
     for (const auto& path : paths) places.emplace_back(path.front().head<2>());
     set_view(places, places, above);
     Panel beside{.title = "b) direction", .y = {.label = "direction [deg]", .range = std::pair(-5.0, 185.0)}};
