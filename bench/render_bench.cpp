@@ -1,10 +1,14 @@
-// Time of drawing a figure in one thread. The first PNG of a process includes the creation of the OpenGL context.
+// Time of drawing a figure, and of comparing lines as pixels, in one thread. The first PNG of a process includes the
+// creation of the OpenGL context.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 
 #include "core/index.hpp"
+#include "core/line_raster.hpp"
+#include "core/registry.hpp"
 #include "core/rng.hpp"
+#include "metrics/metric.hpp"
 #include "render/backends/cairo.hpp"
 #include "render/backends/gl.hpp"
 #include "render/backends/tessellate.hpp"
@@ -62,6 +66,43 @@ void png_large(benchmark::State& state) {
   scene.panels.push_back({.equal_aspect = false, .items = {segments(10000, 0, kBlue)}});
   for (auto _ : state) benchmark::DoNotOptimize(to_png(scene));
 }
+/// A map of 1000 lines in 20 m x 20 m, up to 5 cm beside 1000 walls.
+struct MapOfLines {
+  ScanSet observed;
+  Truth truth;
+  PipelineResult result;
+
+  MapOfLines() {
+    CounterRng rng(1, RngStream::pose, 0);
+    const auto beside = [&](const Vec2& p) { return Vec2(p + 0.05 * Vec2(rng.normal(), rng.normal())); };
+    result.has_map = true;
+    for (int i = 0; i < 1000; ++i) {
+      const Vec2 a(20 * rng.uniform(), 20 * rng.uniform());
+      const double angle = kTwoPi * rng.uniform();
+      const Segment wall{a, a + Vec2(std::cos(angle), std::sin(angle))};
+      truth.walls.push_back({"", wall});
+      result.map.lines.push_back({.segment = {beside(wall.a), beside(wall.b)}});
+    }
+  }
+};
+
+/// The pixels of both sets, at 1 cm.
+void raster_draw(benchmark::State& state) {
+  const MapOfLines map;
+  std::vector<std::vector<Segment>> layers(3);
+  for (const MapLine& line : map.result.map.lines) layers[0].push_back(line.segment);
+  for (const Wall& wall : map.truth.walls) layers[1].push_back(wall.segment);
+  layers[2] = layers[1];
+  const auto raster = Registry<LineRaster>::make(LineRaster::kDefault);
+  for (auto _ : state) benchmark::DoNotOptimize(raster->draw(layers, 0.01));
+}
+void raster_truth(benchmark::State& state) {
+  const MapOfLines map;
+  const auto family = Registry<metrics::MetricFamily>::make("raster_truth");
+  for (auto _ : state) benchmark::DoNotOptimize(family->evaluate({map.observed, &map.truth, map.result}));
+}
+BENCHMARK(raster_draw)->Unit(benchmark::kMillisecond);
+BENCHMARK(raster_truth)->Unit(benchmark::kMillisecond);
 BENCHMARK(layout_only)->Arg(1)->Arg(3)->Unit(benchmark::kMillisecond);
 BENCHMARK(tessellate_only)->Arg(1)->Arg(3)->Unit(benchmark::kMillisecond);
 BENCHMARK(png)->Arg(1)->Arg(3)->Unit(benchmark::kMillisecond);

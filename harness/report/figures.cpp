@@ -1,13 +1,13 @@
 // Draws the registered figures from the files of a run, and writes them.
 #include "harness/report/figures.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -15,10 +15,11 @@
 #include "core/registry.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/text_file.hpp"
+#include "harness/report/figure_input/line_difference.hpp"
+#include "harness/report/figure_input/measured.hpp"
 #include "harness/report/line_verdicts.hpp"
 #include "harness/report/recording_note.hpp"
 #include "harness/scenario/figure_pipelines.hpp"
-#include "harness/scenario/modules.hpp"
 #include "harness/scenario/simulation_input.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
@@ -55,25 +56,8 @@ std::vector<LoadedResult> finished_results(const fs::path& run, const Scenario& 
   return results;
 }
 
-/// The values of metrics.csv of all finished cells, by pipeline.
-std::vector<render::MeasuredPipeline> measured_pipelines(const fs::path& run, const Scenario& scenario) {
-  std::vector<render::MeasuredPipeline> all;
-  for (const auto& pipeline : scenario.pipelines) {
-    render::MeasuredPipeline measured{.pipeline = pipeline.name, .slots = {}, .units = {}, .metrics = {}};
-    for (const auto& slot : pipeline.slots) {
-      measured.slots[slot.kind + " " + slot.module] = slot.params;
-      for (const auto& spec : find_module(slot.kind, slot.module).params)
-        measured.units[slot.kind + "." + spec.name] = spec.unit;
-    }
-    for (const std::uint64_t seed : scenario.seeds) {
-      const fs::path cell = cell_path(run, {scenario.name, pipeline.name, seed});
-      if (!fs::exists(cell / kMetricsFile)) continue;
-      for (const auto& row : load_metrics(cell))
-        if (row.subject == "all" && std::isfinite(row.value)) measured.metrics[row.metric].push_back(row.value);
-    }
-    all.push_back(std::move(measured));
-  }
-  return all;
+std::unique_ptr<render::Figure> figure_of(const ModuleChoice& choice) {
+  return Registry<render::Figure>::make(choice.module, choice.params);
 }
 
 /// The scenario with these pipelines only; with all of them if the list is empty.
@@ -142,6 +126,42 @@ void check_figure_options(const FigureOptions& options, const std::vector<Scenar
   if (!options.folder.empty()) check_folder(options.folder);
 }
 
+std::vector<FigureFile> draw_run_wide_figures(const fs::path& run, const std::vector<Scenario>& scenarios,
+                                              const FigureOptions& options) {
+  std::vector<ModuleChoice> choices;
+  for (const Scenario& scenario : scenarios)
+    for (const ModuleChoice& choice : scenario.figures) {
+      const auto same = [&](const ModuleChoice& c) { return c.module == choice.module && c.params == choice.params; };
+      if (figure_of(choice)->spans_scenarios() && std::ranges::none_of(choices, same)) choices.push_back(choice);
+    }
+  if (choices.empty()) return {};
+  const Recording none{};
+  render::FigureInput input{.title = scenarios.size() == 1 ? scenarios.front().name : "all scenarios",
+                            .recording = none,
+                            .waypoints = {},
+                            .results = {}};
+  input.looks = metric_looks();
+  for (const Scenario& scenario : scenarios)
+    input.scenarios.push_back({scenario.name, measured_pipelines(run, with_pipelines(scenario, options.pipelines))});
+  std::vector<FigureFile> files;
+  for (const ModuleChoice& choice : choices) {
+    const auto figure = figure_of(choice);
+    const auto scenes = figure->draw(input);
+    const std::string owner = scenarios.front().name;  // the report shows it there
+    if (scenes.empty()) files.push_back({owner, "", choice.module + " is not drawn: " + figure->why_nothing(input)});
+    for (const auto& drawn : scenes) {
+      const auto taken = [&](const std::string& name) {
+        return std::ranges::find(files, name, &FigureFile::name) != files.end();
+      };
+      std::string name = "all_" + drawn.name;
+      for (int k = 2; taken(name); ++k) name = fmt::format("all_{}_{}", drawn.name, k);
+      write_figure(figure_folder(run, options), name, drawn.scene, drawn.caption, options);
+      files.push_back({owner, name, drawn.caption});
+    }
+  }
+  return files;
+}
+
 std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& all, const FigureOptions& options,
                                      const std::function<void(double, const std::string&)>& progress) {
   const Scenario scenario = with_pipelines(all, options.pipelines);
@@ -153,6 +173,7 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& all, c
   const std::vector<LoadedResult> results = finished_results(run, scenario, seed);
   render::FigureInput input{.title = scenario.name, .recording = recording, .waypoints = {}, .results = {}};
   input.measured = measured_pipelines(run, scenario);
+  input.looks = metric_looks();
   if (std::holds_alternative<SimulatedInput>(scenario.input)) {
     const sim::SimulationInput simulated = simulation_input(scenario, seed);
     input.waypoints = simulated.trajectory.waypoints;
@@ -160,16 +181,21 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& all, c
     for (const sim::Circle& circle : simulated.world.circles) input.circles.push_back({circle.center, circle.radius_m});
     for (const sim::MovingBody& body : simulated.world.moving) input.body_paths.push_back(body.path);
   }
+  const bool pixels = std::ranges::any_of(
+      scenario.figures, [](const ModuleChoice& choice) { return figure_of(choice)->compares_pixels(); });
   for (const auto& loaded : results)
-    input.results.push_back({loaded.pipeline, &loaded.result, &loaded.trace,
-                             line_verdicts(recording, loaded.result, segment_rules(scenario.metrics))});
+    input.results.push_back(
+        {loaded.pipeline, &loaded.result, &loaded.trace,
+         line_verdicts(recording, loaded.result, segment_rules(scenario.metrics)),
+         pixels ? line_difference(recording, loaded.result, raster_rules(scenario.metrics)) : std::nullopt});
 
   const std::string note = recording_note(scenario, seed), title_note = recording_title_note(scenario, seed);
   std::vector<FigureFile> files;
   for (std::size_t i = 0; i < scenario.figures.size(); ++i) {
     const auto& choice = scenario.figures[i];
     if (progress) progress(static_cast<double>(i) / static_cast<double>(scenario.figures.size()), choice.module);
-    const auto figure = Registry<render::Figure>::make(choice.module, with_frame(choice.params, options.frame));
+    const auto figure = figure_of({choice.kind, choice.module, with_frame(choice.params, options.frame)});
+    if (figure->spans_scenarios()) continue;
     auto scenes = figure->draw(input);
     if (scenes.empty())
       files.push_back({scenario.name, "", choice.module + " is not drawn: " + figure->why_nothing(input)});

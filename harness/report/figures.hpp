@@ -43,6 +43,10 @@ std::vector<FigureFile> draw_figures(const std::filesystem::path& run, const Sce
                                      const FigureOptions& options = {},
                                      const std::function<void(double, const std::string&)>& progress = {});
 
+/// Draws those figures of the scenarios that span all of them, once for the run, as all_<figure>.
+std::vector<FigureFile> draw_run_wide_figures(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
+                                              const FigureOptions& options);
+
 /// The folder of the options, run/figures by default.
 std::filesystem::path figure_folder(const std::filesystem::path& run, const FigureOptions& options);
 

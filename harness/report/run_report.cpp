@@ -138,6 +138,7 @@ void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenario
     };
     for (auto& figure : draw_figures(run, scenarios[i], options, part)) figures.push_back(std::move(figure));
   }
+  for (auto& figure : draw_run_wide_figures(run, scenarios, options)) figures.push_back(std::move(figure));
   save_figure_index(figure_folder(run, options), figures);
   if (options.folder.empty()) refresh_manifest(run);
 }

@@ -5,7 +5,7 @@
 
 #include "core/geometry/pose2.hpp"
 
-namespace scanbench::metrics {
+namespace scanbench {
 
 /// The motion of the plane, never a similarity, that brings estimated poses nearest to true ones: least squares of the
 /// positions, in closed form, and of headings too, a radian counting as much as `lever_m` metres. A path that is
@@ -13,4 +13,4 @@ namespace scanbench::metrics {
 /// Identity for no poses. The spans have the same length.
 Pose2 align_trajectories(std::span<const Pose2> estimated, std::span<const Pose2> truth, double lever_m);
 
-}  // namespace scanbench::metrics
+}  // namespace scanbench

@@ -1,9 +1,9 @@
 // Difference of two poses.
-#include "metrics/pose_errors.hpp"
+#include "core/geometry/pose_errors.hpp"
 
 #include <cmath>
 
-namespace scanbench::metrics {
+namespace scanbench {
 
 Eigen::Vector3d pose_error(const Pose2& found, const Pose2& truth) {
   const Vec2 shift = found.translation() - truth.translation();
@@ -12,4 +12,4 @@ Eigen::Vector3d pose_error(const Pose2& found, const Pose2& truth) {
   return {shift.x(), shift.y(), std::atan2(sine, cosine)};
 }
 
-}  // namespace scanbench::metrics
+}  // namespace scanbench

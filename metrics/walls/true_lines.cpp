@@ -1,5 +1,5 @@
 // Finds the true lines of a scan: runs of beams that end on one surface.
-#include "metrics/true_lines.hpp"
+#include "metrics/walls/true_lines.hpp"
 
 #include <algorithm>
 #include <span>

@@ -1,6 +1,6 @@
 // Joins walls with union-find: every pair of walls that continue each other becomes one set. An R-tree finds the pairs
 // that are near enough, so that a world of n walls takes about n log n steps.
-#include "metrics/surfaces.hpp"
+#include "metrics/walls/surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // Closed form with headings as further points: a pose is its position and, with equal weights, two points `lever` ahead
 // of and behind it, which are brought together like positions. Their sums of cross and dot products are added to those
 // of the centred positions.
-#include "metrics/plane_alignment.hpp"
+#include "core/geometry/plane_alignment.hpp"
 
 #include <cmath>
 
 #include "core/error.hpp"
 
-namespace scanbench::metrics {
+namespace scanbench {
 
 Pose2 align_trajectories(std::span<const Pose2> estimated, std::span<const Pose2> truth, double lever_m) {
   SCANBENCH_ASSERT(estimated.size() == truth.size());
@@ -33,4 +33,4 @@ Pose2 align_trajectories(std::span<const Pose2> estimated, std::span<const Pose2
   return Pose2::from_unit(to - turn.rotate(from), rotation);
 }
 
-}  // namespace scanbench::metrics
+}  // namespace scanbench
