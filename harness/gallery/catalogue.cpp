@@ -2,8 +2,10 @@
 #include "harness/gallery/catalogue.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <system_error>
 #include <utility>
@@ -70,6 +72,7 @@ class CatalogueReader {
     if (std::ranges::count(names_, entry.name) > 0)
       throw PlacedError(node.mark, "a second figure is called " + entry.name + "; allowed: different names");
     names_.push_back(entry.name);
+    marks_[entry.name] = node.mark;
     entry.of = map.text("of", "the paper and its number");
     entry.shows = map.text("shows", "what the figure shows");
     const Scenario& scenario = scenario_of(map, entry);
@@ -81,6 +84,7 @@ class CatalogueReader {
     if (figure != nullptr) read_figure(*figure, scenario, entry);
     if (table != nullptr) read_table(*table, scenario, entry);
     if (const YamlNode* seeds = map.find("seeds")) entry.seeds = seeds_of(*seeds, scenario);
+    if (const YamlNode* seed = map.find("seed")) choose_seed(*seed, scenario);
     map.done();
     if (only_.empty() || std::ranges::count(only_, entry.name) > 0) catalogue_.entries.push_back(std::move(entry));
   }
@@ -162,7 +166,22 @@ class CatalogueReader {
     return static_cast<std::size_t>(value);
   }
 
-  /// Leaves in each scenario what its entries need. The figures decide which traces a run keeps.
+  /// Puts a seed before the others, because figures show the first one.
+  void choose_seed(const YamlNode& node, const Scenario& scenario) {
+    const double value = read_number(node, "seed");
+    const auto known =
+        std::ranges::find_if(scenario.seeds, [&](std::uint64_t s) { return static_cast<double>(s) == value; });
+    if (known == scenario.seeds.end())
+      throw PlacedError(node.mark, fmt::format("{} has no seed {}; known: {}", scenario.name, quoted_excerpt(node.text),
+                                               fmt::join(scenario.seeds, ", ")));
+    const auto [chosen, is_new] = first_seeds_.try_emplace(scenario.name, *known);
+    if (!is_new && chosen->second != *known)
+      throw PlacedError(node.mark, fmt::format("seed is {}, but an earlier figure of {} has seed {}; allowed: the same "
+                                               "for all figures of a scenario",
+                                               node.text, scenario.name, chosen->second));
+  }
+
+  /// Leaves in each scenario what its entries need.
   void reduce() {
     for (const std::string& file : order_) {
       Scenario scenario = scenarios_.at(file);
@@ -175,9 +194,13 @@ class CatalogueReader {
         seeds = std::max(seeds, entry.seeds);
         all = all || entry.pipelines.empty();
         pipelines.insert(pipelines.end(), entry.pipelines.begin(), entry.pipelines.end());
-        scenario.figures.insert(scenario.figures.end(), entry.figure.begin(), entry.figure.end());
+        if (!entry.figure.empty()) add_figure(entry, scenario);
       }
       if (seeds == 0) continue;
+      if (const auto first = first_seeds_.find(scenario.name); first != first_seeds_.end()) {
+        std::erase(scenario.seeds, first->second);
+        scenario.seeds.insert(scenario.seeds.begin(), first->second);
+      }
       scenario.seeds.resize(std::min(seeds, scenario.seeds.size()));
       if (!all)
         std::erase_if(scenario.pipelines, [&](const auto& p) { return std::ranges::count(pipelines, p.name) == 0; });
@@ -185,12 +208,34 @@ class CatalogueReader {
     }
   }
 
+  /// A scenario has each kind of figure once; they decide which traces its run keeps.
+  void add_figure(const CatalogueEntry& entry, Scenario& scenario) const {
+    const ModuleChoice& figure = entry.figure.front();
+    const auto same = std::ranges::find(scenario.figures, figure.module, &ModuleChoice::module);
+    if (same == scenario.figures.end()) {
+      scenario.figures.push_back(figure);
+      return;
+    }
+    Scenario kept = scenario, wanted = scenario;
+    kept.figures = {*same};
+    wanted.figures = {figure};
+    for (const PipelineSpec& pipeline : scenario.pipelines)
+      for (const std::string& row : traces_drawn(wanted, pipeline.name).names)
+        if (!traces_drawn(kept, pipeline.name).names.contains(row))
+          throw PlacedError(marks_.at(entry.name),
+                            fmt::format("{} draws {} of the trace of {}, which an earlier {} of {} does not keep; "
+                                        "allowed: figures of one kind with the same pipeline",
+                                        entry.name, row, pipeline.name, figure.module, scenario.name));
+  }
+
   YamlMap map_;
   const std::vector<std::string>& only_;
   Catalogue& catalogue_;
-  std::vector<std::string> names_;             ///< of all entries
-  std::map<std::string, Scenario> scenarios_;  ///< by the path in the file
-  std::vector<std::string> order_;             ///< their paths, as they come
+  std::map<std::string, std::uint64_t> first_seeds_;  ///< by scenario
+  std::map<std::string, Mark> marks_;                 ///< of the entries
+  std::vector<std::string> names_;                    ///< of all entries
+  std::map<std::string, Scenario> scenarios_;         ///< by the path in the file
+  std::vector<std::string> order_;                    ///< their paths, as they come
 };
 
 }  // namespace

@@ -10,6 +10,8 @@
 //       figure: {name: environment, params: {frame: 9}} # or only its name
 //       pipelines: [iepf, smf]                          # optional, default: all of the scenario
 //       seeds: 5                                        # optional, default 1: how many of the scenario's seeds
+//       seed: 7                                         # optional: the seed of the scenario that comes first; the same
+//                                                       # for all of its figures
 //     - {name: borges2000_table1, of: "...", shows: "...", scenario: borges2000.yaml, table: 1, seeds: 5}
 //   absent:                                             # what cannot be made
 //     - {of: "Siadat et al. 1997, figure 2", why: a photograph of the scanner}

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kPageWidth = 120;  // characters of a table
 
 constexpr const char* kStyle = R"css(<style>
-.gallery { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 24rem), 1fr)); gap: 1.6rem; align-items: start; }
+.gallery { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 24rem), 1fr)); gap: 1.6rem; align-items: start; grid-auto-flow: dense; }
 .gallery figure { margin: 0; } .gallery img { width: 100%; max-height: 20rem; object-fit: contain; object-position: left top; }
 .wide { grid-column: 1 / -1; } .gallery code, .command { font-size: .8rem; overflow-wrap: anywhere; }
 </style>)css";
@@ -49,6 +49,7 @@ void make_entry(const fs::path& run, const Catalogue& catalogue, const FigureOpt
     return;
   }
   scenario.figures = made.entry.figure;
+  scenario.seeds.resize(std::min(made.entry.seeds, scenario.seeds.size()));
   FigureOptions own = options;
   own.pipelines = made.entry.pipelines;
   own.name = made.entry.name;

@@ -198,6 +198,7 @@ Json packed(const Scenario& scenario, const Recording& recording, const std::vec
       append(ranges, scan.valid(beam) ? scan.ranges[as_index(beam)] : 0.0, step_m);
   }
   std::vector<std::string> names;
+  names.reserve(pipelines.size());
   for (const PlayedPipeline& p : pipelines) names.push_back(p.name);
   const auto styles = render::method_styles(names);
   Json list = Json::array();

@@ -20,7 +20,7 @@ constexpr std::string_view kPlayerStyle = R"css(<style>
 #scan { width: 100%; } #view { width: 100%; height: 62vh; min-height: 20rem; border: 1px solid var(--rule);
   display: block; cursor: grab; touch-action: none; }
 #what { font-variant-numeric: tabular-nums; min-height: 1.5em; } .swatch { display: inline-block; width: 1.6rem; border-top: 3px solid; vertical-align: middle; }
-#facts table { margin: .3rem 0; } kbd { border: 1px solid var(--rule); border-radius: .2rem; padding: 0 .3rem; }
+#facts table { margin: .3rem 0; } #facts .unjudged tr > :nth-child(n+3):nth-child(-n+6) { display: none; } kbd { border: 1px solid var(--rule); border-radius: .2rem; padding: 0 .3rem; }
 </style>)css";
 
 constexpr std::string_view kPlayerBody = R"html(<div class="bar">
@@ -36,7 +36,8 @@ constexpr std::string_view kPlayerBody = R"html(<div class="bar">
 <kbd>Home</kbd> <kbd>End</kbd> first and last in this order, <kbd>Space</kbd> play; wheel zooms, dragging moves.
 Solid lines are right or not judged, dashed ones false, dotted ones pieces of a wall that another line explains already;
 thick pale lines are walls that a method missed. The sensor is the triangle; x is upwards.</p>
-<div id="facts"></div>)html";
+<div id="facts"><table><thead><tr><th class="head">pipeline</th><th>lines</th><th>false</th><th>missed</th><th>split</th>
+<th>F1</th><th>returns without a line</th><th>residual of the others</th></tr></thead><tbody></tbody></table></div>)html";
 
 constexpr std::string_view kPlayerScript = R"js(<script>
 (() => {
@@ -120,17 +121,14 @@ function grid(g, c, X, Y, css) {
 function table(i) {
   const number = (v, unit, f) => v === null || v === undefined ? '' : (v * f).toFixed(unit === '%' ? 1 : 2) + ' ' + unit;
   const count = (p, letter) => { let n = 0; for (let k = 0; k < p.counts[i]; ++k) n += p.verdicts[p.first[i] + k] === letter; return n; };
-  const judged = rec.pipelines.some(p => p.f1);
-  let html = '<table><thead><tr><th class="head">pipeline</th><th>lines</th>' + (judged ? '<th>false</th><th>missed</th><th>split</th><th>F1</th>' : '') +
-    '<th>returns without a line</th><th>residual of the others</th></tr></thead><tbody></tbody></table>';
-  const holder = el('facts'); holder.innerHTML = html;
-  const body = holder.querySelector('tbody');
+  const whole = el('facts').querySelector('table'), body = whole.tBodies[0];
+  whole.classList.toggle('unjudged', !rec.pipelines.some(p => p.f1));
+  body.replaceChildren();  // the table itself stays, because the page sorts and saves it
   for (const p of rec.pipelines) {
     const row = body.insertRow(), head = document.createElement('th');
     head.className = 'head'; head.textContent = p.name; row.append(head);
-    const cells = [p.counts[i]];
-    if (judged) cells.push(count(p, 'f'), p.missed_counts[i], count(p, 's'), p.f1 && p.f1[i] !== null ? p.f1[i].toFixed(3) : '');
-    cells.push(number(p.unexplained[i], '%', 100), number(p.residual_m[i], 'cm', 100));
+    const cells = [p.counts[i], count(p, 'f'), p.missed_counts[i], count(p, 's'),
+      p.f1 && p.f1[i] !== null ? p.f1[i].toFixed(3) : '', number(p.unexplained[i], '%', 100), number(p.residual_m[i], 'cm', 100)];
     for (const cell of cells) row.insertCell().textContent = cell;
   }
 }

@@ -168,7 +168,7 @@ class Picture {
 
 }  // namespace
 
-std::string to_png(const Scene& scene, double dpi) {
+Pixels to_pixels(const Scene& scene, double dpi) {
   const Layout placed = layout(scene);
   const double side = std::max(placed.width, placed.height) / 72.0 * dpi;
   if (!(dpi > 0) || !(side <= kMostPixels))
@@ -177,7 +177,12 @@ std::string to_png(const Scene& scene, double dpi) {
                     placed.width / 72, placed.height / 72, dpi, kMostPixels));
   Picture picture(placed, dpi);
   picture.draw();
-  return encode_png(picture.rgb(), picture.width(), picture.height(), dpi);
+  return {picture.width(), picture.height(), picture.rgb()};
+}
+
+std::string to_png(const Scene& scene, double dpi) {
+  const Pixels pixels = to_pixels(scene, dpi);
+  return encode_png(pixels.rgb, pixels.width, pixels.height, dpi);
 }
 
 }  // namespace scanbench::render

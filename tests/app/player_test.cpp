@@ -73,11 +73,12 @@ TEST_F(Player, KeysAndTheSliderGoThroughTheScansAndNothingIsRequested) {
     slider.value = 3; slider.dispatchEvent(new Event('input')); seen.push(scan());
     const c = document.getElementById('view'), pixels = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
     let drawn = 0; for (let k = 3; k < pixels.length; k += 4) drawn += pixels[k] > 0;
+    seen.push('rows', document.querySelectorAll('#facts tbody tr').length);
     document.title = seen.join(' ') + (drawn > 1000 ? ' drawn ' : ' blank ') +
         performance.getEntriesByType('resource').filter(r => !r.name.startsWith('data:')).length;
   )js",
                                         folder_);
-  EXPECT_EQ(title, "0 1 2 1 4 4 0 3 drawn 0");
+  EXPECT_EQ(title, "0 1 2 1 4 4 0 3 rows 2 drawn 0");
 }
 
 TEST_F(Player, SortsTheScansByTheF1OfAPipeline) {

@@ -42,9 +42,11 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"harness/gallery",
      {"core", "render", "harness/files", "harness/yaml", "harness/scenario", "harness/store", "harness/analysis",
       "harness/page", "harness/report"}},
+    {"harness/film", {"core", "render", "harness/files", "harness/scenario", "harness/store", "harness/report"}},
     {"app",
      {"core", "render", "harness/files", "harness/exchange", "harness/scenario", "harness/store", "harness/run",
-      "harness/analysis", "harness/page", "harness/report", "harness/nightly", "harness/player", "harness/gallery"}},
+      "harness/analysis", "harness/page", "harness/report", "harness/nightly", "harness/player", "harness/gallery",
+      "harness/film"}},
 };
 
 // Headers of a library that only one folder may name.

@@ -52,6 +52,14 @@ TEST(Catalogue, RunsOnlyThePipelinesSeedsAndFiguresOfItsEntries) {
   EXPECT_EQ(parse(entry("figure: environment")).scenarios[0].pipelines.size(), 3U);
 }
 
+TEST(Catalogue, PutsTheChosenSeedOfAScenarioFirst) {
+  const Catalogue catalogue = parse(entry("figure: environment, seed: 7") + entry("table: 1, seeds: 3", "b"));
+  EXPECT_THAT(catalogue.scenarios[0].seeds, ElementsAre(7U, 1U, 2U));
+  EXPECT_THAT(refusal(entry("figure: environment, seed: 7") + entry("figure: environment, seed: 8", "b")),
+              HasSubstr("an earlier figure of borges2000 has seed 7"));
+  EXPECT_THAT(refusal(entry("figure: environment, seed: 21")), HasSubstr("borges2000 has no seed '21'; known: 1, 2"));
+}
+
 TEST(Catalogue, OnlySomeEntriesNeedOnlyTheirScenarios) {
   const std::string two =
       entry("figure: environment") +
@@ -61,6 +69,18 @@ TEST(Catalogue, OnlySomeEntriesNeedOnlyTheirScenarios) {
   ASSERT_EQ(one.scenarios.size(), 1U);
   EXPECT_EQ(one.scenarios[0].name, "lakaemper2010_four_rooms");
   EXPECT_THAT(refusal(two, {"c"}), AllOf(HasSubstr("--only"), HasSubstr("'c'"), HasSubstr("a, b")));
+}
+
+TEST(Catalogue, DrawsOneKindOfFigureTwiceOnlyFromTheSameTraces) {
+  const auto joint_space = [](const std::string& name, const std::string& pipeline) {
+    return "  - {name: " + name +
+           ", of: p, shows: s, scenario: lakaemper2009_spiral.yaml, figure: {name: joint_space, " +
+           "params: {pipeline: " + pipeline + "}}}\n";
+  };
+  const std::string first = joint_space("a", "mean_shift_020");
+  EXPECT_EQ(parse(first + joint_space("b", "mean_shift_020")).scenarios[0].figures.size(), 1U);
+  EXPECT_THAT(refusal(first + joint_space("b", "mean_shift_030")),
+              AllOf(HasSubstr("mine.yaml:4:"), HasSubstr("of the trace of mean_shift_030")));
 }
 
 TEST(Catalogue, NamesThePlaceOfWhatDoesNotExistAndTheNearestThatDoes) {
