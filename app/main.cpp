@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/compare.hpp"
+#include "app/figures.hpp"
 #include "app/inspection.hpp"
 #include "app/new_module.hpp"
 #include "app/nightly.hpp"
@@ -94,6 +95,7 @@ int run_program(int argc, char** argv) {
   app::add_inspection(context);
   app::add_recordings(context);
   app::add_results(context);
+  app::add_figures(context);
   app::add_compare(context);
   app::add_nightly(context);
   app::add_new_module(context);

@@ -134,7 +134,8 @@ class Icp final : public ScanMatcher {
       trace.row(IterationRow{static_cast<int>(pairs.size()), step.x(), step.y(), step.z(), squares});
     }
     for (Pair& pair : pairs) pair.point = pose * now.points[pair.current];
-    Match result = conclusion(pair_information(pairs, now, lines, pose), pose, guess, lever, settled);
+    set_noise(pairs, now, lines, pose);
+    Match result = conclusion(pair_information(pairs, lines, pose), pose, guess, lever, settled);
     result.covariance += pattern_covariance(pairs, seen, pose.translation());
     return result;
   }

@@ -56,7 +56,12 @@ class OptimalMatch final : public ScanMatcher {
     }
   };
   explicit OptimalMatch(const Params& p)
-      : start_{.gate_m = p.gate_m, .keep = 0.9, .trim = 3.0, .min_overlap = p.min_overlap, .max_iterations = 20} {
+      : start_{.gate_m = p.gate_m,
+               .keep = 0.9,
+               .trim = 3.0,
+               .by_noise = false,
+               .min_overlap = p.min_overlap,
+               .max_iterations = 20} {
     const double turn = radians(p.guess_sigma_deg);
     guess_covariance_.diagonal() << p.guess_sigma_m * p.guess_sigma_m, p.guess_sigma_m * p.guess_sigma_m, turn * turn;
   }

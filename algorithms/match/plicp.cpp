@@ -18,21 +18,22 @@ class PlIcp final : public ScanMatcher {
   struct Params {
     double gate_m = 0.5;
     double keep = 0.9;
-    double trim = 3.0;
+    double trim = 4.5;
     double min_overlap = 0.3;
     int max_iterations = 30;
     static auto fields() {
-      return std::tuple{field("gate_m", &Params::gate_m, between(1e-6, 1e6), "m", "farthest partner of a return"),
-                        field("keep", &Params::keep, between(0, 1), "",
-                              "share of the pairs, those nearest to their lines, that counts until the pose is near"),
-                        field("trim", &Params::trim, between(1, 1e6), "",
-                              "then pairs count up to so many times the median distance from the line"),
-                        field("min_overlap", &Params::min_overlap, between(0, 1), "",
-                              "smallest share of returns with a partner; below it there is no match"),
-                        field("max_iterations", &Params::max_iterations, between(1, 1e6), "", "iterations at most")};
+      return std::tuple{
+          field("gate_m", &Params::gate_m, between(1e-6, 1e6), "m", "farthest partner of a return"),
+          field("keep", &Params::keep, between(0, 1), "",
+                "share of the pairs, those nearest to their lines, that counts until the pose is near"),
+          field("trim", &Params::trim, between(1, 1e6), "",
+                "then pairs count up to so many times the median distance from the line, both in standard deviations"),
+          field("min_overlap", &Params::min_overlap, between(0, 1), "",
+                "smallest share of returns with a partner; below it there is no match"),
+          field("max_iterations", &Params::max_iterations, between(1, 1e6), "", "iterations at most")};
     }
   };
-  explicit PlIcp(const Params& p) : rules_{p.gate_m, p.keep, p.trim, p.min_overlap, p.max_iterations} {}
+  explicit PlIcp(const Params& p) : rules_{p.gate_m, p.keep, p.trim, true, p.min_overlap, p.max_iterations} {}
 
   Match match(const Observation& reference, const Observation& current, const Pose2& guess,
               Trace& trace) const override {

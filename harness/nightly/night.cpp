@@ -131,7 +131,7 @@ std::vector<PicturePair> figures_of(const fs::path& run, const fs::path& last_go
     return PagePicture{when + ": " + figure.caption, read_file(file)};
   };
   std::vector<PicturePair> figures;
-  for (const auto& figure : load_figure_index(run)) {
+  for (const auto& figure : load_figure_index(run / "figures")) {
     if (figure.name.empty() || !scenarios.contains(figure.scenario) || figures.size() == kPictures) continue;
     PicturePair pair{figure.name, picture_in(last_good, figure, "in the last good night"),
                      picture_in(run, figure, "now")};

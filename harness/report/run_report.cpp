@@ -119,7 +119,7 @@ ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& 
     }
     input.cells.push_back(std::move(line));
   }
-  input.figures = load_figure_index(run);
+  input.figures = load_figure_index(run / "figures");
   input.rankings = rankings_by_scenario(input);
   for (const auto& scenario : scenarios)
     if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
@@ -127,20 +127,20 @@ ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& 
   return input;
 }
 
-void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenarios, bool pdf,
+void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenarios, const FigureOptions& options,
                       const std::function<void(double, const std::string&)>& progress) {
   std::vector<FigureFile> figures;
   const auto benchmark = load_benchmark(run);
-  if (benchmark) figures = draw_benchmark_figures(run, scenarios, *benchmark, pdf, progress);
+  if (benchmark) figures = draw_benchmark_figures(run, scenarios, *benchmark, options, progress);
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     const auto part = [&](double share, const std::string& what) {
       if (progress) progress((static_cast<double>(i) + share) / static_cast<double>(scenarios.size()), what);
     };
-    for (auto& figure : draw_figures(run, scenarios[i], pdf, part)) figures.push_back(std::move(figure));
+    for (auto& figure : draw_figures(run, scenarios[i], options, part)) figures.push_back(std::move(figure));
   }
-  for (auto& figure : draw_run_wide_figures(run, scenarios, pdf)) figures.push_back(std::move(figure));
-  save_figure_index(run, figures);
-  refresh_manifest(run);
+  for (auto& figure : draw_run_wide_figures(run, scenarios, options)) figures.push_back(std::move(figure));
+  save_figure_index(figure_folder(run, options), figures);
+  if (options.folder.empty()) refresh_manifest(run);
 }
 
 std::vector<Table> closing_tables(const ReportInput& input) {

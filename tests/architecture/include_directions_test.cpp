@@ -37,9 +37,14 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"harness/nightly",
      {"core", "metrics", "harness/files", "harness/scenario", "harness/store", "harness/analysis", "harness/page",
       "harness/report"}},
+    {"harness/player",
+     {"core", "render", "harness/files", "harness/scenario", "harness/store", "harness/page", "harness/report"}},
+    {"harness/gallery",
+     {"core", "render", "harness/files", "harness/yaml", "harness/scenario", "harness/store", "harness/analysis",
+      "harness/page", "harness/report"}},
     {"app",
-     {"core", "harness/files", "harness/exchange", "harness/scenario", "harness/store", "harness/run",
-      "harness/analysis", "harness/page", "harness/report", "harness/nightly"}},
+     {"core", "render", "harness/files", "harness/exchange", "harness/scenario", "harness/store", "harness/run",
+      "harness/analysis", "harness/page", "harness/report", "harness/nightly", "harness/player", "harness/gallery"}},
 };
 
 // Headers of a library that only one folder may name.

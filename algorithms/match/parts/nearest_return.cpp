@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nanoflann.hpp>
 
 namespace scanbench::matching {
@@ -32,25 +33,28 @@ double square_from_ray(const Vec2& p, const Vec2& direction) {
   return d * d;
 }
 
-/// The two nearest of the returns that were looked at.
+/// The two nearest of the returns that were looked at. Without branches: which of two returns is nearer is chance.
 class TwoNearest {
  public:
-  explicit TwoNearest(double gate_m) : found_{.square = gate_m * gate_m, .others_square = gate_m * gate_m} {}
+  explicit TwoNearest(double gate_m)
+      : square_(gate_m * gate_m * (1.0 + std::numeric_limits<double>::epsilon())), others_square_(square_) {}
   void look_at(std::size_t index, double square) {
-    if (square < found_.square || (!any_ && square == found_.square)) {
-      found_ = {index, square, found_.square};
-      any_ = true;
-    } else if (square < found_.others_square) {
-      found_.others_square = square;
-    }
+    others_square_ = std::min(others_square_, std::max(square_, square));
+    index_ = square < square_ ? index : index_;
+    square_ = std::min(square_, square);
   }
   /// Square of the distance beyond which nothing changes.
-  double reach() const { return found_.others_square; }
-  std::optional<Nearest> result() const { return any_ ? std::optional(found_) : std::nullopt; }
+  double reach() const { return others_square_; }
+  std::optional<Nearest> result(double gate_m) const {
+    const double gate_square = gate_m * gate_m;
+    if (index_ == Track::kNone || square_ > gate_square) return std::nullopt;
+    return Nearest{index_, square_, std::min(others_square_, gate_square)};
+  }
 
  private:
-  Nearest found_;
-  bool any_ = false;
+  double square_;
+  double others_square_;
+  std::size_t index_ = Track::kNone;
 };
 
 }  // namespace
@@ -67,7 +71,7 @@ class NearestReturn::Tree {
     index_.findNeighbors(best, query.data(), nanoflann::SearchParams());
     TwoNearest found(gate_m);
     for (std::size_t k = 0; k < best.size(); ++k) found.look_at(indices[k], squares[k]);
-    return found.result();
+    return found.result(gate_m);
   }
 
  private:
@@ -124,21 +128,25 @@ std::optional<Nearest> NearestReturn::find(const Vec2& p, double gate_m, std::si
     if (!tree_) tree_ = std::make_unique<Tree>(scan_.points);
     return tree_->find(p, gate_m);
   }
-  return nearest.result();
+  return nearest.result(gate_m);
 }
 
 std::optional<std::size_t> NearestReturn::follow(const Vec2& p, double gate_m, Track& track) {
   if (track.partner < rays_.size()) {
-    // The others are at least so far away now. The partner is within the gate, for others_m is at most the gate.
-    const double others = track.others_m - (p - track.searched_at).norm();
-    if (others > 0 && (rays_[track.partner].point - p).squaredNorm() <= others * others) return track.partner;
+    // The others are at least so far away now as then, less the motion. The partner is the nearest if its distance and
+    // the motion together are less than that: d + m < o, squared twice. The partner is then within the gate, because o
+    // is at most the gate.
+    const double motion = (p - track.searched_at).squaredNorm();
+    const double distance = (rays_[track.partner].point - p).squaredNorm();
+    const double rest = track.others_square - motion - distance;
+    if (rest > 0 && 4.0 * motion * distance < rest * rest) return track.partner;
   }
   const std::optional<Nearest> found = find(p, gate_m, track.partner);
   if (!found) {
-    track.others_m = 0.0;
+    track.others_square = -1.0;
     return std::nullopt;
   }
-  track = {p, found->index, std::sqrt(found->others_square)};
+  track = {p, found->index, found->others_square};
   return found->index;
 }
 

@@ -24,7 +24,7 @@ struct Track {
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   Vec2 searched_at = Vec2::Zero();
   std::size_t partner = kNone;  ///< before the first search: a hint
-  double others_m = 0.0;        ///< no other return is nearer to `searched_at`
+  double others_square = -1.0;  ///< square of a distance from `searched_at` within which there is no other return
 };
 
 /// Searches one scan. Exact if the beams cover at most one turn. Holds scratch data: one object per thread.

@@ -10,10 +10,9 @@ namespace {
 // A wall seen along has a normal that is too uncertain for the small noise across it.
 constexpr double kLeastCosine = 0.15;
 
-double variance_across(const ReturnedPoints& scan, std::size_t k, const Vec2& normal_in_scan) {
-  const double sigma = std::max(scan.sigmas[k], kLeastSigmaM);
+double sigma_across(const ReturnedPoints& scan, std::size_t k, const Vec2& normal_in_scan) {
   const double cosine = std::max(std::fabs(normal_in_scan.dot(scan.direction(k))), kLeastCosine);
-  return sigma * sigma * cosine * cosine;
+  return std::max(scan.sigmas[k], kLeastSigmaM) * cosine;
 }
 
 }  // namespace
@@ -30,7 +29,7 @@ std::vector<Pair> nearest_pairs(const ReturnedPoints& current, const Pose2& refe
     const auto nearest = reference.follow(p, gate_m, tracks[k]);
     if (!nearest) continue;
     last = *nearest;
-    pairs.push_back({k, *nearest, p, 0.0});
+    pairs.push_back({k, *nearest, p});
   }
   return pairs;
 }
@@ -46,38 +45,72 @@ void keep_aligned(std::vector<Pair>& pairs, const std::vector<LocalLine>& lines,
 
 namespace {
 
-/// |residual| that a share of the pairs does not exceed.
-double quantile(const std::vector<Pair>& pairs, double share) {
-  std::vector<double> sizes;
-  sizes.reserve(pairs.size());
-  for (const Pair& pair : pairs) sizes.push_back(std::fabs(pair.residual));
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(sizes.size() - 1));
-  std::ranges::nth_element(sizes, sizes.begin() + static_cast<std::ptrdiff_t>(at));
-  return sizes[at];
+/// The element that would be at place `at` in ascending order. A sample gives a bound that about `at` elements do not
+/// exceed. One pass without branches divides the elements there, and only one part is searched.
+double element_at(std::vector<double>& values, std::size_t at) {
+  constexpr std::size_t kStride = 8;
+  const std::size_t n = values.size();
+  std::vector<double> side;
+  side.reserve(n / kStride + 1);
+  for (std::size_t k = kStride / 2; k < n; k += kStride) side.push_back(values[k]);
+  const auto select = [](std::vector<double>& from, std::size_t place) {
+    std::ranges::nth_element(from, from.begin() + static_cast<std::ptrdiff_t>(place));
+    return from[place];
+  };
+  if (side.size() < kStride) return select(values, at);
+  const std::size_t of_sample = at * side.size() / n;
+  // A little below the place, so that it is usually in the smaller part above.
+  const double bound = select(side, of_sample - std::min(of_sample, side.size() / 16 + 1));
+  side.resize(n);
+  std::size_t above = 0;
+  for (const double value : values) {
+    side[above] = value;
+    above += value > bound ? 1 : 0;
+  }
+  const std::size_t below = n - above;
+  if (at < below) return select(values, at);
+  side.resize(above);
+  return select(side, at - below);
 }
 
-void keep_up_to(std::vector<Pair>& pairs, double largest) {
-  std::erase_if(pairs, [&](const Pair& pair) { return std::fabs(pair.residual) > largest; });
+/// Keeps the pairs whose size is at most `times` the size that a share of them does not exceed.
+template <class Size>
+void keep_up_to(std::vector<Pair>& pairs, double share, double times, const Size& size_of) {
+  if (pairs.empty()) return;
+  std::vector<double> sizes;
+  sizes.reserve(pairs.size());
+  for (const Pair& pair : pairs) sizes.push_back(size_of(pair));
+  const double most =
+      times * element_at(sizes, static_cast<std::size_t>(share * static_cast<double>(sizes.size() - 1)));
+  std::erase_if(pairs, [&](const Pair& pair) { return size_of(pair) > most; });
 }
 
 }  // namespace
 
 void keep_nearest(std::vector<Pair>& pairs, double share) {
-  if (!pairs.empty()) keep_up_to(pairs, quantile(pairs, share));
+  keep_up_to(pairs, share, 1.0, [](const Pair& pair) { return std::fabs(pair.residual); });
 }
 
-void trim(std::vector<Pair>& pairs, double times) {
-  if (!pairs.empty()) keep_up_to(pairs, times * quantile(pairs, 0.5));
+void trim(std::vector<Pair>& pairs, double times, bool by_noise) {
+  keep_up_to(pairs, 0.5, times, [by_noise](const Pair& pair) {
+    return by_noise ? std::fabs(pair.residual) / pair.sigma_m : std::fabs(pair.residual);
+  });
 }
 
-PairInformation pair_information(const std::vector<Pair>& pairs, const ReturnedPoints& current,
-                                 const std::vector<LocalLine>& lines, const Pose2& reference_from_current) {
-  PairInformation result;
+void set_noise(std::vector<Pair>& pairs, const ReturnedPoints& current, const std::vector<LocalLine>& lines,
+               const Pose2& reference_from_current) {
   const Pose2 current_from_reference = reference_from_current.inverse();
+  for (Pair& pair : pairs)
+    pair.sigma_m = sigma_across(current, pair.current, current_from_reference.rotate(lines[pair.reference].normal));
+}
+
+PairInformation pair_information(const std::vector<Pair>& pairs, const std::vector<LocalLine>& lines,
+                                 const Pose2& reference_from_current) {
+  PairInformation result;
   for (const Pair& pair : pairs) {
     const LocalLine& line = lines[pair.reference];
     if (!line.known()) continue;
-    const double variance = variance_across(current, pair.current, current_from_reference.rotate(line.normal));
+    const double variance = pair.sigma_m * pair.sigma_m;
     const double residual = -line.distance(pair.point);
     result.equations.add(line.normal, pair.point - reference_from_current.translation(), residual, 1.0 / variance,
                          line.angle_variance);

@@ -16,6 +16,7 @@ struct Pair {
   std::size_t reference = 0;
   Vec2 point = Vec2::Zero();  ///< the current return, in the reference frame
   double residual = 0.0;      ///< what the matcher minimises: a distance [m] or its square
+  double sigma_m = 0.0;       ///< noise of the current return across its partner's line, once set_noise was called
 };
 
 /// The nearest return within `gate_m` of every `every`th current one. `tracks`, one per current return, carry the
@@ -35,17 +36,23 @@ inline constexpr double kLeastRatioOfPoints = 5.0;
 /// Keeps the `share` of the pairs with the smallest |residual|.
 void keep_nearest(std::vector<Pair>& pairs, double share);
 
-/// Keeps the pairs whose |residual| is at most `times` the median. More than half remain if times >= 1.
-void trim(std::vector<Pair>& pairs, double times);
+/// Sets the noise of each current return across its partner's line.
+void set_noise(std::vector<Pair>& pairs, const ReturnedPoints& current, const std::vector<LocalLine>& lines,
+               const Pose2& reference_from_current);
+
+/// Keeps the pairs whose |residual|, or |residual| / sigma if `by_noise` (needs set_noise), is at most `times` the
+/// median. More than half remain if times >= 1.
+void trim(std::vector<Pair>& pairs, double times, bool by_noise);
 
 /// The information about the pose in pairs whose reference has a local line, by the noise of the current scan alone.
+/// Needs set_noise.
 struct PairInformation {
   PoseEquations equations;
   double misfit = 0.0;  ///< sum of squared residuals from the local lines, in standard deviations of both scans
   int count = 0;
 };
-PairInformation pair_information(const std::vector<Pair>& pairs, const ReturnedPoints& current,
-                                 const std::vector<LocalLine>& lines, const Pose2& reference_from_current);
+PairInformation pair_information(const std::vector<Pair>& pairs, const std::vector<LocalLine>& lines,
+                                 const Pose2& reference_from_current);
 
 /// The result for scans that have too little in common.
 Match no_match(const Pose2& guess);

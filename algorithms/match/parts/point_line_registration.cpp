@@ -59,11 +59,12 @@ Match register_points_on_lines(const ReturnedPoints& reference, const std::vecto
       pair.residual = lines[pair.reference].distance(pair.point);
     }
     // Far from the pose the largest residuals are those of far walls, which know the heading best.
+    set_noise(pairs, current, lines, pose);
     if (near)
-      trim(pairs, rules.trim);
+      trim(pairs, rules.trim, rules.by_noise);
     else
       keep_nearest(pairs, rules.keep);
-    information = pair_information(pairs, current, lines, pose);
+    information = pair_information(pairs, lines, pose);
     const Motion step = Determined(information.equations, lever, kLeastRatioOfPoints).solve(information.equations.rhs);
     pose = moved(pose, step);
     const double size = step.head<2>().norm() + lever * std::fabs(step.z());

@@ -9,7 +9,8 @@ namespace scanbench::matching {
 struct RegistrationRules {
   double gate_m = 0.5;       ///< farthest partner
   double keep = 0.9;         ///< share of the pairs, the nearest ones, that counts until the pose is near
-  double trim = 3.0;         ///< then pairs count up to so many times the median residual
+  double trim = 4.5;         ///< then pairs count up to so many times the median residual
+  bool by_noise = true;      ///< that median is of residuals in standard deviations; else of residuals in metres
   double min_overlap = 0.3;  ///< share of the current returns that must have a partner
   int max_iterations = 30;
 };

@@ -377,6 +377,31 @@ TEST(PointToLine, NamesGroupsOfScansThatDoNotMeet) {
       << result.message;
 }
 
+TEST(PointToLine, NamesGroupsOfManyScansThatDoNotMeet) {
+  ScanSeries scans;
+  std::vector<Pose2> poses;
+  for (int k = 0; k < 210; ++k) {
+    const Pose2 in_room(0.01 * (k % 105), 0.3, 0.02 * k);
+    scans.add_exact(cast(ring_sensor(36), room(), in_room));
+    poses.push_back(Pose2(k < 105 ? 0 : 60, 0, 0) * in_room);
+  }
+  const Alignment result = align(scans, poses);
+  EXPECT_EQ(result.status, Status::degenerate);
+  EXPECT_NE(result.message.find("2 groups of scans do not meet: 105 scans; 105 scans"), std::string::npos)
+      << result.message;
+  expect_poses(result.world_from_sensor, poses, 0.01);  // each group keeps its place
+}
+
+TEST(PointToLine, TheFirstGateIsTwoAndAHalfDeviationsOfTheStatedError) {
+  // Two poses are wrong independently of each other; no error of the heading, so that no distance matters.
+  for (const double sigma : {0.05, 0.1, 0.4}) {
+    testing::TraceRecorder recorder("align");
+    Registry<Aligner>::make("point_to_line", {{"odometry_sigma_m", sigma}, {"odometry_sigma_deg", 0.0}})
+        ->align(exact_scans(room(), path()).observations(), path(), recorder.trace);
+    EXPECT_NEAR(recorder.all_rows.at("align.round").front().values[1], 2.5 * std::sqrt(2.0) * sigma, 1e-12);
+  }
+}
+
 TEST(PointToLine, LooksAsFarAsTheStatedErrorOfTheGivenPosesAsks) {
   const ScanSeries scans = exact_scans(room(), path());
   std::vector<Pose2> initial = path();

@@ -9,6 +9,7 @@
 #include "algorithms/match/optimal/wall_pairs.hpp"
 #include "algorithms/match/parts/extrapolation.hpp"
 #include "algorithms/match/parts/nearest_return.hpp"
+#include "algorithms/match/parts/pairs.hpp"
 #include "algorithms/match/parts/pose_information.hpp"
 #include "algorithms/match/parts/scan_points.hpp"
 #include "tests/support/scan_builder.hpp"
@@ -82,6 +83,30 @@ TEST(NearestReturn, FollowsAPointThatMovesAsBruteForceDoes) {
       p += Vec2(about(step_m), about(step_m));
     }
   }
+}
+
+TEST(Pairs, KeepTheNearestShareAsSortingDoes) {
+  CounterRng rng(3, RngStream::pose);
+  for (const std::size_t n : {1u, 2u, 7u, 63u, 64u, 65u, 451u, 2000u})
+    for (const double share : {0.0, 0.3, 0.5, 0.9, 1.0})
+      for (const int shape : {0, 1, 2, 3}) {  // normal, ascending, a few values many times, all equal
+        std::vector<Pair> pairs(n);
+        std::vector<double> sizes;
+        for (std::size_t k = 0; k < n; ++k) {
+          const double normal = rng.normal();
+          pairs[k].residual = shape == 0   ? normal
+                              : shape == 1 ? static_cast<double>(k)
+                              : shape == 2 ? std::round(normal)
+                                           : 0.25;
+          sizes.push_back(std::fabs(pairs[k].residual));
+        }
+        std::ranges::sort(sizes);
+        const double largest = sizes[static_cast<std::size_t>(share * static_cast<double>(n - 1))];
+        keep_nearest(pairs, share);
+        EXPECT_EQ(pairs.size(), static_cast<std::size_t>(std::ranges::upper_bound(sizes, largest) - sizes.begin()))
+            << n << " pairs, share " << share << ", shape " << shape;
+        for (const Pair& pair : pairs) EXPECT_LE(std::fabs(pair.residual), largest);
+      }
 }
 
 TEST(Extrapolation, JumpsToTheLeastErrorOfAStraightWalk) {
