@@ -53,7 +53,7 @@ std::optional<std::size_t> EarlierCells::recorded_frames(const std::string& scen
 }
 
 bool EarlierCells::files_are_whole(const CellKey& key, const PipelineSpec& pipeline, const TraceChoice& trace,
-                                   std::size_t frames) const {
+                                   std::size_t frames) {
   const fs::path folder = cell_path(run_, key);
   const bool merge = has_slot(pipeline, "merge");
   const bool places = std::ranges::any_of(pipeline.slots, [](const auto& slot) { return slot.kind != "extract"; });
@@ -67,14 +67,15 @@ bool EarlierCells::files_are_whole(const CellKey& key, const PipelineSpec& pipel
   return load_result(folder).lines.size() == frames;
 }
 
-std::optional<bool> EarlierCells::hashes_agree(const fs::path& folder) const {
+std::optional<bool> EarlierCells::hashes_agree(const fs::path& folder) {
   const std::string prefix = folder.lexically_relative(run_).generic_string() + "/";
-  std::optional<bool> agree;
-  for (auto file = hashes_.lower_bound(prefix); file != hashes_.end() && file->first.starts_with(prefix); ++file) {
-    if (sha256_of_file(run_ / file->first) != file->second) return false;
-    agree = true;
-  }
-  return agree;
+  const auto first = hashes_.lower_bound(prefix);
+  auto end = first;
+  for (; end != hashes_.end() && end->first.starts_with(prefix); ++end)
+    if (sha256_of_file(run_ / end->first) != end->second) return false;
+  if (first == end) return std::nullopt;
+  verified_.insert(first, end);
+  return true;
 }
 
 }  // namespace scanbench::harness

@@ -34,18 +34,21 @@ class EarlierCells {
   /// True if the cell is ok, with any input and program.
   bool is_ok(const CellKey& key) const;
 
+  /// By path: the hashes of all files that find() has read and found undamaged.
+  const std::map<std::string, std::string>& verified() const { return verified_; }
+
  private:
   /// Number of frames; nullopt if the recording is missing or does not have its hash.
   std::optional<std::size_t> recorded_frames(const std::string& scenario, std::uint64_t seed);
   /// True if all files of the folder have the hashes that the manifest lists; nullopt if it lists none. Throws
   /// ConfigError for a file that cannot be read.
-  std::optional<bool> hashes_agree(const std::filesystem::path& folder) const;
+  std::optional<bool> hashes_agree(const std::filesystem::path& folder);
   /// Throws ConfigError for a file that cannot be read.
-  bool files_are_whole(const CellKey& key, const PipelineSpec& pipeline, const TraceChoice& trace,
-                       std::size_t frames) const;
+  bool files_are_whole(const CellKey& key, const PipelineSpec& pipeline, const TraceChoice& trace, std::size_t frames);
 
   std::filesystem::path run_;
   std::map<std::string, std::string> hashes_;  ///< by path relative to the run
+  std::map<std::string, std::string> verified_;
   std::map<std::pair<std::string, std::uint64_t>, std::optional<std::size_t>> recordings_;
 };
 

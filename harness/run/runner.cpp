@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -361,9 +362,23 @@ class Run {
       return result;
     }
     write_summary();
+    manifest_.verified = verified_files();
     const std::string state = interrupted ? "interrupted" : missing ? "incomplete" : "complete";
     end_run(*target_, manifest_, state, options_.finish && state == "complete");
     return result;
+  }
+
+  /// Files of reused cells and recordings. A recording may have been made again for other cells.
+  std::map<std::string, std::string> verified_files() const {
+    if (!earlier_) return {};
+    std::map<std::string, std::string> files = earlier_->verified();
+    for (const auto& group : groups_) {
+      if (group.waiting.empty()) continue;
+      const fs::path folder = recording_path("", group.plan.scenario->name, group.plan.seed);
+      std::erase_if(
+          files, [prefix = folder.generic_string() + "/"](const auto& file) { return file.first.starts_with(prefix); });
+    }
+    return files;
   }
 
   const std::vector<Scenario>& scenarios_;

@@ -170,13 +170,15 @@ void write_manifest(const fs::path& run, const Manifest& manifest) {
             {"end", manifest.end},
             {"scenarios", manifest.scenarios},
             {"cells", cells}};
-  write_json(run, json, manifest.state == "running" ? Hashes() : artefacts(run));
+  write_json(run, json,
+             manifest.state == "running" ? Hashes() : artefacts(run, {manifest.verified, fs::file_time_type::max()}));
 }
 
 Manifest load_manifest(const fs::path& run) {
   const Json json = manifest_json(run);
   try {
-    Manifest manifest{json.at("state"), json.at("start"), json.at("end"), json.at("argv"), json.at("scenarios"), {}};
+    Manifest manifest{
+        json.at("state"), json.at("start"), json.at("end"), json.at("argv"), json.at("scenarios"), {}, {}};
     for (const auto& scenario : manifest.scenarios) check_name("scenario", scenario);
     for (const auto& cell : json.at("cells")) {
       manifest.cells.push_back({cell.at("scenario"), cell.at("pipeline"), cell.at("seed")});

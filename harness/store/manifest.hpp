@@ -22,6 +22,9 @@ struct Manifest {
   std::vector<std::string> argv;
   std::vector<std::string> scenarios;  ///< in order
   std::vector<CellKey> cells;          ///< all planned cells, in the order of summary.csv
+  /// By path: SHA-256 of files that were read during this run, had it, and were not written since. They are not read
+  /// again for the list of files.
+  std::map<std::string, std::string> verified{};
 };
 
 std::string utc_now();
