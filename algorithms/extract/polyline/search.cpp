@@ -104,12 +104,7 @@ class Programme {
  private:
   Programme(std::span<const SegmentationPoint> points, const VertexChoices& choices, std::size_t levels,
             std::size_t step, double vertex_cost, int stride)
-      : points_(points),
-        choices_(choices),
-        levels_(levels),
-        step_(step),
-        vertex_cost_(vertex_cost),
-        sums_(running_sums(points)) {
+      : points_(points), levels_(levels), step_(step), vertex_cost_(vertex_cost), sums_(running_sums(points)) {
     const int n = static_cast<int>(points.size());
     for (int i = 0; i < n; ++i) {
       const bool gap_before = i > 0 && points[as_index(i)].gap_cost == kInf;
@@ -122,7 +117,7 @@ class Programme {
     done_.assign((places_.size() + 1) * levels_, kInf);
     clutter_.assign(as_index(n) + 1, 0.0);
     for (int i = 0; i < n; ++i) clutter_[as_index(i) + 1] = clutter_[as_index(i)] + points[as_index(i)].clutter_cost;
-    set_begins();
+    set_begins(choices);
   }
 
  public:
@@ -189,14 +184,16 @@ class Programme {
   static void relax(double& cost, double candidate) { cost = std::min(cost, candidate); }
 
   const SegmentationPoint& point(std::size_t p) const { return points_[as_index(places_[p])]; }
-  double choice(std::size_t p, std::size_t a) const { return choices_[as_index(places_[p])][a]; }
+  double choice(std::size_t p, std::size_t a) const { return at_places_[p * width_ + a]; }
   double& open(std::size_t p, std::size_t a, std::size_t m) { return open_[(p * width_ + a) * levels_ + m]; }
   double open(std::size_t p, std::size_t a, std::size_t m) const { return open_[(p * width_ + a) * levels_ + m]; }
 
   // The first vertex of a chain pays for its own point, later ones for all points after the vertex before.
   double begin_cost(std::size_t p, std::size_t a) const { return begins_[p * width_ + a]; }
 
-  void set_begins() {
+  void set_begins(const VertexChoices& choices) {
+    for (const int place : places_)
+      for (const double inverse_range : choices[as_index(place)]) at_places_.push_back(inverse_range);
     begins_.resize(places_.size() * width_);
     for (std::size_t p = 0; p < places_.size(); ++p) {
       double cheapest = kInf, dearest = 0.0;
@@ -261,6 +258,10 @@ class Programme {
       for (std::size_t b = 0; b < width_; ++b) {
         const double limit = apart + std::max(begin_cost(q, b), point(q).clutter_cost);
         if (w.least_cost(choice(q, b)) > limit + most_saved) continue;
+        if (step_ == 0) {
+          extend_free(p, w, q, b);
+          continue;
+        }
         double* to = &open(q, b, 0);
         for (std::size_t a = 0; a < width_; ++a) {
           const double cost = w.cost(choice(p, a), choice(q, b));
@@ -271,6 +272,16 @@ class Programme {
         }
       }
     }
+  }
+
+  // One state, without branches: which of two costs is less is chance.
+  void extend_free(std::size_t p, const Wall& w, std::size_t q, std::size_t b) {
+    const double u_q = choice(q, b);
+    const double* from = &open_[p * width_];
+    const double* u_p = &at_places_[p * width_];
+    double best = open(q, b, 0);
+    for (std::size_t a = 0; a < width_; ++a) best = std::min(best, from[a] + (w.cost(u_p[a], u_q) + vertex_cost_));
+    open(q, b, 0) = best;
   }
 
   // The best wall that ends at (p, a), the m-th vertex.
@@ -310,7 +321,6 @@ class Programme {
   }
 
   std::span<const SegmentationPoint> points_;
-  const VertexChoices& choices_;
   std::size_t levels_, width_ = 0;
   std::size_t step_;  // of m at a vertex
   double vertex_cost_;
@@ -318,6 +328,7 @@ class Programme {
   std::vector<int> places_;
   std::vector<int> blocks_;  // per point: the number of infinite gaps before it
   std::vector<double> open_, done_, clutter_;
+  std::vector<double> at_places_;                            // the choices, per place
   std::vector<double> begins_;                               // per place and choice
   std::vector<double> most_saved_before_, most_paid_after_;  // per place: bounds of what a wall may cost over clutter
 };
