@@ -17,8 +17,8 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/nightly/comparison_files.hpp"
 #include "harness/nightly/comparison_tables.hpp"
-#include "harness/report/plain_text.hpp"
-#include "harness/report/table.hpp"
+#include "harness/page/plain_text.hpp"
+#include "harness/page/table.hpp"
 #include "harness/store/run_scenarios.hpp"
 
 namespace scanbench::app {

@@ -7,8 +7,7 @@
 #include <cstddef>
 
 #include "core/error.hpp"
-#include "harness/report/figures.hpp"
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/run/worker.hpp"
 #include "harness/store/cell_status.hpp"
@@ -21,7 +20,7 @@ constexpr int kRendererThreads = 2;  // of OSMesa: each needs address space
 }  // namespace
 
 std::string draw_within_limits(const std::filesystem::path& run, const std::vector<harness::Scenario>& scenarios,
-                               bool pdf, Progress& progress) {
+                               const harness::FigureOptions& options, Progress& progress) {
   harness::WorkerLimits limits{.seconds = 0.0, .memory_bytes = 0.0, .threads = kRendererThreads + 1};
   for (const auto& scenario : scenarios) {
     const std::size_t cells = std::max<std::size_t>(1, scenario.pipelines.size() * scenario.seeds.size());
@@ -34,7 +33,7 @@ std::string draw_within_limits(const std::filesystem::path& run, const std::vect
     harness::WorkerPool pool;
     const auto draw = [&] {
       setenv("LP_NUM_THREADS", std::to_string(kRendererThreads).c_str(), 0);  // pictures do not depend on it
-      harness::draw_run_figures(run, scenarios, pdf);
+      harness::draw_run_figures(run, scenarios, options);
       return std::string();
     };
     pool.start(0, draw, limits);
@@ -44,7 +43,7 @@ std::string draw_within_limits(const std::filesystem::path& run, const std::vect
   }
   if (outcome.status == harness::CellStatus::ok) return "";
   if (outcome.bad_input || outcome.system_error) throw ConfigError(outcome.message);
-  harness::save_figure_index(run, {});
+  if (options.folder.empty()) harness::save_figure_index(run / "figures", {});
   return "the figures were not drawn: " + std::string(to_string(outcome.status)) + ": " +
          harness::plain_line(outcome.message);
 }

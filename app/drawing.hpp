@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/progress.hpp"
+#include "harness/report/figures.hpp"
 #include "harness/scenario/scenario.hpp"
 
 namespace scanbench::app {
@@ -14,6 +15,6 @@ namespace scanbench::app {
 /// take all memory of the machine. Returns why they were not drawn; the run then has no figures. Empty if they were.
 /// Throws ConfigError for wrong input and what the system refuses, and Interrupted.
 std::string draw_within_limits(const std::filesystem::path& run, const std::vector<harness::Scenario>& scenarios,
-                               bool pdf, Progress& progress);
+                               const harness::FigureOptions& options, Progress& progress);
 
 }  // namespace scanbench::app

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <string_view>
 
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/store/cell_status.hpp"
 
 namespace scanbench::app {

@@ -8,8 +8,8 @@
 #include "app/context.hpp"
 #include "app/progress.hpp"
 #include "harness/files/size_text.hpp"
-#include "harness/report/plain_text.hpp"
-#include "harness/report/table.hpp"
+#include "harness/page/plain_text.hpp"
+#include "harness/page/table.hpp"
 #include "harness/run/forecast.hpp"
 
 namespace scanbench::app {

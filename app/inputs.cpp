@@ -10,6 +10,7 @@
 #include "core/names.hpp"
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/scenario/suite.hpp"
+#include "harness/store/run_scenarios.hpp"
 
 namespace scanbench::app {
 
@@ -81,6 +82,11 @@ void check_run_exists(const fs::path& run) {
   if (fs::exists(run)) return;
   const std::string near = nearest_file(run);
   throw ConfigError(run.string() + ": no such folder" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
+}
+
+std::vector<harness::Scenario> scenarios_for(const fs::path& run, const std::vector<std::string>& files) {
+  check_run_exists(run);
+  return files.empty() ? harness::load_run_scenarios(run) : load_inputs(files, {});
 }
 
 void give_seeds(std::vector<harness::Scenario>& scenarios, const std::vector<std::string>& texts) {

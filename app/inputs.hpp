@@ -22,6 +22,9 @@ std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files
 /// Throws ConfigError, with the nearest name, for a folder that does not exist.
 void check_run_exists(const std::filesystem::path& run);
 
+/// The scenarios of a run, or those of files that replace them: to score with other metrics, to draw other figures.
+std::vector<harness::Scenario> scenarios_for(const std::filesystem::path& run, const std::vector<std::string>& files);
+
 /// Replaces the scenarios' seeds by those of `--seed`, if there are any. Throws ConfigError for a seed that a scenario
 /// file could not have, and for one that is given twice.
 void give_seeds(std::vector<harness::Scenario>& scenarios, const std::vector<std::string>& texts);

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "app/inputs.hpp"
+#include "harness/gallery/catalogue.hpp"
 #include "harness/report/catalog.hpp"
 #include "harness/run/make_recording.hpp"
 #include "harness/run/run_plan.hpp"
@@ -16,6 +19,8 @@
 
 namespace scanbench::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 void print(const std::string& text) {
   fmt::print("{}", text);
@@ -39,8 +44,20 @@ void print_good(const std::string& file, const std::vector<harness::Scenario>& s
   }
 }
 
-int check(const std::vector<std::string>& files, const std::vector<std::string>& sets, bool effective,
-          bool for_simulate) {
+/// Checks the catalogues of figures and removes them from the list of files.
+void check_catalogues(std::vector<std::string>& files) {
+  std::erase_if(files, [](const std::string& file) {
+    if (!fs::is_regular_file(file) || !harness::is_catalogue(file)) return false;
+    const harness::Catalogue catalogue = harness::load_catalogue(file);
+    fmt::print("{}: good: {} figures and tables of {}\n", file, catalogue.entries.size(),
+               counted(catalogue.scenarios.size(), "scenario"));
+    return true;
+  });
+}
+
+int check(std::vector<std::string> files, const std::vector<std::string>& sets, bool effective, bool for_simulate) {
+  check_catalogues(files);
+  if (files.empty()) return kGood;
   const auto all = load_inputs(files, sets);
   // What run refuses, check refuses too, in the same words.
   if (!for_simulate && !effective) harness::plan_run(all, {.out = {}});
@@ -96,9 +113,9 @@ void add_inspection(Context& context) {
   };
   auto options = std::make_shared<Options>();
 
-  auto* check_verb =
-      context.app.add_subcommand("check", "Checks scenario or suite files as `run` would, without running them");
-  check_verb->add_option("FILE", options->files, "scenario or suite files")->required();
+  auto* check_verb = context.app.add_subcommand(
+      "check", "Checks scenario or suite files, or catalogues of figures, without running them");
+  check_verb->add_option("FILE", options->files, "scenario or suite files, catalogues of figures")->required();
   check_verb->add_option("--set", options->sets, "KEY=VALUE: replaces a value of the file (dotted keys)")->take_all();
   check_verb->add_flag("--effective", options->effective, "print the scenario with every default filled in");
   check_verb->add_flag("--simulate", options->for_simulate, "check for `simulate`, which needs no pipelines");

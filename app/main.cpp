@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "app/compare.hpp"
+#include "app/figures.hpp"
+#include "app/film.hpp"
 #include "app/inspection.hpp"
 #include "app/new_module.hpp"
 #include "app/nightly.hpp"
@@ -21,7 +23,7 @@
 #include "app/show.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_folder.hpp"
 
@@ -94,6 +96,8 @@ int run_program(int argc, char** argv) {
   app::add_inspection(context);
   app::add_recordings(context);
   app::add_results(context);
+  app::add_figures(context);
+  app::add_film(context);
   app::add_compare(context);
   app::add_nightly(context);
   app::add_new_module(context);

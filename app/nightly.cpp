@@ -18,7 +18,7 @@
 #include "harness/nightly/baseline.hpp"
 #include "harness/nightly/night.hpp"
 #include "harness/nightly/store.hpp"
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/store/run_scenarios.hpp"
 
 namespace scanbench::app {

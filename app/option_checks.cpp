@@ -25,6 +25,17 @@ CLI::Validator whole_number(const std::string& what, int low, int high) {
           fmt::format("{} .. {}", low, high)};
 }
 
+CLI::Validator number(const std::string& what, double low, double high) {
+  return {[=](std::string& text) {
+            double value = 0;
+            const char* end = text.data() + text.size();
+            const auto [stop, error] = std::from_chars(text.data(), end, value);
+            if (error == std::errc() && stop == end && low <= value && value <= high) return std::string();
+            return fmt::format("'{}' is no {}; allowed: {} .. {}", text, what, low, high);
+          },
+          fmt::format("{} .. {}", low, high)};
+}
+
 CLI::Validator one_of(const std::string& what, const std::vector<std::string>& words) {
   return {[=](std::string& text) {
             if (std::ranges::find(words, text) != words.end()) return std::string();

@@ -1,4 +1,4 @@
-// The verbs score, figures and report.
+// The verbs score and report.
 #pragma once
 
 #include "app/context.hpp"

@@ -12,7 +12,7 @@
 #include "app/option_checks.hpp"
 #include "app/progress.hpp"
 #include "app/running.hpp"
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/report/scenario_tables.hpp"
 #include "harness/run/run_options.hpp"

@@ -10,7 +10,7 @@
 #include "app/fault_notes.hpp"
 #include "app/progress.hpp"
 #include "core/error.hpp"
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/run/runner.hpp"
 #include "harness/store/cell_status.hpp"
@@ -29,7 +29,7 @@ void note_cell(Progress& progress, FaultNotes& faults, const harness::CellResult
 harness::ReportInput write_report(const harness::RunResult& result, bool figures, Progress& progress,
                                   std::string& failure) {
   const auto scenarios = harness::load_run_scenarios(result.out);
-  if (figures) failure = draw_within_limits(result.out, scenarios, false, progress);
+  if (figures) failure = draw_within_limits(result.out, scenarios, {}, progress);
   auto report = harness::load_report_input(result.out, scenarios);
   harness::write_reports(result.out, report);
   return report;

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "metrics/true_lines.hpp"
+#include "metrics/walls/true_lines.hpp"
 
 namespace scanbench::metrics {
 

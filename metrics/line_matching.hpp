@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/scan.hpp"
-#include "metrics/true_lines.hpp"
+#include "metrics/walls/true_lines.hpp"
 
 namespace scanbench::metrics {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "metrics/metric.hpp"
-#include "metrics/surfaces.hpp"
+#include "metrics/walls/surfaces.hpp"
 
 namespace scanbench::metrics {
 

@@ -18,56 +18,16 @@
 #include "core/registry.hpp"
 #include "metrics/map_members.hpp"
 #include "metrics/rows.hpp"
-#include "metrics/surfaces.hpp"
+#include "metrics/walls/surfaces.hpp"
+#include "metrics/walls/visible_walls.hpp"
 
 namespace scanbench::metrics {
 namespace {
 
 constexpr double kNear = 0.05;
 constexpr double kFar = 0.10;
-constexpr double kVisibilityBin = 0.10;
 constexpr int kOneIn = 5;          // a line fuses two walls if one in this many members comes from each
 constexpr double kOneView = 0.30;  // visible parts with a smaller gap between them need one line, not two
-
-/// Visible parts of every surface, in metres from its first end.
-std::vector<std::vector<Interval>> visible_parts(const MetricInput& input, const Surfaces& surfaces,
-                                                 double hits_per_m) {
-  const Truth& truth = *input.truth;
-  const std::size_t count = surfaces.segments.size();
-  std::vector<std::vector<Interval>> visible(count);
-  if (truth.wall_ids.empty()) {  // lines without scans: every part counts as seen
-    for (std::size_t s = 0; s < count; ++s) visible[s] = {{0.0, surfaces.segments[s].length()}};
-    return visible;
-  }
-  std::vector<std::vector<int>> hits(count);
-  for (std::size_t s = 0; s < count; ++s)
-    hits[s].resize(std::max<std::size_t>(
-        1, static_cast<std::size_t>(std::ceil(surfaces.segments[s].length() / kVisibilityBin - 1e-9))));
-  for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
-    const Scan scan = input.observed.scan(f);
-    const auto beams = as_index(scan.beams());
-    for (std::size_t i = 0; i < beams; ++i) {
-      const std::int32_t wall = truth.wall_ids[f * beams + i];
-      if (wall < 0 || !scan.valid(static_cast<int>(i))) continue;
-      const std::size_t s = as_index(surfaces.of_wall[as_index(wall)]);
-      const Segment& segment = surfaces.segments[s];
-      const Vec2 p = truth.world_from_sensor[f] *
-                     Vec2(truth.ranges[f * beams + i] * scan.sensor.geometry.direction(static_cast<int>(i)));
-      if (!(segment.length() > 0)) continue;
-      const double share = segment.direction().dot(p - segment.a) / segment.length();
-      const auto bins = static_cast<double>(hits[s].size());
-      ++hits[s][static_cast<std::size_t>(std::clamp(share * bins, 0.0, bins - 1))];
-    }
-  }
-  for (std::size_t s = 0; s < count; ++s) {
-    const double width = surfaces.segments[s].length() / static_cast<double>(hits[s].size());
-    for (std::size_t b = 0; b < hits[s].size(); ++b)
-      if (hits[s][b] > 0 && hits[s][b] >= hits_per_m * width - 1e-9)
-        visible[s].push_back({static_cast<double>(b) * width, static_cast<double>(b + 1) * width});
-    visible[s] = unite(std::move(visible[s]), 1e-9);
-  }
-  return visible;
-}
 
 /// Distance of p from the infinite line of s.
 double line_distance(const Vec2& p, const Segment& s) {
@@ -137,10 +97,10 @@ class MapTruth : public MetricFamily {
             {"visible_m", "m", neither, 0.0, "visible length of all walls"}};
   }
 
-  bool applies(const MetricInput& input) const override { return input.result.has_map && consistent(input); }
+  bool applies(const MetricInput& input) const override { return input.result.has_map && knows_walls(input); }
 
   std::vector<MetricRow> evaluate(const MetricInput& input) const override {
-    SCANBENCH_ASSERT(consistent(input));
+    SCANBENCH_ASSERT(knows_walls(input));
     const Surfaces surfaces = join_walls(input.truth->walls);
     const std::vector<std::vector<Interval>> visible = visible_parts(input, surfaces, params_.min_hits_per_m);
     std::vector<Segment> map;
@@ -162,12 +122,6 @@ class MapTruth : public MetricFamily {
   }
 
  private:
-  /// True if the truth has walls and, unless the run has lines only, knows the wall of each beam.
-  static bool consistent(const MetricInput& input) {
-    if (input.truth == nullptr || input.truth->walls.empty()) return false;
-    return input.truth->wall_ids.empty() || has_beam_truth(input);
-  }
-
   bool alike(const Segment& a, const Segment& b) const { return angle_between(a, b) <= radians(params_.max_angle_deg); }
 
   double covered(const std::vector<Segment>& map, const Surfaces& surfaces,

@@ -15,7 +15,7 @@
 #include "core/error.hpp"
 #include "core/registry.hpp"
 #include "metrics/pose_bound.hpp"
-#include "metrics/pose_errors.hpp"
+#include "core/geometry/pose_errors.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::metrics {

@@ -14,8 +14,8 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "core/registry.hpp"
-#include "metrics/plane_alignment.hpp"
-#include "metrics/pose_errors.hpp"
+#include "core/geometry/plane_alignment.hpp"
+#include "core/geometry/pose_errors.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::metrics {

@@ -1,7 +1,9 @@
 // Figures: views of a recording and of the results on it, as scenes that any backend draws.
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,11 +29,24 @@ struct ScanVerdict {
   std::vector<Segment> missed;     ///< true lines that no line explains, sensor frame
 };
 
+/// The lines that a pipeline found beside the true walls, drawn as pixels (the metric family raster_truth).
+struct LineDifference {
+  std::vector<Segment> right{};   ///< parts of found lines near a wall, world frame
+  std::vector<Segment> wrong{};   ///< the other parts of found lines
+  std::vector<Segment> missed{};  ///< visible parts of walls without a found line near them
+  std::int64_t right_pixels = 0;
+  std::int64_t wrong_pixels = 0;
+  std::int64_t missed_pixels = 0;
+  double pixel_m = 0;      ///< side of a pixel
+  double tolerance_m = 0;  ///< what counts as near
+};
+
 struct NamedResult {
   std::string pipeline;
   const PipelineResult* result;
-  const TraceRows* trace = nullptr;     ///< the rows that the figures request; absent if none were kept
-  std::vector<ScanVerdict> verdicts{};  ///< per frame; empty without truth
+  const TraceRows* trace = nullptr;            ///< the rows that the figures request; absent if none were kept
+  std::vector<ScanVerdict> verdicts{};         ///< per frame; empty without truth
+  std::optional<LineDifference> difference{};  ///< if a figure compares_pixels(), and there is a truth
 };
 
 /// A round object of a simulated world.
@@ -40,12 +55,35 @@ struct Circle {
   double radius_m = 0;
 };
 
+/// Which values of a metric are good, and what a figure writes beside them.
+struct MetricLook {
+  enum class Best { lowest, highest, target, none };
+  std::string unit{};
+  Best best = Best::none;
+  double target = 0.0;     ///< for Best::target
+  double tolerance = 0.0;  ///< differences up to this do not matter
+};
+
+/// A mean over the seeds with its 95 % interval.
+struct MeanBand {
+  double mean = 0, low = 0, high = 0;
+};
+
 /// The metrics of one pipeline over all seeds of a run, with its parameters.
 struct MeasuredPipeline {
   std::string pipeline;
   std::map<std::string, ParamSet> slots;               ///< "merge mean_shift" and the like, with all parameters
   std::map<std::string, std::string> units;            ///< of parameters, "merge.sigma_m" and the like
   std::map<std::string, std::vector<double>> metrics;  ///< of the subject "all", a finite value per seed
+  /// The same with a value for every seed of the scenario in its order: NaN where it is undefined or the cell failed.
+  std::map<std::string, std::vector<double>> by_seed{};
+  std::map<std::string, MeanBand> bands{};  ///< of the finite values
+};
+
+/// All pipelines of one scenario.
+struct MeasuredScenario {
+  std::string name;
+  std::vector<MeasuredPipeline> pipelines{};
 };
 
 struct FigureInput {
@@ -56,8 +94,10 @@ struct FigureInput {
   std::vector<std::vector<Vec2>> body_paths{};  ///< of bodies that move through the world
   /// True if the sensor moves from each pose to the next; false if it is placed at each of them.
   bool continuous = true;
-  std::vector<NamedResult> results;          ///< in the scenario's order
-  std::vector<MeasuredPipeline> measured{};  ///< in the scenario's order
+  std::vector<NamedResult> results;           ///< in the scenario's order
+  std::vector<MeasuredPipeline> measured{};   ///< in the scenario's order
+  std::map<std::string, MetricLook> looks{};  ///< of the metrics in `measured`
+  std::vector<MeasuredScenario> scenarios{};  ///< of the whole run; only for a figure that spans_scenarios()
 };
 
 struct NamedScene {
@@ -73,6 +113,10 @@ class Figure {
   virtual ~Figure() = default;
   /// Rows of this pipeline's trace that it draws from, "slot.name". The harness keeps them.
   virtual std::vector<std::string> trace_rows(std::string_view /*pipeline*/) const { return {}; }
+  /// True if it shows NamedResult::difference, which the harness then computes.
+  virtual bool compares_pixels() const { return false; }
+  /// True if it is drawn once for a whole run, from FigureInput::scenarios alone.
+  virtual bool spans_scenarios() const { return false; }
   /// No scenes if there is nothing to show (no truth, no map).
   virtual std::vector<NamedScene> draw(const FigureInput& input) const = 0;
   /// Why draw() gives no scenes for this input, for people.

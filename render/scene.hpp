@@ -153,6 +153,7 @@ struct Scene {
   double box_aspect = 0.66;  ///< height over width of panels without equal aspect
   std::vector<LegendEntry> legend{};
   bool scale_bar = false;  ///< a bar of a round length in metres beside the legend
+  bool dark = false;       ///< light lines on a dark ground (layout/dark.hpp)
 };
 
 }  // namespace scanbench::render

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kTail = 0.025;
 constexpr int kResamples = 2000;
+constexpr std::size_t kMostResampled = 400;  // values; the mean of more is as good as normal
 
 std::vector<double> finite(std::span<const double> values) {
   std::vector<double> kept;
@@ -92,6 +93,7 @@ MeanInterval mean_interval(std::span<const double> all) {
   const bool constant = std::ranges::all_of(values, [&](double v) { return v == values.front(); });
   if (constant) return {values.front(), values.front(), values.front(), count};
   const Ends t = student_t(values, mean);
+  if (values.size() > kMostResampled) return {mean, t.low, t.high, count};
   const Ends bootstrap = bca_bootstrap(values, mean);
   return {mean, std::min(t.low, bootstrap.low), std::max(t.high, bootstrap.high), count};
 }

@@ -8,8 +8,8 @@
 
 #include "harness/analysis/verdict.hpp"
 #include "harness/nightly/comparison_tables.hpp"
-#include "harness/report/plain_text.hpp"
-#include "harness/report/table.hpp"
+#include "harness/page/plain_text.hpp"
+#include "harness/page/table.hpp"
 
 namespace scanbench::harness {
 namespace {

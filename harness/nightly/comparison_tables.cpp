@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "harness/analysis/verdict.hpp"
-#include "harness/report/plain_text.hpp"
+#include "harness/page/plain_text.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -27,9 +27,19 @@ std::string interval(const MetricChange& change) {
   return fmt::format("{:+.3g} … {:+.3g}", change.difference.low, change.difference.high);
 }
 
-std::string worst_seed(const MetricChange& change) {
+/// The folder of a pipeline's cells, as a link from a page in the run folder.
+std::string cells_link(const MetricChange& change) {
+  return "cells/" + change.scenario + "/" + change.pipeline + "/";
+}
+
+TableCell worst_seed(const MetricChange& change, const std::string& run) {
   const SeedPair* worst = change.finding == Finding::same ? nullptr : change.worst();
-  return worst == nullptr ? "–" : std::to_string(worst->seed);
+  if (worst == nullptr) return {"–"};
+  TableCell cell{.text = std::to_string(worst->seed)};
+  cell.link = cells_link(change) + cell.text + "/";
+  cell.hint = fmt::format("scanbench show {} --scenario {} --pipeline {} --seed {}", shell_word(run), change.scenario,
+                          change.pipeline, worst->seed);
+  return cell;
 }
 
 void add_cells(Table& table, const std::string& what, const std::vector<CellKey>& cells) {
@@ -53,7 +63,8 @@ void shorten(Table& table) {
 
 }  // namespace
 
-Table change_table(const std::string& id, const std::string& title, const std::vector<const MetricChange*>& changes) {
+Table change_table(const std::string& id, const std::string& title, const std::vector<const MetricChange*>& changes,
+                   const std::string& run) {
   Table table{id,
               title,
               "",
@@ -74,14 +85,14 @@ Table change_table(const std::string& id, const std::string& title, const std::v
     if (change->lost > 0) finding += fmt::format(" (undefined on {})", change->lost);
     table.rows.push_back({{change->scenario, change->pipeline, change->metric.metric + unit, finding},
                           {{shown(change->before)},
-                           {shown(change->after)},
+                           {.text = shown(change->after), .link = cells_link(*change)},
                            {signed_number(change->difference.mean)},
                            {interval(*change)},
                            {shown(change->metric.tolerance)},
                            {std::isfinite(change->effect) ? fmt::format("{:+.2f}", change->effect) : "–"},
                            {std::isfinite(change->q) ? fmt::format("{:.2g}", change->q) : "–"},
                            {std::to_string(change->pairs.size())},
-                           {worst_seed(*change)}},
+                           worst_seed(*change, run)},
                           false});
   }
   shorten(table);
@@ -105,7 +116,7 @@ std::optional<Table> completeness_table(const Comparison& comparison) {
 std::vector<Table> comparison_tables(const Comparison& comparison, bool all) {
   std::vector<Table> tables;
   const auto add = [&](const char* id, const char* title, Finding finding, bool gates_only, const char* caption) {
-    Table table = change_table(id, title, changes_with(comparison, finding, gates_only));
+    Table table = change_table(id, title, changes_with(comparison, finding, gates_only), comparison.after);
     if (table.rows.empty()) return;
     table.caption = caption + (table.caption.empty() ? "" : " " + table.caption);
     tables.push_back(std::move(table));

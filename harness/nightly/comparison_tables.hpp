@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "harness/analysis/comparison.hpp"
-#include "harness/report/table.hpp"
+#include "harness/page/table.hpp"
 
 namespace scanbench::harness {
 
 /// A row per change: scenario, pipeline, metric; before, after, difference with its interval, tolerance, effect, q, the
-/// seed that became worse by most.
-Table change_table(const std::string& id, const std::string& title, const std::vector<const MetricChange*>& changes);
+/// seed that became worse by most. On a page in the folder `run`, values lead to the folder of their cells, and the
+/// seed has the command that shows its worst scan.
+Table change_table(const std::string& id, const std::string& title, const std::vector<const MetricChange*>& changes,
+                   const std::string& run);
 
 /// Cells that are broken, mended, failing in both runs, missing or new; nullopt if there are none.
 std::optional<Table> completeness_table(const Comparison& comparison);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -16,11 +17,13 @@
 #include "harness/nightly/baseline.hpp"
 #include "harness/nightly/comparison_files.hpp"
 #include "harness/nightly/night_page.hpp"
+#include "harness/report/figures.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/report/shown_scan.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_lock.hpp"
+#include "harness/store/summary.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -29,7 +32,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kTrendNights = 30;
 constexpr std::size_t kPictures = 6;
-constexpr std::size_t kListedChanges = 40;  // with a trend
+constexpr std::size_t kListedChanges = 40;         // with a trend
+constexpr std::size_t kWorstScans = 10;            // of each pipeline
+constexpr std::uintmax_t kLargestFigure = 200000;  // bytes, so that the page stays small
 
 struct Reference {
   std::string text;
@@ -82,11 +87,11 @@ std::vector<const MetricChange*> listed_changes(const Comparison& comparison) {
 }
 
 /// `frame` receives the number of the scan.
-std::optional<ScanPicture> picture_of(const fs::path& run, const ScanChoice& choice, const std::string& when,
+std::optional<PagePicture> picture_of(const fs::path& run, const ScanChoice& choice, const std::string& when,
                                       std::size_t* frame = nullptr) try {
   const ShownScan shown = show_scan(run, choice);
   if (frame != nullptr) *frame = shown.frame;
-  return ScanPicture{when + ": " + shown.text, picture_bytes(shown.scene, "scan.png")};
+  return PagePicture{when + ": " + shown.text, picture_bytes(shown.scene, "scan.png")};
 } catch (const ConfigError&) {  // a pipeline without lines, or a run without scans.csv
   return std::nullopt;
 }
@@ -115,6 +120,27 @@ std::vector<PicturePair> pictures_of(const fs::path& run, const fs::path& last_g
   return pictures;
 }
 
+/// The figures of scenarios in which a gate became worse, beside those of the last good night.
+std::vector<PicturePair> figures_of(const fs::path& run, const fs::path& last_good, const Comparison& comparison) {
+  std::set<std::string> scenarios;
+  for (const MetricChange* change : changes_with(comparison, Finding::worse)) scenarios.insert(change->scenario);
+  const auto picture_in = [](const fs::path& folder, const FigureFile& figure,
+                             const std::string& when) -> std::optional<PagePicture> {
+    const fs::path file = folder / "figures" / (figure.name + ".png");
+    if (!fs::exists(file) || fs::file_size(file) > kLargestFigure) return std::nullopt;
+    return PagePicture{when + ": " + figure.caption, read_file(file)};
+  };
+  std::vector<PicturePair> figures;
+  for (const auto& figure : load_figure_index(run / "figures")) {
+    if (figure.name.empty() || !scenarios.contains(figure.scenario) || figures.size() == kPictures) continue;
+    PicturePair pair{figure.name, picture_in(last_good, figure, "in the last good night"),
+                     picture_in(run, figure, "now")};
+    const bool is_equal = pair.before && pair.now && pair.before->png == pair.now->png;
+    if (pair.now && !is_equal) figures.push_back(std::move(pair));
+  }
+  return figures;
+}
+
 /// Where the run folder of the last good night is kept.
 fs::path last_good_folder(const fs::path& run) {
   const fs::path whole = fs::absolute(run).lexically_normal();
@@ -127,7 +153,7 @@ void keep_good_night(const fs::path& run) {
   const fs::path kept = last_good_folder(run);
   StagedFolder staged(kept);
   const auto links = fs::copy_options::recursive | fs::copy_options::create_hard_links;
-  for (const char* folder : {"cells", "recordings", "effective", "inputs"})
+  for (const char* folder : {"cells", "recordings", "effective", "inputs", "figures"})
     if (fs::exists(run / folder)) fs::copy(run / folder, staged.path() / folder, links);
   for (const char* file : {"manifest.json", "effective.yaml", "summary.csv"})
     if (fs::exists(run / file)) fs::copy_file(run / file, staged.path() / file);
@@ -149,6 +175,9 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
   input.now = load_run_results(plan.run);
   input.facts = manifest_facts(plan.run);
   if (fs::exists(plan.run / kReportPage)) input.report = kReportPage.name();
+  input.rankings = rank_methods(input.now.cells, load_cell_seconds(plan.run, input.now.cells));
+  input.worst = worst_scans(plan.run, input.now, kWorstScans);
+  input.files = {kSummaryFile.name(), kManifestFile.name()};
   const std::int64_t tonight = store.add(plan.suite, plan.run, input.now);
 
   NightOutcome outcome;
@@ -163,6 +192,9 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
       input.trends[change->scenario + "/" + change->pipeline + "/" + change->metric.metric] =
           store.trend(plan.suite, change->scenario, change->pipeline, change->metric.metric, kTrendNights);
     input.pictures = pictures_of(plan.run, last_good_folder(plan.run), comparison);
+    input.figures = figures_of(plan.run, last_good_folder(plan.run), comparison);
+    for (const RunFile* file : {&kComparisonJson, &kComparisonMarkdown, &kComparisonJunit})
+      input.files.push_back(file->name());
     write_file_atomically(plan.run / kComparisonJson, comparison_json(comparison));
     write_file_atomically(plan.run / kComparisonMarkdown, comparison_markdown(comparison));
     write_file_atomically(plan.run / kComparisonJunit, comparison_junit(comparison));

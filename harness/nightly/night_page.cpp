@@ -10,10 +10,12 @@
 #include "harness/analysis/verdict.hpp"
 #include "harness/files/base64.hpp"
 #include "harness/nightly/comparison_tables.hpp"
-#include "harness/nightly/sparkline.hpp"
-#include "harness/report/html_page.hpp"
-#include "harness/report/plain_text.hpp"
-#include "harness/report/table.hpp"
+#include "harness/page/html_page.hpp"
+#include "harness/page/plain_text.hpp"
+#include "harness/page/scan_sketch.hpp"
+#include "harness/page/sparkline.hpp"
+#include "harness/page/table.hpp"
+#include "harness/report/ranking_parts.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -42,16 +44,16 @@ std::string list_of(const std::vector<std::string>& items) {
   return out + "</ul>\n";
 }
 
-std::string picture(const std::optional<ScanPicture>& scan) {
+std::string picture(const std::optional<PagePicture>& scan) {
   if (!scan) return "";
   return fmt::format(
       "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
       escaped(scan->caption), base64(scan->png));
 }
 
-std::string pictures(const NightInput& input) {
+std::string picture_pairs(const std::vector<PicturePair>& pairs) {
   std::string out;
-  for (const auto& pair : input.pictures)
+  for (const auto& pair : pairs)
     out += "<h3>" + escaped(pair.title) + "</h3>\n<div class=\"pair\">\n" + picture(pair.before) + picture(pair.now) +
            "</div>\n";
   return out;
@@ -75,7 +77,8 @@ std::string trends(const NightInput& input) {
 }
 
 /// One word per pipeline and scenario: the worst that happened there.
-std::string matrix(const Comparison& comparison) {
+/// It leads to the scenario in the report.
+std::string matrix(const Comparison& comparison, const std::string& report) {
   std::vector<std::string> scenarios, pipelines;
   const auto add_name = [](std::vector<std::string>& names, const std::string& name) {
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
@@ -108,7 +111,9 @@ std::string matrix(const Comparison& comparison) {
       if (better > 0) text = fmt::format("▲ {} better", better);
       if (worse > 0) text = fmt::format("▼ {} worse", worse);
       if (broken > 0) text = fmt::format("✗ {} broken", broken);
-      row.cells.push_back({text, worse > 0 || broken > 0});
+      TableCell cell{.text = std::move(text), .best = false};
+      if (all > 0 && !report.empty()) cell.link = report + "#" + scenario;
+      row.cells.push_back(std::move(cell));
     }
     table.rows.push_back(std::move(row));
   }
@@ -140,6 +145,40 @@ std::string definitions(const NightInput& input) {
   return out.empty() ? "" : "<dl>\n" + out + "</dl>\n";
 }
 
+/// The worst scans of each pipeline, each with the command that draws it large.
+std::string worst_list(const NightInput& input) {
+  if (input.worst.empty()) return "";
+  std::string out =
+      "<p>Lowest F1 over all scenarios and seeds first. The pointer on a name shows the command that draws the scan "
+      "large.</p>\n" +
+      scan_sketch_key();
+  for (const auto& [pipeline, scans] : input.worst) {
+    out += "<h3>" + escaped(pipeline) + "</h3>\n<div class=\"scans\">\n";
+    for (const auto& scan : scans) {
+      const std::string command =
+          fmt::format("scanbench show {} --scenario {} --pipeline {} --seed {} --frame {}", shell_word(input.now.name),
+                      scan.key.scenario, scan.key.pipeline, scan.key.seed, scan.frame);
+      out += fmt::format(
+          "<figure>{}<figcaption><a href=\"cells/{}/\" title=\"{}\">{}, seed {}, scan {}</a>: F1 {:.2f}, {} false, {} "
+          "missed, {} split</figcaption></figure>\n",
+          scan.sketch, escaped(to_string(scan.key)), escaped(command), escaped(scan.key.scenario), scan.key.seed,
+          scan.frame, scan.f1, scan.false_lines, scan.missed, scan.split);
+    }
+    out += "</div>\n";
+  }
+  return out;
+}
+
+std::string file_list(const NightInput& input) {
+  std::string out;
+  if (!input.report.empty())
+    out +=
+        fmt::format("<li><a href=\"{}\">The report of this run</a>: every scenario with its tables and figures</li>\n",
+                    escaped(input.report));
+  for (const auto& file : input.files) out += fmt::format("<li><a href=\"{0}\">{0}</a></li>\n", escaped(file));
+  return out.empty() ? "" : "<p>Beside this page in the run folder:</p>\n<ul>\n" + out + "</ul>\n";
+}
+
 /// The table of that id. The page's own heading stands above it, unless it has `own_title`.
 std::string table_of(const Comparison& comparison, const std::string& id, bool own_title = false) {
   for (auto& table : comparison_tables(comparison)) {
@@ -150,35 +189,27 @@ std::string table_of(const Comparison& comparison, const std::string& id, bool o
   return "";
 }
 
-/// A part of the page: the id of its heading, the heading, and what is below it. Empty parts are left out.
-struct Part {
-  std::string id;
-  std::string title;
-  std::string body;
-};
-
-std::vector<Part> parts_of(const NightInput& input) {
-  std::vector<Part> parts;
+std::vector<PagePart> parts_of(const NightInput& input) {
+  std::vector<PagePart> parts;
   const auto add = [&](const char* id, const char* title, std::string body) {
-    if (!body.empty()) parts.push_back({id, title, std::move(body)});
+    parts.push_back({id, title, std::move(body)});
   };
   if (const auto& comparison = input.comparison) {
     const std::string worse = table_of(*comparison, "worse");
     add("worse-section", "What became worse",
-        (worse.empty() ? "<p>Nothing.</p>\n" : worse) + pictures(input) + table_of(*comparison, "uncertain", true));
+        (worse.empty() ? "<p>Nothing.</p>\n" : worse) + picture_pairs(input.pictures) +
+            table_of(*comparison, "uncertain", true));
     add("differs-section", "What differs", list_of(comparison->differing));
     add("better-section", "What became better", table_of(*comparison, "better"));
     add("cells-section", "Completeness", table_of(*comparison, "completeness"));
-    add("matrix-section", "Pipelines × scenarios", matrix(*comparison));
+    add("matrix-section", "Pipelines × scenarios", matrix(*comparison, input.report));
+    add("figures-section", "Figures of what became worse", picture_pairs(input.figures));
   }
-  if (!input.report.empty())
-    add("report-section", "Rankings, tables and figures",
-        fmt::format(
-            "<p><a href=\"{}\">The report of this run</a> ranks the pipelines and shows every scenario with its "
-            "figures.</p>\n",
-            escaped(input.report)));
+  add("rankings-section", "Rankings, and accuracy against time", html_rankings(input.rankings, input.report));
+  add("worst-section", "The worst scans of each pipeline", worst_list(input));
   add("trends-section", "Trends", trends(input));
   add("nights-section", "Nights", history(input));
+  add("files-section", "Files", file_list(input));
   add("definitions-section", "What the metrics mean", definitions(input));
   return parts;
 }
@@ -186,15 +217,8 @@ std::vector<Part> parts_of(const NightInput& input) {
 }  // namespace
 
 std::string night_page(const NightInput& input) {
-  std::string body;
-  std::vector<std::pair<std::string, std::string>> links;
-  for (const auto& [id, title, text] : parts_of(input)) {
-    links.emplace_back(id, title);
-    body += fmt::format("<h2 id=\"{}\">{}</h2>\n{}", id, title, text);
-  }
-  links.emplace_back("facts", "Provenance");
   return html_page("scanbench, night of " + input.suite,
-                   verdict_banner(input) + contents(links) + body + html_facts(input.facts));
+                   verdict_banner(input) + html_parts(parts_of(input), input.facts));
 }
 
 }  // namespace scanbench::harness

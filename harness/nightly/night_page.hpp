@@ -8,24 +8,26 @@
 #include <vector>
 
 #include "harness/analysis/comparison.hpp"
+#include "harness/analysis/method_ranking.hpp"
 #include "harness/nightly/store.hpp"
+#include "harness/report/worst_scans.hpp"
 #include "harness/store/run_file.hpp"
 
 namespace scanbench::harness {
 
 inline const RunFile kNightPage("nightly.html");
 
-/// A picture of one scan with a pipeline's lines, as PNG.
-struct ScanPicture {
+/// A figure, or one scan with a pipeline's lines, as PNG.
+struct PagePicture {
   std::string caption;
   std::string png;
 };
 
-/// The scan that shows a change: as it was in the last good night, if that is known, and as it is now.
+/// A scan or a figure that shows a change: as it was in the last good night, if that is known, and as it is now.
 struct PicturePair {
-  std::string title;  ///< "abcdef/iepf/3: f1 from 0.93 to 0.9"
-  std::optional<ScanPicture> before;
-  std::optional<ScanPicture> now;
+  std::string title;  ///< "abcdef/iepf/3: the worst scan"
+  std::optional<PagePicture> before;
+  std::optional<PagePicture> now;
 };
 
 struct NightInput {
@@ -39,10 +41,14 @@ struct NightInput {
   std::vector<Night> nights;  ///< of this suite, oldest first, this one last
   /// Of every change that the page lists: the values of the last nights, by "scenario/pipeline/metric".
   std::map<std::string, std::vector<TrendPoint>> trends;
-  std::vector<PicturePair> pictures;
+  std::vector<PicturePair> pictures;  ///< scans of pipelines that became worse
+  std::vector<PicturePair> figures;   ///< of scenarios in which something became worse
+  std::vector<MethodRanking> rankings;
+  std::vector<PipelineWorst> worst;
   std::vector<std::pair<std::string, std::string>> facts;  ///< how to get the numbers again
   std::size_t reused = 0;                                  ///< cells that were not run again, because nothing changed
-  std::string report;  ///< the run's own report beside this page: a relative link; empty: there is none
+  std::string report;              ///< the run's own report beside this page: a relative link; empty: there is none
+  std::vector<std::string> files;  ///< other files beside this page that hold its numbers
 };
 
 /// Self-contained HTML: no request, light and dark, readable without JavaScript.

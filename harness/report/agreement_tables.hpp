@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/analysis/agreement.hpp"
-#include "harness/report/table.hpp"
+#include "harness/page/table.hpp"
 
 namespace scanbench::harness {
 

@@ -137,10 +137,11 @@ const Scenario& example_of(const std::vector<Scenario>& scenarios, const Benchma
 
 class Drawer {
  public:
-  Drawer(const fs::path& run, const std::vector<Scenario>& scenarios, const BenchmarkSpec& spec, bool pdf)
+  Drawer(const fs::path& run, const std::vector<Scenario>& scenarios, const BenchmarkSpec& spec,
+         const FigureOptions& options)
       : run_(run),
         scenarios_(scenarios),
-        pdf_(pdf),
+        options_(options),
         rows_(load_summary(run / kSummaryFile)),
         seeds_(seeds_of(rows_)),
         subject_(spec.subject()),
@@ -182,7 +183,7 @@ class Drawer {
 
  private:
   void write(const std::string& name, const std::string& caption, const FacetChart& chart) {
-    write_figure(run_, "benchmark_" + name, render::facet_scene(chart), pdf_);
+    write_figure(figure_folder(run_, options_), "benchmark_" + name, render::facet_scene(chart), caption, options_);
     files_.push_back({"benchmark", "benchmark_" + name, caption});
   }
 
@@ -319,12 +320,12 @@ class Drawer {
                       [&](const PipelineSpec& p) { return std::ranges::find(names_, p.name) - names_.begin(); });
     const ParamSet params = resolve(Registry<render::Figure>::all().at("scan_overlay").params, {});
     scenario.figures = {{"figure", "scan_overlay", params}};
-    for (auto& figure : draw_figures(run_, scenario, pdf_)) files_.push_back(std::move(figure));
+    for (auto& figure : draw_figures(run_, scenario, options_)) files_.push_back(std::move(figure));
   }
 
   const fs::path& run_;
   const std::vector<Scenario>& scenarios_;
-  bool pdf_;
+  const FigureOptions& options_;
   std::vector<SummaryRow> rows_;
   std::vector<std::uint64_t> seeds_;
   const BenchmarkSubject& subject_;
@@ -337,9 +338,9 @@ class Drawer {
 }  // namespace
 
 std::vector<FigureFile> draw_benchmark_figures(const fs::path& run, const std::vector<Scenario>& scenarios,
-                                               const BenchmarkSpec& spec, bool pdf,
+                                               const BenchmarkSpec& spec, const FigureOptions& options,
                                                const std::function<void(double, const std::string&)>& progress) {
-  return Drawer(run, scenarios, spec, pdf).draw(progress);
+  return Drawer(run, scenarios, spec, options).draw(progress);
 }
 
 }  // namespace scanbench::harness

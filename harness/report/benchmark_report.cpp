@@ -10,9 +10,10 @@
 #include <fmt/ranges.h>
 
 #include "core/geometry/geometry.hpp"
-#include "harness/report/html_page.hpp"
+#include "harness/page/html_page.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/report/level_table.hpp"
-#include "harness/report/plain_text.hpp"
+#include "harness/report/page_parts.hpp"
 #include "harness/report/ranking_table.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/modules.hpp"
@@ -246,24 +247,28 @@ std::vector<std::pair<std::string, std::string>> numbered_figures(const Benchmar
 
 std::string benchmark_html(const ReportInput& input, const BenchmarkSpec& spec) {
   const auto ranking = rank_pipelines(input.scenarios, input.rows, spec);
-  std::string out =
+  const std::string answer =
       fmt::format("<p><b>{}</b> {}</p>\n", html_escaped(answer_text(ranking, spec)), html_escaped(spec.about)) +
       html_status(input.cells);
-  out += fmt::format("<h2>What was run</h2>\n<p>{}</p>\n", html_escaped(run_text(input, spec)));
-  out += "<div class=\"figures compact plain\">\n" + to_html(worlds_table(input)) + to_html(sensors_table(input)) +
-         "</div>\n";
-  out += "<h2>Ranking</h2>\n<div class=\"compact\">" + to_html(ranking_table(ranking, spec)) + "</div>\n";
-  out += fmt::format("<p>{}</p>\n", html_escaped(significance_text(ranking)));
-  out += levels_html(input, spec, ranking);
-  out += "<h2>Figures</h2>\n<div class=\"beside\">\n";
-  for (const auto& [name, number] : numbered_figures(spec)) out += figure_html(input, name, number);
-  out += "</div>\n<h2>How the columns are defined</h2>\n<p>" + html_escaped(spec.subject().method) + "</p>\n<dl>\n";
+  std::string figures = "<div class=\"beside\">\n";
+  for (const auto& [name, number] : numbered_figures(spec)) figures += figure_html(input, name, number);
+  std::string columns = "<p>" + html_escaped(spec.subject().method) + "</p>\n<dl>\n";
   for (const auto& [head, text] : definitions(spec))
-    out += "<dt>" + html_escaped(head) + "</dt><dd>" + html_escaped(text) + "</dd>\n";
-  out += "</dl>\n<div class=\"prose plain\">" + to_html(modules_table(input, spec, ranking)) +
-         "</div>\n<h2>What it does not show</h2>\n<ul>\n";
-  for (const auto& limit : spec.subject().limits) out += "<li>" + html_escaped(limit) + "</li>\n";
-  return html_page(input.title, out + "</ul>\n" + html_facts(input.facts));
+    columns += "<dt>" + html_escaped(head) + "</dt><dd>" + html_escaped(text) + "</dd>\n";
+  std::string limits = "<ul>\n";
+  for (const auto& limit : spec.subject().limits) limits += "<li>" + html_escaped(limit) + "</li>\n";
+  const std::vector<PagePart> parts{
+      {"ranking-section", "Ranking",
+       "<div class=\"compact\">" + to_html(ranking_table(ranking, spec)) + "</div>\n<p>" +
+           html_escaped(significance_text(ranking)) + "</p>\n" + levels_html(input, spec, ranking)},
+      {"figures-section", "Figures", figures + "</div>\n"},
+      {"run-section", "What was run",
+       "<p>" + html_escaped(run_text(input, spec)) + "</p>\n<div class=\"figures compact plain\">\n" +
+           to_html(worlds_table(input)) + to_html(sensors_table(input)) + "</div>\n" + html_remarks(input.cells)},
+      {"columns-section", "How the columns are defined",
+       columns + "</dl>\n<div class=\"prose plain\">" + to_html(modules_table(input, spec, ranking)) + "</div>\n"},
+      {"limits-section", "What it does not show", limits + "</ul>\n"}};
+  return html_page(input.title, answer + html_parts(parts, input.facts));
 }
 
 std::string benchmark_markdown(const ReportInput& input, const BenchmarkSpec& spec) {
@@ -282,7 +287,7 @@ std::string benchmark_markdown(const ReportInput& input, const BenchmarkSpec& sp
   for (const auto& [head, text] : definitions(spec)) out += "- " + head + ": " + text + "\n";
   out += "\n" + to_markdown(modules_table(input, spec, ranking)) + "\n## What it does not show\n\n";
   for (const auto& limit : spec.subject().limits) out += "- " + limit + "\n";
-  return out + markdown_facts(input.facts);
+  return out + markdown_remarks(input.cells) + markdown_facts(input.facts);
 }
 
 }  // namespace scanbench::harness

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/modules.hpp"
 #include "core/names.hpp"
-#include "harness/report/table.hpp"
+#include "harness/page/table.hpp"
 #include "harness/scenario/sections.hpp"
 #include "metrics/metric.hpp"
 #include "render/figure.hpp"

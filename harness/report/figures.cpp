@@ -1,16 +1,25 @@
 // Draws the registered figures from the files of a run, and writes them.
 #include "harness/report/figures.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <system_error>
+#include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "core/registry.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/text_file.hpp"
+#include "harness/report/figure_input/line_difference.hpp"
+#include "harness/report/figure_input/measured.hpp"
 #include "harness/report/line_verdicts.hpp"
+#include "harness/report/recording_note.hpp"
 #include "harness/scenario/figure_pipelines.hpp"
-#include "harness/scenario/modules.hpp"
 #include "harness/scenario/simulation_input.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
@@ -26,7 +35,8 @@ namespace scanbench::harness {
 namespace {
 
 const RunFile kIndexFile("figures/index.json");
-const RunFile kFigureFiles[] = {RunFile("figures/*.svg"), RunFile("figures/*.png"), RunFile("figures/*.pdf")};
+const RunFile kFigureFiles[] = {RunFile("figures/*.svg"), RunFile("figures/*.png"), RunFile("figures/*.pdf"),
+                                RunFile("figures/*.caption.txt")};
 
 namespace fs = std::filesystem;
 
@@ -46,38 +56,124 @@ std::vector<LoadedResult> finished_results(const fs::path& run, const Scenario& 
   return results;
 }
 
-/// The values of metrics.csv of all finished cells, by pipeline.
-std::vector<render::MeasuredPipeline> measured_pipelines(const fs::path& run, const Scenario& scenario) {
-  std::vector<render::MeasuredPipeline> all;
-  for (const auto& pipeline : scenario.pipelines) {
-    render::MeasuredPipeline measured{.pipeline = pipeline.name, .slots = {}, .units = {}, .metrics = {}};
-    for (const auto& slot : pipeline.slots) {
-      measured.slots[slot.kind + " " + slot.module] = slot.params;
-      for (const auto& spec : find_module(slot.kind, slot.module).params)
-        measured.units[slot.kind + "." + spec.name] = spec.unit;
-    }
-    for (const std::uint64_t seed : scenario.seeds) {
-      const fs::path cell = cell_path(run, {scenario.name, pipeline.name, seed});
-      if (!fs::exists(cell / kMetricsFile)) continue;
-      for (const auto& row : load_metrics(cell))
-        if (row.subject == "all" && std::isfinite(row.value)) measured.metrics[row.metric].push_back(row.value);
-    }
-    all.push_back(std::move(measured));
-  }
-  return all;
+std::unique_ptr<render::Figure> figure_of(const ModuleChoice& choice) {
+  return Registry<render::Figure>::make(choice.module, choice.params);
+}
+
+/// The scenario with these pipelines only; with all of them if the list is empty.
+Scenario with_pipelines(Scenario scenario, const std::vector<std::string>& names) {
+  if (!names.empty())
+    std::erase_if(scenario.pipelines, [&](const PipelineSpec& p) { return std::ranges::count(names, p.name) == 0; });
+  return scenario;
+}
+
+bool shows_one_scan(const ModuleChoice& figure) {
+  return figure.params.contains("frame");
+}
+
+ParamSet with_frame(ParamSet params, const std::optional<std::size_t>& frame) {
+  if (frame && params.contains("frame")) params["frame"] = static_cast<std::int64_t>(*frame);
+  return params;
+}
+
+void check_frame(const std::optional<std::size_t>& frame, const Recording& recording, const Scenario& scenario) {
+  const std::size_t frames = recording.observed.frames.size();
+  if (!frame || *frame < frames || std::ranges::none_of(scenario.figures, shows_one_scan)) return;
+  if (frames == 0) throw ConfigError("--frame: the recording of " + scenario.name + " has no scans");
+  throw ConfigError(fmt::format("--frame: {} has no scan {}; allowed: 0 to {}", scenario.name, *frame, frames - 1));
+}
+
+/// A picture that would be wider than PNG files may be is refused before any is drawn.
+void check_size(const FigureOptions& options) {
+  constexpr double kMostPixels = 20000.0;
+  const double pixels = options.style.width_mm / 25.4 * options.dpi;
+  if (std::ranges::count(options.formats, "png") > 0 && pixels > kMostPixels)
+    throw ConfigError(fmt::format(
+        "a picture {} mm wide at {} dpi has {:.0f} pixels; allowed: up to {:.0f}, that is {} "
+        "mm at this resolution or {:.0f} dpi at this width",
+        options.style.width_mm, options.dpi, pixels, kMostPixels, std::floor(kMostPixels / options.dpi * 25.4),
+        std::floor(kMostPixels * 25.4 / options.style.width_mm)));
+}
+
+/// Throws ConfigError for a folder that holds anything but figures of this program.
+void check_folder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(folder, error))) return;
+  if (!fs::is_directory(folder, error)) throw ConfigError(folder.string() + ": not a folder");
+  const bool is_empty = fs::directory_iterator(folder, error) == fs::directory_iterator();
+  if (!is_empty && !fs::exists(folder / kIndexFile, error))
+    throw ConfigError(folder.string() +
+                      ": not a folder of figures, because it has files but no index.json; name a new or empty folder");
+  load_figure_index(folder);
 }
 
 }  // namespace
 
-std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenario, bool pdf,
+void check_figure_options(const FigureOptions& options, const std::vector<Scenario>& scenarios) {
+  std::vector<std::string> known;
+  bool has_frame = false;
+  for (const auto& scenario : scenarios) {
+    for (const auto& pipeline : scenario.pipelines)
+      if (std::ranges::count(known, pipeline.name) == 0) known.push_back(pipeline.name);
+    has_frame = has_frame || std::ranges::any_of(scenario.figures, shows_one_scan);
+  }
+  for (const std::string& name : options.pipelines)
+    if (std::ranges::count(known, name) == 0)
+      throw ConfigError("--pipelines: the run has no pipeline " + quoted_excerpt(name) + known_names(name, known));
+  if (options.frame && !has_frame)
+    throw ConfigError("--frame: none of the figures shows a single scan; scan_overlay and environment do");
+  check_size(options);
+  if (!options.folder.empty()) check_folder(options.folder);
+}
+
+std::vector<FigureFile> draw_run_wide_figures(const fs::path& run, const std::vector<Scenario>& scenarios,
+                                              const FigureOptions& options) {
+  std::vector<ModuleChoice> choices;
+  for (const Scenario& scenario : scenarios)
+    for (const ModuleChoice& choice : scenario.figures) {
+      const auto same = [&](const ModuleChoice& c) { return c.module == choice.module && c.params == choice.params; };
+      if (figure_of(choice)->spans_scenarios() && std::ranges::none_of(choices, same)) choices.push_back(choice);
+    }
+  if (choices.empty()) return {};
+  const Recording none{};
+  render::FigureInput input{.title = scenarios.size() == 1 ? scenarios.front().name : "all scenarios",
+                            .recording = none,
+                            .waypoints = {},
+                            .results = {}};
+  input.looks = metric_looks();
+  for (const Scenario& scenario : scenarios)
+    input.scenarios.push_back({scenario.name, measured_pipelines(run, with_pipelines(scenario, options.pipelines))});
+  std::vector<FigureFile> files;
+  for (const ModuleChoice& choice : choices) {
+    const auto figure = figure_of(choice);
+    const auto scenes = figure->draw(input);
+    const std::string owner = scenarios.front().name;  // the report shows it there
+    if (scenes.empty()) files.push_back({owner, "", choice.module + " is not drawn: " + figure->why_nothing(input)});
+    for (const auto& drawn : scenes) {
+      const auto taken = [&](const std::string& name) {
+        return std::ranges::find(files, name, &FigureFile::name) != files.end();
+      };
+      std::string name = "all_" + drawn.name;
+      for (int k = 2; taken(name); ++k) name = fmt::format("all_{}_{}", drawn.name, k);
+      write_figure(figure_folder(run, options), name, drawn.scene, drawn.caption, options);
+      files.push_back({owner, name, drawn.caption});
+    }
+  }
+  return files;
+}
+
+std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& all, const FigureOptions& options,
                                      const std::function<void(double, const std::string&)>& progress) {
+  const Scenario scenario = with_pipelines(all, options.pipelines);
   const std::uint64_t seed = scenario.seeds.front();
   const fs::path folder = recording_path(run, scenario.name, seed);
   if (scenario.figures.empty() || !fs::exists(folder)) return {};
   const Recording recording = load_recording(folder);
+  check_frame(options.frame, recording, scenario);
   const std::vector<LoadedResult> results = finished_results(run, scenario, seed);
   render::FigureInput input{.title = scenario.name, .recording = recording, .waypoints = {}, .results = {}};
   input.measured = measured_pipelines(run, scenario);
+  input.looks = metric_looks();
   if (std::holds_alternative<SimulatedInput>(scenario.input)) {
     const sim::SimulationInput simulated = simulation_input(scenario, seed);
     input.waypoints = simulated.trajectory.waypoints;
@@ -85,44 +181,63 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& scenar
     for (const sim::Circle& circle : simulated.world.circles) input.circles.push_back({circle.center, circle.radius_m});
     for (const sim::MovingBody& body : simulated.world.moving) input.body_paths.push_back(body.path);
   }
+  const bool pixels = std::ranges::any_of(
+      scenario.figures, [](const ModuleChoice& choice) { return figure_of(choice)->compares_pixels(); });
   for (const auto& loaded : results)
-    input.results.push_back({loaded.pipeline, &loaded.result, &loaded.trace,
-                             line_verdicts(recording, loaded.result, segment_rules(scenario.metrics))});
+    input.results.push_back(
+        {loaded.pipeline, &loaded.result, &loaded.trace,
+         line_verdicts(recording, loaded.result, segment_rules(scenario.metrics)),
+         pixels ? line_difference(recording, loaded.result, raster_rules(scenario.metrics)) : std::nullopt});
 
+  const std::string note = recording_note(scenario, seed), title_note = recording_title_note(scenario, seed);
   std::vector<FigureFile> files;
   for (std::size_t i = 0; i < scenario.figures.size(); ++i) {
     const auto& choice = scenario.figures[i];
     if (progress) progress(static_cast<double>(i) / static_cast<double>(scenario.figures.size()), choice.module);
-    const auto figure = Registry<render::Figure>::make(choice.module, choice.params);
-    const auto scenes = figure->draw(input);
+    const auto figure = figure_of({choice.kind, choice.module, with_frame(choice.params, options.frame)});
+    if (figure->spans_scenarios()) continue;
+    auto scenes = figure->draw(input);
     if (scenes.empty())
       files.push_back({scenario.name, "", choice.module + " is not drawn: " + figure->why_nothing(input)});
-    for (const auto& drawn : scenes) {
-      const std::string name = scenario.name + "_" + drawn.name;
-      write_figure(run, name, drawn.scene, pdf);
-      files.push_back({scenario.name, name, drawn.caption});
+    for (auto& drawn : scenes) {
+      std::string name = options.name.empty() ? scenario.name + "_" + drawn.name : options.name;
+      if (!options.name.empty() && scenes.size() > 1) name += "_" + drawn.name;
+      if (!drawn.scene.title.empty() && !title_note.empty()) drawn.scene.title += " (" + title_note + ")";
+      const std::string caption = drawn.caption + " " + note;
+      write_figure(figure_folder(run, options), name, drawn.scene, caption, options);
+      files.push_back({scenario.name, name, caption});
     }
   }
   return files;
 }
 
-void write_figure(const fs::path& run, const std::string& name, const render::Scene& scene, bool pdf) {
-  make_folders(run / "figures");
-  write_file_atomically(run / "figures" / (name + ".svg"), render::to_svg(scene));
-  write_file_atomically(run / "figures" / (name + ".png"), render::to_png(scene));
-  if (pdf) write_file_atomically(run / "figures" / (name + ".pdf"), render::to_pdf(scene));
+fs::path figure_folder(const fs::path& run, const FigureOptions& options) {
+  return options.folder.empty() ? run / "figures" : options.folder;
 }
 
-void save_figure_index(const fs::path& run, const std::vector<FigureFile>& figures) {
+void write_figure(const fs::path& folder, const std::string& name, const render::Scene& scene,
+                  const std::string& caption, const FigureOptions& options) {
+  make_folders(folder);
+  const render::Scene drawn = render::styled(scene, options.style);
+  for (const std::string& format : options.formats) {
+    const std::string bytes = format == "png"   ? render::to_png(drawn, options.dpi)
+                              : format == "pdf" ? render::to_pdf(drawn)
+                                                : render::to_svg(drawn);
+    write_file_atomically(folder / (name + "." + format), bytes);
+  }
+  write_file_atomically(folder / (name + ".caption.txt"), caption + "\n");
+}
+
+void save_figure_index(const fs::path& folder, const std::vector<FigureFile>& figures) {
   auto list = nlohmann::ordered_json::array();
   for (const auto& figure : figures)
     list.push_back({{"scenario", figure.scenario}, {"name", figure.name}, {"caption", figure.caption}});
-  make_folders(run / "figures");
-  write_file_atomically(run / "figures" / kIndexFile, list.dump(2) + "\n");
+  make_folders(folder);
+  write_file_atomically(folder / kIndexFile, list.dump(2) + "\n");
 }
 
-std::vector<FigureFile> load_figure_index(const fs::path& run) {
-  const fs::path path = run / "figures" / kIndexFile;
+std::vector<FigureFile> load_figure_index(const fs::path& folder) {
+  const fs::path path = folder / kIndexFile;
   if (!fs::exists(path)) return {};
   std::vector<FigureFile> figures;
   try {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "harness/analysis/method_ranking.hpp"
 #include "harness/report/figures.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/store/summary.hpp"
@@ -34,7 +35,8 @@ struct ReportInput {
   std::vector<SummaryRow> rows;
   std::vector<CellLine> cells;
   std::vector<FigureFile> figures;
-  std::map<std::string, std::string> sources = {};  ///< of recorded scenarios: the log's hash and beam angles
+  std::map<std::string, MethodRanking> rankings = {};  ///< by scenario: of its pipelines
+  std::map<std::string, std::string> sources = {};     ///< of recorded scenarios: the log's hash and beam angles
 };
 
 }  // namespace scanbench::harness

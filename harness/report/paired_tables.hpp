@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "harness/page/table.hpp"
 #include "harness/report/comparable_rows.hpp"
 #include "harness/report/page_input.hpp"
-#include "harness/report/table.hpp"
 #include "harness/scenario/scenario.hpp"
 
 namespace scanbench::harness {

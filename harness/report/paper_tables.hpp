@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "harness/analysis/agreement.hpp"
-#include "harness/report/table.hpp"
+#include "harness/page/table.hpp"
 
 namespace scanbench::harness {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "harness/analysis/benchmark.hpp"
-#include "harness/report/table.hpp"
+#include "harness/page/table.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
 
 namespace scanbench::harness {

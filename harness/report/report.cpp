@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "harness/report/html_page.hpp"
-#include "harness/report/plain_text.hpp"
+#include "harness/page/html_page.hpp"
+#include "harness/page/plain_text.hpp"
+#include "harness/report/page_parts.hpp"
+#include "harness/report/ranking_parts.hpp"
 #include "harness/report/scenario_tables.hpp"
 
 namespace scanbench::harness {
@@ -58,7 +60,11 @@ std::string html_overview(const ReportInput& input) {
     table->id = scenario.name + "-overview";
     out += fmt::format("<p><a href=\"#{0}\">{0}</a>: {1}</p>\n", html_escaped(scenario.name),
                        html_escaped(overview_sentence(*table)));
+    out += "<div class=\"glance\">\n";
     for (const auto& part : parts_of_width(*table, kPageWidth)) out += to_html(part);
+    if (const auto ranking = input.rankings.find(scenario.name); ranking != input.rankings.end())
+      out += accuracy_chart(ranking->second);
+    out += "</div>\n";
   }
   return out;
 }
@@ -78,7 +84,10 @@ std::string html_contents(const std::vector<Table>& tables, const Scenario& scen
 
 std::string report_html(const ReportInput& input) {
   std::string out = html_status(input.cells);
-  out += html_overview(input);
+  std::vector<std::pair<std::string, std::string>> chapters;
+  for (const auto& scenario : input.scenarios) chapters.emplace_back(scenario.name, scenario.name);
+  chapters.emplace_back("facts", "how to get these numbers again");
+  out += contents(chapters) + html_overview(input) + html_remarks(input.cells);
   for (const auto& scenario : input.scenarios) {
     out += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n<p class=\"faint\">{2}</p>\n", html_escaped(scenario.name),
                        html_escaped(scenario.about), html_escaped(input_text(input, scenario)));
@@ -101,6 +110,7 @@ std::string report_markdown(const ReportInput& input) {
   for (const auto& scenario : input.scenarios)
     if (const auto table = scenario_overview(scenario, input.rows, input.cells))
       out += "\n" + markdown_escaped(overview_sentence(*table)) + "\n\n" + to_markdown(*table);
+  out += markdown_remarks(input.cells);
   for (const auto& scenario : input.scenarios) {
     out += "\n## " + scenario.name + "\n\n" + markdown_escaped(scenario.about) + "\n\n" +
            markdown_escaped(input_text(input, scenario)) + "\n";

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/page/table.hpp"
 #include "harness/report/comparable_rows.hpp"
-#include "harness/report/table.hpp"
 #include "harness/scenario/scenario.hpp"
 
 namespace scanbench::harness {

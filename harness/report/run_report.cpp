@@ -16,9 +16,9 @@
 #include "harness/analysis/agreement_files.hpp"
 #include "harness/analysis/selection.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/report/benchmark_figures.hpp"
 #include "harness/report/benchmark_report.hpp"
-#include "harness/report/plain_text.hpp"
 #include "harness/report/ranking_table.hpp"
 #include "harness/report/report.hpp"
 #include "harness/report/scenario_tables.hpp"
@@ -67,6 +67,35 @@ std::string source_of(const fs::path& run, const Scenario& scenario, const Recor
   });
 }
 
+std::map<std::string, MethodRanking> rankings_by_scenario(const ReportInput& input) {
+  std::map<std::string, std::vector<CellResults>> cells;
+  std::map<CellKey, std::size_t> places;
+  for (const auto& line : input.cells) {
+    auto& of_scenario = cells[line.scenario];
+    const CellKey key{line.scenario, line.pipeline, line.seed};
+    places[key] = of_scenario.size();
+    CellResults& cell = of_scenario.emplace_back();
+    cell.key = key;
+    cell.requested = line.selected;
+    cell.status = line.status;
+  }
+  for (const auto& row : input.rows) {
+    const auto place = places.find({row.scenario, row.pipeline, row.seed});
+    if (place == places.end()) continue;
+    metrics::MetricRow& copy = cells[row.scenario][place->second].rows.emplace_back();
+    copy.metric = row.metric;
+    copy.subject = row.subject;
+    copy.value = row.value;
+    copy.unit = row.unit;
+    copy.count = row.count;
+  }
+  std::map<std::string, MethodRanking> rankings;
+  for (const auto& [scenario, of_scenario] : cells)
+    for (auto& ranking : rank_methods(of_scenario, load_cell_seconds(input.run, of_scenario)))
+      rankings.emplace(scenario, std::move(ranking));
+  return rankings;
+}
+
 }  // namespace
 
 ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& scenarios) {
@@ -90,26 +119,28 @@ ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& 
     }
     input.cells.push_back(std::move(line));
   }
-  input.figures = load_figure_index(run);
+  input.figures = load_figure_index(run / "figures");
+  input.rankings = rankings_by_scenario(input);
   for (const auto& scenario : scenarios)
     if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
       input.sources[scenario.name] = source_of(run, scenario, *recorded);
   return input;
 }
 
-void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenarios, bool pdf,
+void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenarios, const FigureOptions& options,
                       const std::function<void(double, const std::string&)>& progress) {
   std::vector<FigureFile> figures;
   const auto benchmark = load_benchmark(run);
-  if (benchmark) figures = draw_benchmark_figures(run, scenarios, *benchmark, pdf, progress);
+  if (benchmark) figures = draw_benchmark_figures(run, scenarios, *benchmark, options, progress);
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     const auto part = [&](double share, const std::string& what) {
       if (progress) progress((static_cast<double>(i) + share) / static_cast<double>(scenarios.size()), what);
     };
-    for (auto& figure : draw_figures(run, scenarios[i], pdf, part)) figures.push_back(std::move(figure));
+    for (auto& figure : draw_figures(run, scenarios[i], options, part)) figures.push_back(std::move(figure));
   }
-  save_figure_index(run, figures);
-  refresh_manifest(run);
+  for (auto& figure : draw_run_wide_figures(run, scenarios, options)) figures.push_back(std::move(figure));
+  save_figure_index(figure_folder(run, options), figures);
+  if (options.folder.empty()) refresh_manifest(run);
 }
 
 std::vector<Table> closing_tables(const ReportInput& input) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/page/table.hpp"
 #include "harness/report/page_input.hpp"
-#include "harness/report/table.hpp"
 #include "harness/store/run_file.hpp"
 
 namespace scanbench::harness {
@@ -18,9 +18,10 @@ inline const RunFile kReportMarkdown("report.md");
 /// Reads the contents of the reports from the run folder. Throws ConfigError.
 ReportInput load_report_input(const std::filesystem::path& run, const std::vector<Scenario>& scenarios);
 
-/// Draws the figures of the benchmark, if the run is one, and those of the scenarios (also as PDF with `pdf`). Then
-/// writes figures/index.json and the manifest's list of files.
-void draw_run_figures(const std::filesystem::path& run, const std::vector<Scenario>& scenarios, bool pdf = false,
+/// Draws the figures of the benchmark, if the run is one, and those of the scenarios. Then writes their index.json and,
+/// if they are in the run folder, the manifest's list of files.
+void draw_run_figures(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
+                      const FigureOptions& options = {},
                       const std::function<void(double, const std::string&)>& progress = {});
 
 /// The tables that a run prints at its end: the ranking of a benchmark, else those of every scenario.

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "harness/page/table.hpp"
 #include "harness/report/page_input.hpp"
 #include "harness/report/results_table.hpp"
-#include "harness/report/table.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/store/summary.hpp"
 

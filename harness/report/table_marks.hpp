@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/report/table.hpp"
+#include "harness/page/table.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::harness {

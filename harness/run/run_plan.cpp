@@ -47,20 +47,34 @@ void check_scenarios(const std::vector<Scenario>& scenarios, const RunOptions& o
   }
 }
 
+void refuse_repeated(std::vector<std::uint64_t> seeds) {
+  std::ranges::sort(seeds);
+  const auto twice = std::ranges::adjacent_find(seeds);
+  if (twice != seeds.end()) throw ConfigError("the seed " + std::to_string(*twice) + " is given twice");
+}
+
+/// The manifest lists about five files per cell; a run with more cells than this could not read its own.
+void refuse_too_many_cells(const std::vector<Scenario>& scenarios) {
+  constexpr std::size_t kMostCells = 200'000;
+  std::size_t cells = 0;
+  for (const auto& scenario : scenarios) cells += scenario.pipelines.size() * scenario.seeds.size();
+  if (cells > kMostCells)
+    throw ConfigError("the run would have " + std::to_string(cells) + " cells; allowed: at most " +
+                      std::to_string(kMostCells) + "; divide its scenarios or seeds among several runs");
+}
+
 }  // namespace
 
 RunPlan plan_run(const std::vector<Scenario>& scenarios, const RunOptions& options) {
   check_scenarios(scenarios, options);
+  refuse_too_many_cells(scenarios);
   RunPlan plan;
   for (const auto& scenario : scenarios) {
     const std::string input = input_address(scenario);
     const auto& seeds = scenario.seeds;
     const std::size_t first = plan.groups.size();
-    for (const std::uint64_t seed : seeds) {
-      if (std::ranges::count(seeds, seed) > 1)
-        throw ConfigError("the seed " + std::to_string(seed) + " is given twice");
-      plan.groups.push_back({&scenario, seed});
-    }
+    refuse_repeated(seeds);
+    for (const std::uint64_t seed : seeds) plan.groups.push_back({&scenario, seed});
     for (const auto& pipeline : scenario.pipelines) {
       const TraceChoice drawn = traces_drawn(scenario, pipeline.name);
       for (std::size_t i = 0; i < seeds.size(); ++i) {

@@ -19,25 +19,25 @@ constexpr int kDeepest = 32;  // files of a run have four levels; copying a valu
 
 }  // namespace
 
-Json load_json(const fs::path& file) {
+Json load_json(const fs::path& file, const std::string& without) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (fs::exists(status) && !fs::is_regular_file(status)) throw ConfigError(file.string() + ": not a regular file");
   if (const auto size = fs::file_size(file, error); !error && size > kLargestFile)
     throw ConfigError(file.string() + ": has " + std::to_string(size) +
                       " bytes; allowed: " + std::to_string(kLargestFile));
-  const auto check_depth = [&](int depth, Json::parse_event_t, Json&) {
+  const auto keep = [&](int depth, Json::parse_event_t event, const Json& value) {
     if (depth > kDeepest)
       throw ConfigError(file.string() + ": nested deeper than " + std::to_string(kDeepest) + " levels");
-    return true;
+    return event != Json::parse_event_t::key || depth != 1 || without.empty() || value != without;
   };
-  Json json = Json::parse(read_file(file), check_depth, false);
+  Json json = Json::parse(read_file(file), keep, false);
   if (json.is_discarded()) throw ConfigError(file.string() + ": not JSON");
   return json;
 }
 
-Json load_json_object(const fs::path& file) {
-  Json json = load_json(file);
+Json load_json_object(const fs::path& file, const std::string& without) {
+  Json json = load_json(file, without);
   if (!json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
   return json;
 }

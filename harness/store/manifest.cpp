@@ -49,27 +49,28 @@ struct KnownHashes {
   fs::file_time_type since = fs::file_time_type::min();
 };
 
-Json artefacts(const fs::path& run, const KnownHashes& known = {}) {
-  std::set<std::string> paths;  // in a fixed order
+using Hashes = std::map<std::string, std::string>;  // by path, relative to the run
+
+/// The SHA-256 of every file of the run but the manifest.
+Hashes artefacts(const fs::path& run, const KnownHashes& known = {}) {
+  Hashes hashes;
   for (const auto& entry : fs::recursive_directory_iterator(run)) {
     const fs::path relative = entry.path().lexically_relative(run);
-    if (entry.is_regular_file() && is_run_file(relative) && relative != kManifestFile.name())
-      paths.insert(relative.generic_string());
-  }
-  Json list = Json::array();
-  for (const auto& path : paths) {
+    if (!entry.is_regular_file() || !is_run_file(relative) || relative == kManifestFile.name()) continue;
+    const std::string path = relative.generic_string();
     const auto hash = known.hashes.find(path);
-    const bool is_known = hash != known.hashes.end() && fs::last_write_time(run / path) < known.since;
-    list.push_back({{"path", path}, {"sha256", is_known ? hash->second : sha256_of_file(run / path)}});
+    const bool is_known = hash != known.hashes.end() && fs::last_write_time(entry.path()) < known.since;
+    hashes.emplace(path, is_known ? hash->second : sha256_of_file(entry.path()));
   }
-  return list;
+  return hashes;
 }
 
+/// Everything but the files.
 Json manifest_json(const fs::path& run) {
   const fs::path file = run / kManifestFile;
   std::error_code absent;
   if (!fs::exists(file, absent)) throw ConfigError(run.string() + ": not the folder of a run: it has no manifest.json");
-  Json json = load_json_object(file);
+  Json json = load_json_object(file, "artefacts");
   if (json.value("program", Json()) != "scanbench")
     throw ConfigError(file.string() + ": not the manifest of a scanbench run");
   if (json.value("schema", Json()) != 1)
@@ -77,16 +78,61 @@ Json manifest_json(const fs::path& run) {
   return json;
 }
 
-std::map<std::string, std::string> hashes_in(const Json& manifest, const fs::path& run) try {
-  std::map<std::string, std::string> hashes;
-  for (const auto& file : manifest.at("artefacts")) hashes.emplace(file.at("path"), file.at("sha256"));
-  return hashes;
-} catch (const Json::exception& e) {
-  refuse_json(run / kManifestFile, e);
-}
+/// Collects the paths and hashes of the key `artefacts`. A run of 10^5 cells has half a million of them: as JSON values
+/// they would take a gigabyte.
+class ArtefactReader : public nlohmann::json_sax<Json> {
+ public:
+  Hashes take() { return std::move(hashes_); }
 
-void write_json(const fs::path& run, const Json& json) {
-  write_file_atomically(run / kManifestFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool string(string_t& text) override {
+    if (depth_ == 3 && key_ == "path") path_ = text;
+    if (depth_ == 3 && key_ == "sha256") sha256_ = text;
+    return true;
+  }
+  bool key(string_t& text) override {
+    if (depth_ == 1) is_artefacts_ = text == "artefacts";
+    key_ = text;
+    return true;
+  }
+  bool start_object(std::size_t) override { return ++depth_ < kDeepest; }
+  bool end_object() override {
+    if (depth_-- == 3 && is_artefacts_ && !path_.empty()) hashes_.emplace(std::move(path_), std::move(sha256_));
+    path_.clear();
+    sha256_.clear();
+    return true;
+  }
+  bool start_array(std::size_t) override { return ++depth_ < kDeepest; }
+  bool end_array() override {
+    --depth_;
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
+
+ private:
+  static constexpr int kDeepest = 32;
+  int depth_ = 0;
+  bool is_artefacts_ = false;
+  std::string key_, path_, sha256_;
+  Hashes hashes_;
+};
+
+/// Writes the file as Json::dump() would, without holding the list of files as JSON values.
+void write_json(const fs::path& run, const Json& json, const Hashes& hashes) {
+  std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  text.resize(text.rfind("\n}"));
+  text += ",\n  \"artefacts\": [";
+  for (const auto& [path, hash] : hashes) {
+    const std::string name = Json(path).dump(-1, ' ', false, Json::error_handler_t::replace);
+    text += (text.back() == '[' ? "\n    {\n      \"path\": " : ",\n    {\n      \"path\": ") + name +
+            ",\n      \"sha256\": \"" + hash + "\"\n    }";
+  }
+  write_file_atomically(run / kManifestFile, text + (hashes.empty() ? "]\n}\n" : "\n  ]\n}\n"));
 }
 
 }  // namespace
@@ -123,9 +169,8 @@ void write_manifest(const fs::path& run, const Manifest& manifest) {
             {"start", manifest.start},
             {"end", manifest.end},
             {"scenarios", manifest.scenarios},
-            {"cells", cells},
-            {"artefacts", manifest.state == "running" ? Json::array() : artefacts(run)}};
-  write_json(run, json);
+            {"cells", cells}};
+  write_json(run, json, manifest.state == "running" ? Hashes() : artefacts(run));
 }
 
 Manifest load_manifest(const fs::path& run) {
@@ -145,21 +190,22 @@ Manifest load_manifest(const fs::path& run) {
 }
 
 std::map<std::string, std::string> listed_hashes(const fs::path& run) {
-  return hashes_in(manifest_json(run), run);
+  manifest_json(run);  // refuses what is no manifest
+  ArtefactReader reader;
+  Json::sax_parse(read_file(run / kManifestFile), &reader);
+  return reader.take();
 }
 
 void refresh_manifest(const fs::path& run) {
   constexpr auto kClock = std::chrono::seconds(1);  // more than the grain of any file system's times
-  Json json = manifest_json(run);
-  const KnownHashes known{hashes_in(json, run), fs::last_write_time(run / kManifestFile) - kClock};
-  json["artefacts"] = artefacts(run, known);
-  write_json(run, json);
+  const KnownHashes known{listed_hashes(run), fs::last_write_time(run / kManifestFile) - kClock};
+  write_json(run, manifest_json(run), artefacts(run, known));
 }
 
 void set_run_state(const fs::path& run, const std::string& state) {
   Json json = manifest_json(run);
   json["state"] = state;
-  write_json(run, json);
+  write_json(run, json, listed_hashes(run));
 }
 
 std::string version_text() {

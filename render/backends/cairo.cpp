@@ -111,7 +111,7 @@ class Painter {
     }
     const int n = static_cast<int>(glyphs.size());
     if (s.halo) {
-      cairo_set_source_rgb(cr_, 1, 1, 1);
+      color(s.halo_color);
       cairo_set_dash(cr_, nullptr, 0, 0);
       cairo_set_line_width(cr_, 2 * kHaloPt);
       cairo_set_line_join(cr_, CAIRO_LINE_JOIN_ROUND);
@@ -197,6 +197,10 @@ std::string to_pdf(const Scene& scene) {
   cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
   cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, scene.title.c_str());
   draw(surface, placed);
+  // Cairo 1.16 writes the date without the "D:" that PDF demands. In as many bytes, because the file counts them.
+  constexpr std::string_view kWrong = "/CreationDate (20000101000000Z)", kRight = "/CreationDate (D:200001010000) ";
+  static_assert(kWrong.size() == kRight.size());
+  if (const auto at = pdf.find(kWrong); at != std::string::npos) pdf.replace(at, kWrong.size(), kRight);
   return pdf;
 }
 

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <mutex>
+#include <cstring>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "render/backends/osmesa.hpp"
+#include "render/backends/gl_context.hpp"
 #include "render/backends/png.hpp"
 #include "render/backends/tessellate.hpp"
 #include "render/layout/layout.hpp"
@@ -21,52 +20,9 @@ namespace scanbench::render {
 namespace {
 
 constexpr int kOversample = 4;
-constexpr int kTile = 128;  // pixels of the picture; the buffer of 512 x 512 pixels stays in the cache
-constexpr int kBuffer = kTile * kOversample;
+constexpr int kBuffer = GlContext::kSide;
+constexpr int kTile = kBuffer / kOversample;  // pixels of the picture
 constexpr int kMostPixels = 20000;
-
-/// The only OpenGL context of the process, because one costs 20 ms. Used under its mutex, current in one thread at a
-/// time.
-class Context {
- public:
-  /// Throws ConfigError if OSMesa is not installed.
-  static Context& get() {
-    static Context& context = *new Context;  // never freed: Mesa's own exit handlers may run before ours
-    return context;
-  }
-
-  std::mutex mutex;
-  const OsMesa gl;
-  std::vector<std::uint8_t> pixels;  // rows from top to bottom, RGBA
-
-  void make_current() {
-    if (gl.make_current(context_, pixels.data(), GL_UNSIGNED_BYTE, kBuffer, kBuffer) != GL_TRUE)
-      throw InternalError("OSMesa: cannot make the context current");
-    gl.pixel_store(OSMESA_Y_UP, 0);
-  }
-  void release() const { gl.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
-
- private:
-  Context() : pixels(std::size_t{4} * kBuffer * kBuffer), context_(create(gl)) {}
-
-  static OSMesaContext create(const OsMesa& gl) {
-    setenv("LP_NUM_THREADS", "0", 1);  // draw in the calling thread: workers already fill the cores
-    const OSMesaContext context = gl.create_context(OSMESA_RGBA, 0, 0, 0, nullptr);
-    if (context == nullptr) throw InternalError("OSMesa: cannot create a context");
-    return context;
-  }
-
-  OSMesaContext context_;
-};
-
-struct Current {
-  explicit Current(Context& c) : context(c), lock(c.mutex) { context.make_current(); }
-  ~Current() { context.release(); }
-  Current(const Current&) = delete;
-  Current& operator=(const Current&) = delete;
-  Context& context;
-  std::lock_guard<std::mutex> lock;
-};
 
 /// A square piece of the picture: its first pixel, its size, and the triangles that may show on it, in drawing order.
 struct Tile {
@@ -91,6 +47,14 @@ bool may_meet(const Vertex* t, const Rect& tile) {
   return true;
 }
 
+/// True for four pixels of the buffer, summed over four rows, that are white and opaque.
+bool is_white(const std::uint16_t* sums) {
+  std::array<std::uint64_t, 4> words{};
+  std::memcpy(words.data(), sums, sizeof words);
+  constexpr std::uint64_t kWhiteSums = 0x03FC03FC03FC03FCU;  // 4 * 255 in each channel
+  return ((words[0] ^ kWhiteSums) | (words[1] ^ kWhiteSums) | (words[2] ^ kWhiteSums) | (words[3] ^ kWhiteSums)) == 0;
+}
+
 class Picture {
  public:
   Picture(const Layout& layout, double dpi)
@@ -112,11 +76,11 @@ class Picture {
 
   void draw() {
     for (const TriangleBatch& batch : tessellate(layout_.shapes, scale_ * kOversample)) sort_in(batch);
-    const Current current(Context::get());
+    const CurrentGl current;
     for (const Tile& tile : tiles_) {
       if (tile.batches.empty()) continue;  // remains white
-      draw(tile, current.context.gl);
-      filter_down(current.context.pixels, tile);
+      draw(tile, current);
+      filter_down(current.pixels(), tile);
     }
   }
 
@@ -153,22 +117,13 @@ class Picture {
     }
   }
 
-  void draw(const Tile& tile, const OsMesa& gl) const {
+  void draw(const Tile& tile, const CurrentGl& current) const {
     const Rect r = paper(tile);
-    gl.viewport(0, 0, kBuffer, kBuffer);
-    gl.matrix_mode(GL_PROJECTION);
-    gl.load_identity();
-    gl.ortho(r.x0, r.x1, r.y1, r.y0, -1, 1);
-    gl.matrix_mode(GL_MODELVIEW);
-    gl.load_identity();
-    gl.disable(GL_DITHER);
-    gl.shade_model(GL_FLAT);
-    gl.disable(GL_SCISSOR_TEST);
+    current.view(r.x0, r.x1, r.y0, r.y1);
+    const OsMesa& gl = current.gl();
     gl.clear_color(1, 1, 1, 1);
     gl.clear(GL_COLOR_BUFFER_BIT);
     gl.enable(GL_SCISSOR_TEST);
-    gl.enable_client_state(GL_VERTEX_ARRAY);
-    gl.enable_client_state(GL_COLOR_ARRAY);
     for (const TriangleBatch& batch : tile.batches) {
       if (!scissor(tile, batch.clip, gl)) continue;
       gl.vertex_pointer(2, GL_FLOAT, sizeof(Vertex), &batch.vertices[0].x);
@@ -207,6 +162,7 @@ class Picture {
                                         static_cast<std::size_t>(tile.x))];
       for (std::size_t x = 0; x < static_cast<std::size_t>(tile.width); ++x) {
         const std::uint16_t* s = &sums[16 * x];
+        if (is_white(s)) continue;  // as the picture begins
         for (std::size_t c = 0; c < 3; ++c)
           out[3 * x + c] = static_cast<std::uint8_t>((s[c] + s[c + 4] + s[c + 8] + s[c + 12] + 8) / 16);
       }
@@ -222,7 +178,7 @@ class Picture {
 
 }  // namespace
 
-std::string to_png(const Scene& scene, double dpi) {
+Pixels to_pixels(const Scene& scene, double dpi) {
   const Layout placed = layout(scene);
   const double side = std::max(placed.width, placed.height) / 72.0 * dpi;
   if (!(dpi > 0) || !(side <= kMostPixels))
@@ -231,7 +187,12 @@ std::string to_png(const Scene& scene, double dpi) {
                     placed.width / 72, placed.height / 72, dpi, kMostPixels));
   Picture picture(placed, dpi);
   picture.draw();
-  return encode_png(picture.rgb(), picture.width(), picture.height(), dpi);
+  return {picture.width(), picture.height(), picture.rgb()};
+}
+
+std::string to_png(const Scene& scene, double dpi) {
+  const Pixels pixels = to_pixels(scene, dpi);
+  return encode_png(pixels.rgb, pixels.width, pixels.height, dpi);
 }
 
 }  // namespace scanbench::render

@@ -1,7 +1,9 @@
 // Scenes as PNG.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "render/scene.hpp"
 
@@ -11,5 +13,12 @@ namespace scanbench::render {
 /// ConfigError if the font (DejaVu Sans) or OSMesa is not installed, or if the picture would be larger than 20 000
 /// pixels per side; InternalError if a library fails.
 std::string to_png(const Scene& scene, double dpi = 200.0);
+
+/// The same as pixels, rows from top to bottom with 3 bytes per pixel.
+struct Pixels {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+Pixels to_pixels(const Scene& scene, double dpi);
 
 }  // namespace scanbench::render

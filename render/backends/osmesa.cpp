@@ -33,6 +33,7 @@ OsMesa::OsMesa(const char* library) {
   find(handle, "OSMesaPixelStore", pixel_store);
   find(handle, "glClear", clear);
   find(handle, "glClearColor", clear_color);
+  find(handle, "glColorMask", color_mask);
   find(handle, "glColorPointer", color_pointer);
   find(handle, "glDisable", disable);
   find(handle, "glDrawArrays", draw_arrays);

@@ -18,6 +18,7 @@ struct OsMesa {
   decltype(&OSMesaPixelStore) pixel_store = nullptr;
   decltype(&glClear) clear = nullptr;
   decltype(&glClearColor) clear_color = nullptr;
+  decltype(&glColorMask) color_mask = nullptr;
   decltype(&glColorPointer) color_pointer = nullptr;
   decltype(&glDisable) disable = nullptr;
   decltype(&glDrawArrays) draw_arrays = nullptr;

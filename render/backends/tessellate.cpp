@@ -159,7 +159,7 @@ class Tessellator {
       return Vec2(s.origin + (s.upwards ? Vec2(-v.y(), -v.x()) : Vec2(v.x(), -v.y())));
     };
     if (s.halo) {
-      color_ = kWhite;
+      color_ = s.halo_color;
       std::vector<Vec2> rim;
       for (const Glyph* g : glyphs) {
         for (const auto& contour : g->contours) {

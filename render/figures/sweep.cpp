@@ -1,15 +1,14 @@
 // A metric against a parameter that differs between pipelines of one kind: the mean over the seeds, and the band
 // between the smallest and the largest value. There is a panel per parameter and a curve per kind of pipeline.
 #include <algorithm>
-#include <cstdint>
 #include <iterator>
 #include <numeric>
-#include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/registry.hpp"
+#include "render/figures/parts/measured.hpp"
 #include "render/figures/parts/style.hpp"
 
 namespace scanbench::render {
@@ -36,37 +35,6 @@ std::vector<std::string> words_of(std::string text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// The value of "slot.parameter", and all other settings as a text, equal for pipelines of one kind.
-struct Setting {
-  std::optional<double> value;
-  std::string others;
-};
-
-Setting setting_of(const MeasuredPipeline& measured, const std::string& parameter) {
-  Setting setting;
-  for (const auto& [slot, params] : measured.slots) {
-    setting.others += slot + ";";
-    const std::string kind = slot.substr(0, slot.find(' '));
-    for (const auto& [name, value] : params) {
-      const bool varied = kind + "." + name == parameter;
-      if (const auto* number = std::get_if<double>(&value); varied && number != nullptr)
-        setting.value = *number;
-      else if (const auto* whole = std::get_if<std::int64_t>(&value); varied && whole != nullptr)
-        setting.value = static_cast<double>(*whole);
-      else
-        setting.others += name + "=" + to_text(value) + ";";
-    }
-  }
-  return setting;
-}
-
-/// The common beginning of two names, without the separators and digits with which the values begin.
-std::string common_name(const std::string& a, const std::string& b) {
-  std::string name = a.substr(0, static_cast<std::size_t>(std::ranges::mismatch(a, b).in1 - a.begin()));
-  const auto end = name.find_last_not_of("_-.0123456789");
-  return end == std::string::npos ? a : name.substr(0, end + 1);
-}
-
 class Sweep : public Figure {
  public:
   struct Params {
@@ -86,8 +54,7 @@ class Sweep : public Figure {
 
   std::string why_nothing(const FigureInput& input) const override {
     const auto has_metric = [&](const MeasuredPipeline& measured) { return values_of(measured) != nullptr; };
-    if (std::ranges::none_of(input.measured, has_metric))
-      return fmt::format("no pipeline has a value of the metric {} for the subject all", params_.metric);
+    if (std::ranges::none_of(input.measured, has_metric)) return no_value_of(params_.metric);
     return fmt::format("no two pipelines differ in {} alone", fmt::join(words_of(params_.parameters), " or "));
   }
 
@@ -102,7 +69,7 @@ class Sweep : public Figure {
       std::vector<Curve> curves = curves_over(parameter, input.measured);
       for (const Curve& curve : curves)
         if (std::ranges::find(names, curve.name) == names.end()) names.push_back(curve.name);
-      if (!curves.empty()) panels.emplace_back(axis_label(parameter, input.measured), std::move(curves));
+      if (!curves.empty()) panels.emplace_back(parameter_label(parameter, input.measured), std::move(curves));
     }
     const std::vector<MethodStyle> styles = method_styles(names);
     for (const auto& [label, curves] : panels) scene.panels.push_back(panel_of(label, curves, names, styles));
@@ -135,31 +102,17 @@ class Sweep : public Figure {
   /// Curves of two points at least, in the order of their first pipelines.
   std::vector<Curve> curves_over(const std::string& parameter, const std::vector<MeasuredPipeline>& all) const {
     std::vector<Curve> curves;
-    std::vector<std::string> kinds;
-    for (const MeasuredPipeline& measured : all) {
-      const Setting setting = setting_of(measured, parameter);
-      const auto* values = values_of(measured);
-      if (!setting.value || values == nullptr) continue;
-      const auto at = static_cast<std::size_t>(std::ranges::find(kinds, setting.others) - kinds.begin());
-      if (at == kinds.size()) {
-        kinds.push_back(setting.others);
-        curves.push_back({measured.pipeline, {}});
+    for (const VariedPipelines& group : varied_pipelines(parameter, all, {params_.metric})) {
+      Curve curve{group.name, {}};
+      for (const auto& [x, measured] : group.members) {
+        const std::vector<double>& values = *values_of(*measured);
+        const auto [low, high] = std::ranges::minmax(values);
+        const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+        curve.samples.push_back({x, low, mean, high});
       }
-      const auto [low, high] = std::ranges::minmax(*values);
-      const double mean = std::accumulate(values->begin(), values->end(), 0.0) / static_cast<double>(values->size());
-      curves[at].name = common_name(curves[at].name, measured.pipeline);
-      curves[at].samples.push_back({*setting.value, low, mean, high});
+      curves.push_back(std::move(curve));
     }
-    std::erase_if(curves, [](const Curve& curve) { return curve.samples.size() < 2; });
-    for (Curve& curve : curves) std::ranges::sort(curve.samples, {}, &Sample::x);
     return curves;
-  }
-
-  static std::string axis_label(const std::string& parameter, const std::vector<MeasuredPipeline>& all) {
-    for (const MeasuredPipeline& measured : all)
-      if (const auto unit = measured.units.find(parameter); unit != measured.units.end() && !unit->second.empty())
-        return fmt::format("{} [{}]", parameter, unit->second);
-    return parameter;
   }
 
   Panel panel_of(const std::string& label, const std::vector<Curve>& curves, const std::vector<std::string>& names,

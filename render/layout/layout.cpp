@@ -6,6 +6,7 @@
 #include <string>
 
 #include "render/layout/axes.hpp"
+#include "render/layout/dark.hpp"
 #include "render/layout/items.hpp"
 #include "render/layout/legend.hpp"
 #include "render/layout/ranges.hpp"
@@ -243,7 +244,9 @@ class Composer {
 }  // namespace
 
 Layout layout(const Scene& scene) {
-  return Composer(scene).compose();
+  Layout placed = Composer(scene).compose();
+  if (scene.dark) darken(placed.shapes, placed.width, placed.height);
+  return placed;
 }
 
 }  // namespace scanbench::render

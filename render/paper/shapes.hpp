@@ -58,6 +58,7 @@ struct TextShape {
   bool upwards = false;  ///< rotated by 90 degrees: reads from bottom to top
   bool halo = false;
   Color color{};
+  Color halo_color = kWhite;
 };
 
 struct Shape {

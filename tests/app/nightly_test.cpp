@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "harness/nightly/store.hpp"
+#include "tests/app/browser.hpp"
 #include "tests/app/program.hpp"
 
 namespace scanbench::app_test {
@@ -142,23 +143,8 @@ TEST_F(Nightly, IsIncompleteWhereAScenarioIsGone) {
   EXPECT_THAT(less.out, HasSubstr("INCOMPLETE: 1 cell is missing, first second/iepf/1."));
 }
 
-/// Opens a page in headless Chromium, lets `script` act on it and returns the text that it leaves in the title.
-std::string title_after(const fs::path& page, const std::string& script, const Folder& folder) {
-  std::string html = read(page);
-  html.replace(html.rfind("</body>"), 7, "<script>" + script + "</script></body>");
-  const fs::path copy = folder.write("opened.html", html);
-  const Outcome dom =
-      Child({"/usr/bin/chromium", "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
-             "--disable-background-networking", "--disable-component-update", "--disable-sync",
-             "--user-data-dir=" + (folder / "profile").string(), "--dump-dom", "file://" + copy.string()},
-            {}, folder.path())
-          .wait();
-  const auto from = dom.out.find("<title>");
-  return from == std::string::npos ? dom.err : dom.out.substr(from + 7, dom.out.find("</title>") - from - 7);
-}
-
 TEST_F(Nightly, PageSortsFollowsItsLinksAndRequestsNothing) {
-  if (!fs::exists("/usr/bin/chromium")) GTEST_SKIP() << "chromium is not installed";
+  if (!has_browser()) GTEST_SKIP() << "chromium is not installed";
   ASSERT_EQ(night().code, 0);
   ASSERT_EQ(night(worsened_).code, 1);
   const fs::path html = folder_ / "out/nightly/suite/nightly.html";

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "metrics/plane_alignment.hpp"
+#include "core/geometry/plane_alignment.hpp"
 #include "tests/metrics/made_up.hpp"
 
 namespace scanbench::test {
@@ -114,7 +114,7 @@ TEST(PlaneAlignment, IsThatOfThePositionsWhereTheyDecide) {
   // Headings that are wrong by a constant: they pull with the square of the lever only.
   std::vector<Pose2> turned;
   for (const Pose2& p : curve()) turned.push_back(p * Pose2(0, 0, 0.5));
-  const Pose2 found = metrics::align_trajectories(turned, curve(), 1e-3);
+  const Pose2 found = align_trajectories(turned, curve(), 1e-3);
   EXPECT_NEAR(found.yaw(), 0.0, 1e-5);
   EXPECT_LT(found.translation().norm(), 1e-5);
 }

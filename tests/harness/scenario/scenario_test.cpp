@@ -178,7 +178,8 @@ TEST(EffectiveScenario, NamesEveryParameterOfEveryModule) {
 }
 
 TEST(ShippedScenarios, LoadRunClearOfWallsAndHaveAStableEffectiveForm) {
-  const auto files = yaml_files(source_dir() / "scenarios");
+  auto files = yaml_files(source_dir() / "scenarios");
+  std::erase_if(files, [](const fs::path& file) { return file.filename() == "figures.yaml"; });  // a catalogue
   EXPECT_GE(files.size(), 5U);
   for (const auto& file : files) {
     SCOPED_TRACE(file);

@@ -124,7 +124,7 @@ TEST(Runner, KeepsTheRowsThatTheFiguresDrawFromForTheFirstSeed) {
   scenarios[0].input = RecordedInput{};  // these random scans have no world to show
   const auto drawn = draw_figures(out, scenarios[0]);
   ASSERT_EQ(drawn.size(), 1u);
-  EXPECT_EQ(drawn[0].caption, "5 rows of a");
+  EXPECT_THAT(drawn[0].caption, ::testing::StartsWith("5 rows of a"));
 }
 
 }  // namespace

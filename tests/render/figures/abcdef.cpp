@@ -95,7 +95,11 @@ PipelineResult lines_by_wall_id(const Recording& recording, double jitter_m, boo
       };
       LineFeature& line = lines.lines.emplace_back();
       line.segment = {at(first), at(last)};
+      line.line = line_through(line.segment.a, line.segment.b);
+      line.covariance = Eigen::Matrix2d(Eigen::Vector2d(jitter_m * jitter_m + 1e-6, 1e-4).asDiagonal());
       line.first_beam = first, line.last_beam = last;
+      for (int beam = first; beam <= last; ++beam)
+        lines.labels[static_cast<std::size_t>(beam)] = static_cast<int>(lines.lines.size()) - 1;
     }
     result.lines.push_back(std::move(lines));
   }

@@ -41,6 +41,16 @@ std::vector<ScanVerdict> some_verdicts(const PipelineResult& result) {
   return verdicts;
 }
 
+/// Half of the walls are found, one line is false.
+LineDifference some_difference(const Truth& truth) {
+  LineDifference difference{.right_pixels = 900, .wrong_pixels = 50, .missed_pixels = 70, .pixel_m = 0.01};
+  difference.tolerance_m = 0.05;
+  for (std::size_t w = 0; w < truth.walls.size(); ++w)
+    (w % 2 == 0 ? difference.right : difference.missed).push_back(truth.walls[w].segment);
+  difference.wrong.push_back({{2, 2}, {5, 4}});
+  return difference;
+}
+
 struct Case {
   Recording recording;
   std::vector<PipelineResult> results;
@@ -49,11 +59,23 @@ struct Case {
     FigureInput in{.title = "abcdef", .recording = recording, .waypoints = waypoints, .results = {}};
     for (std::size_t i = 0; i < results.size(); ++i) {
       in.results.push_back({kNames[i], &results[i], i == 0 ? &trace : nullptr});
-      in.measured.push_back({.pipeline = kNames[i],
-                             .slots = {{"extract some", {{"threshold_m", 0.1 * static_cast<double>(i)}}}},
-                             .units = {{"extract.threshold_m", "m"}},
-                             .metrics = {{"f1", {0.8, 0.9 + 0.01 * static_cast<double>(i)}}}});
+      if (recording.truth) in.results.back().difference = some_difference(*recording.truth);
+      MeasuredPipeline measured{.pipeline = kNames[i],
+                                .slots = {{"extract some", {{"threshold_m", 0.1 * static_cast<double>(i)}}}},
+                                .units = {{"extract.threshold_m", "m"}},
+                                .metrics = {}};
+      const double better = 0.01 * static_cast<double>(i);
+      for (const auto& [metric, value] : {std::pair("f1", 0.9), std::pair("precision", 0.8), std::pair("recall", 0.7)})
+        measured.metrics[metric] = {value - 0.1, value + better};
+      measured.metrics["t_scan"] = {10.0, 20.0 + 5.0 * static_cast<double>(i)};
+      measured.by_seed = measured.metrics;
+      for (const auto& [metric, values] : measured.metrics)
+        measured.bands[metric] = {0.5 * (values[0] + values[1]), values[0], values[1]};
+      in.measured.push_back(std::move(measured));
     }
+    in.looks = {{"f1", {.best = MetricLook::Best::highest}},
+                {"t_scan", {.unit = "us", .best = MetricLook::Best::lowest}}};
+    if (!in.measured.empty()) in.scenarios = {{"abcdef", in.measured}};
     return in;
   }
 };
@@ -62,18 +84,29 @@ Case simulated(int frames) {
   Case c{test::abcdef_recording(frames), {}};
   for (const double jitter : {0.01, 0.03, 0.06})
     c.results.push_back(test::lines_by_wall_id(c.recording, jitter, jitter != 0.03));
+  for (PipelineResult& result : c.results)
+    for (std::size_t k = 1; k < c.recording.observed.frames.size(); ++k) {
+      const auto& poses = c.recording.truth->world_from_sensor;
+      const Pose2 error(0.01 * std::sin(static_cast<double>(k)), 0.02 * std::cos(3.0 * static_cast<double>(k)), 0);
+      FrameMatch match{.frame = static_cast<int>(k), .reference = static_cast<int>(k) - 1, .match = {}};
+      match.match.reference_from_current = error * (poses[k - 1].inverse() * poses[k]);
+      match.match.covariance = Eigen::Matrix3d(Eigen::Vector3d(1e-4, 4e-4, 1e-6).asDiagonal());
+      result.matches.push_back(match);
+    }
   c.trace = test::merged_by_mean_shift(c.recording, c.results[0]).trace;
   return c;
 }
 
-// They show how a map grows; map_history_test.cpp draws them. Here no pipeline has a mapper.
-const std::set<std::string> kOfMappers = {"main_directions", "map_growth"};
+// They show how a map grows, or estimated poses; map_history_test.cpp and statistics_test.cpp draw them. Here no
+// pipeline has a mapper or poses.
+const std::set<std::string> kNeedMore = {"main_directions", "map_growth", "trajectory_error"};
+const std::set<std::string> kNeedTruth = {"difference", "error_ellipses"};
 
 TEST(Figures, AllAreDrawnForASimulatedRecordingAndTheSvgStaysBelowAMegabyte) {
   const Case c = simulated(200);
   for (const std::string& name : Registry<Figure>::names()) {
     const std::vector<NamedScene> scenes = Registry<Figure>::make(name)->draw(c.input(test::abcdef_waypoints()));
-    if (kOfMappers.contains(name)) continue;
+    if (kNeedMore.contains(name)) continue;
     ASSERT_EQ(scenes.size(), 1u) << name;
     EXPECT_EQ(scenes[0].name, name);
     EXPECT_FALSE(scenes[0].caption.empty());
@@ -90,9 +123,32 @@ TEST(Figures, WorkWithoutTruthAndWithOdometryOnly) {
   c.recording.truth.reset();
   for (const std::string& name : Registry<Figure>::names()) {
     const std::vector<NamedScene> scenes = Registry<Figure>::make(name)->draw(c.input({}));
-    if (kOfMappers.contains(name)) continue;
+    if (kNeedMore.contains(name)) continue;
+    if (kNeedTruth.contains(name)) {
+      EXPECT_TRUE(scenes.empty()) << name;
+      continue;
+    }
     ASSERT_EQ(scenes.size(), 1u) << name;
     keep(name + "_log.png", to_png(scenes[0].scene));
+  }
+}
+
+TEST(Difference, CountsPixelsAndDrawsThreeKindsOfParts) {
+  const Case c = simulated(3);
+  const FigureInput input = c.input({});
+  const Scene scene = Registry<Figure>::make("difference")->draw(input).at(0).scene;
+  ASSERT_EQ(scene.panels.size(), 3u);
+  EXPECT_EQ(scene.panels[0].title, "iepf: 900 true, 70 missed, 50 false");
+  EXPECT_TRUE(scene.scale_bar);
+  for (const auto& [text, parts] : {std::pair("found and true", &input.results[0].difference->right),
+                                    std::pair("missed", &input.results[0].difference->missed),
+                                    std::pair("false", &input.results[0].difference->wrong)}) {
+    const auto entry = std::ranges::find(scene.legend, text, &LegendEntry::text);
+    ASSERT_NE(entry, scene.legend.end()) << text;
+    EXPECT_TRUE(std::ranges::any_of(scene.panels[0].items, [&](const Item& item) {
+      const auto* lines = std::get_if<Lines>(&item);
+      return lines != nullptr && lines->stroke.color == entry->stroke->color && lines->segments == *parts;
+    })) << text;
   }
 }
 

@@ -1,0 +1,96 @@
+// film: a result in motion, as an animated PNG or an MP4 film.
+#include "app/film.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/inputs.hpp"
+#include "app/option_checks.hpp"
+#include "app/progress.hpp"
+#include "core/registry.hpp"
+#include "harness/film/film_file.hpp"
+#include "harness/store/manifest.hpp"
+#include "harness/store/run_folder.hpp"
+#include "harness/store/run_lock.hpp"
+#include "render/film.hpp"
+#include "render/output_style.hpp"
+
+namespace scanbench::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string run, style = "paper";
+  harness::FilmOptions film;
+  bool quiet = false;
+};
+
+int film(const Options& given) {
+  const fs::path run = given.run;
+  check_run_exists(run);
+  harness::FilmOptions options = given.film;
+  options.theme = render::theme_from(given.style);
+  // A film beside the figures of the run is one of its files: the folder is locked, and the manifest lists it.
+  const bool is_in_run = options.out.empty();
+  std::optional<harness::RunLock> lock;
+  if (is_in_run) {
+    lock.emplace(run);
+    harness::refuse_linked_folders(run);
+  }
+  const InterruptGuard guard;
+  Progress progress(progress_style(given.quiet));
+  const auto made =
+      harness::make_film(run, options, [&](double share, const std::string& what) { progress.update(share, what); });
+  progress.finish();
+  if (is_in_run) harness::refresh_manifest(run);
+  if (given.quiet) return kGood;
+  fmt::print("{} {} frames.\n", made.caption, made.frames);
+  for (const auto& file : made.files) fmt::print("{}\n", file.string());
+  return kGood;
+}
+
+}  // namespace
+
+void add_film(Context& context) {
+  auto options = std::make_shared<Options>();
+  harness::FilmOptions& film_options = options->film;
+  auto* verb =
+      context.app.add_subcommand("film", "Makes a film of a run: a drive, a growing map, mean shift, an alignment");
+  verb->add_option("RUN", options->run, "a run folder")->required();
+  verb->add_option("--of", film_options.of,
+                   "drive: the robot and its scans; map: a map that grows; mean_shift: points that climb to their "
+                   "modes; alignment: scans that are moved, with hypotheses (the last two need a run with --trace, or "
+                   "figures that keep these rows)")
+      ->check(one_of("film", Registry<render::FilmKind>::names()))
+      ->capture_default_str();
+  verb->add_option("--scenario", film_options.scenario, "of which scenario (not needed if the run has one)");
+  verb->add_option("--pipeline", film_options.pipeline, "of which pipeline (default: the first that has such a film)");
+  verb->add_option("--format", film_options.formats,
+                   "files to write, separated by commas; mp4 needs the program ffmpeg")
+      ->delimiter(',')
+      ->check(one_of("format", {"apng", "mp4"}))
+      ->capture_default_str();
+  verb->add_option("--fps", film_options.fps, "frames per second")
+      ->check(whole_number("number of frames per second", 1, 60))
+      ->capture_default_str();
+  verb->add_option("--frames", film_options.frames, "most frames; of more steps an even selection is shown")
+      ->check(whole_number("number of frames", 2, 5000))
+      ->capture_default_str();
+  verb->add_option("--width-px", film_options.width_px, "width in pixels")
+      ->check(whole_number("width in pixels", 160, 3840))
+      ->capture_default_str();
+  verb->add_option("--style", options->style, "paper, or dark")
+      ->check(one_of("style", {"paper", "dark"}))
+      ->capture_default_str();
+  verb->add_option("-o,--out", film_options.out,
+                   "the files without their ending (default: RUN/figures/<scenario>_<pipeline>_<of>)");
+  verb->add_flag("-q,--quiet", options->quiet, "print only errors");
+  verb->callback([&context, options] { context.action = [options] { return film(*options); }; });
+}
+
+}  // namespace scanbench::app

@@ -1,0 +1,217 @@
+// Groups scenarios with the same pipelines and ranks these pipelines.
+#include "harness/analysis/method_ranking.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "core/special_values.hpp"
+#include "harness/analysis/gates.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/files/csv.hpp"
+#include "harness/store/cell_files.hpp"
+#include "harness/store/run_folder.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+using metrics::MetricDescription;
+using metrics::MetricRow;
+
+/// What rankings are about: lines that were found, walls that a map covers, errors of poses, lines missed, distances of
+/// points from lines. The first that most pipelines have decides.
+constexpr std::array<std::string_view, 8> kQuality{"f1",           "covered_5cm",  "position_error", "pose_efficiency",
+                                                   "rpe_position", "ate_position", "missed",         "s_mean"};
+
+/// The value of a metric in a cell: of the subject "all", else "mean", else the mean over its subjects. NaN: none.
+double value_in(const std::vector<MetricRow>& rows, std::string_view metric) {
+  double sum = 0.0;
+  double count = 0.0;
+  double mean = kNaN;
+  for (const auto& row : rows) {
+    if (row.metric != metric) continue;
+    if (row.subject == "all") return row.value;
+    if (row.subject == "mean") mean = row.value;
+    sum += row.value;
+    count += 1.0;
+  }
+  if (std::isfinite(mean)) return mean;
+  return count > 0 ? sum / count : kNaN;
+}
+
+double clopper_pearson(double trials, double successes, bool upper) {
+  using Binomial = boost::math::binomial_distribution<>;
+  constexpr double kTail = 0.025;
+  if (upper) return successes >= trials ? 1.0 : Binomial::find_upper_bound_on_p(trials, successes, kTail);
+  return successes <= 0.0 ? 0.0 : Binomial::find_lower_bound_on_p(trials, successes, kTail);
+}
+
+/// The cells of one group of scenarios.
+class Ranker {
+ public:
+  Ranker(std::vector<std::string> scenarios, std::vector<std::string> pipelines, const std::vector<CellResults>& cells,
+         const std::map<CellKey, double>& seconds)
+      : pipelines_(std::move(pipelines)), seconds_(seconds) {
+    ranking_.scenarios = std::move(scenarios);
+    const std::set<std::string> of_group(ranking_.scenarios.begin(), ranking_.scenarios.end());
+    for (const auto& cell : cells)
+      if (of_group.contains(cell.key.scenario) && cell.requested) cells_[cell.key.pipeline].push_back(&cell);
+  }
+
+  /// No methods: no metric of the list.
+  MethodRanking rank(const std::map<std::string, MetricDescription>& descriptions) {
+    std::size_t most = 0;
+    for (const std::string_view metric : kQuality) {
+      const auto known = descriptions.find(std::string(metric));
+      const std::size_t pipelines = known == descriptions.end() ? 0 : pipelines_with(metric);
+      if (pipelines <= most) continue;
+      most = pipelines;
+      ranking_.quality = known->second;
+    }
+    if (ranking_.quality.metric.empty()) return std::move(ranking_);
+    for (const auto& pipeline : pipelines_) add(pipeline);
+    sort();
+    for (std::size_t i = 0; i + 1 < ranking_.methods.size(); ++i) compare_with_next(i);
+    mark_front();
+    return std::move(ranking_);
+  }
+
+ private:
+  using Place = std::pair<std::string, std::uint64_t>;  // scenario, seed
+
+  /// How many pipelines have values of the metric; 0 if no pipeline has any in one of the scenarios.
+  std::size_t pipelines_with(std::string_view metric) const {
+    std::set<std::string> pipelines;
+    std::set<std::string> scenarios;
+    for (const auto& [pipeline, cells] : cells_)
+      for (const CellResults* cell : cells)
+        if (std::isfinite(value_in(cell->rows, metric))) {
+          pipelines.insert(pipeline);
+          scenarios.insert(cell->key.scenario);
+        }
+    return scenarios.size() == ranking_.scenarios.size() ? pipelines.size() : 0;
+  }
+
+  void add(const std::string& pipeline) {
+    RankedMethod method;
+    method.pipeline = pipeline;
+    method.beats_next = {kNaN, kNaN, kNaN, 0};
+    std::map<std::uint64_t, std::pair<double, double>> by_seed;  // sum and count over the scenarios
+    double log_seconds = 0.0;
+    double timed = 0.0;
+    for (const CellResults* cell : cells_.at(pipeline)) {
+      ++method.cells;
+      if (const auto time = seconds_.find(cell->key); time != seconds_.end() && time->second > 0) {
+        log_seconds += std::log(time->second);
+        timed += 1.0;
+      }
+      const double value = value_in(cell->rows, ranking_.quality.metric);
+      if (!std::isfinite(value)) continue;
+      ++method.defined;
+      values_[pipeline][{cell->key.scenario, cell->key.seed}] = value;
+      by_seed[cell->key.seed].first += value;
+      by_seed[cell->key.seed].second += 1.0;
+    }
+    std::vector<double> averages;
+    for (const auto& [seed, sum] : by_seed) averages.push_back(sum.first / sum.second);
+    method.quality = mean_interval(averages);
+    method.seconds = timed > 0 ? std::exp(log_seconds / timed) : kNaN;
+    ranking_.methods.push_back(std::move(method));
+  }
+
+  double cost_of(const RankedMethod& method) const { return metrics::cost(ranking_.quality, method.quality.mean); }
+
+  void sort() {
+    std::ranges::stable_sort(ranking_.methods, {}, [this](const RankedMethod& method) {
+      return std::tuple(!method.complete(), cost_of(method));
+    });
+  }
+
+  void compare_with_next(std::size_t i) {
+    RankedMethod& a = ranking_.methods[i];
+    const RankedMethod& b = ranking_.methods[i + 1];
+    if (!a.complete() || !b.complete()) return;
+    const auto& theirs = values_.at(b.pipeline);
+    std::map<std::uint64_t, std::pair<double, double>> wins;  // of a seed: won, and compared
+    for (const auto& [place, value] : values_.at(a.pipeline)) {
+      const auto other = theirs.find(place);
+      if (other == theirs.end()) continue;
+      auto& [won, compared] = wins[place.second];
+      won += metrics::better(ranking_.quality, value, other->second)   ? 1.0
+             : metrics::better(ranking_.quality, other->second, value) ? 0.0
+                                                                       : 0.5;
+      compared += 1.0;
+    }
+    const auto seeds = static_cast<double>(wins.size());
+    if (seeds < 2.0) return;  // one seed says nothing about another
+    double sum = 0.0;
+    for (const auto& [seed, share] : wins) sum += share.first / share.second;
+    a.beats_next = {sum / seeds, clopper_pearson(seeds, sum, false), clopper_pearson(seeds, sum, true),
+                    std::ssize(wins)};
+  }
+
+  void mark_front() {
+    for (auto& method : ranking_.methods) {
+      if (!method.complete() || !std::isfinite(method.seconds)) continue;
+      method.on_front = std::ranges::none_of(ranking_.methods, [&](const RankedMethod& other) {
+        return other.complete() && cost_of(other) <= cost_of(method) && other.seconds <= method.seconds &&
+               (cost_of(other) < cost_of(method) || other.seconds < method.seconds);
+      });
+    }
+  }
+
+  std::vector<std::string> pipelines_;
+  const std::map<CellKey, double>& seconds_;
+  std::map<std::string, std::vector<const CellResults*>> cells_;
+  std::map<std::string, std::map<Place, double>> values_;
+  MethodRanking ranking_;
+};
+
+}  // namespace
+
+std::map<CellKey, double> load_cell_seconds(const std::filesystem::path& run, const std::vector<CellResults>& cells) {
+  std::map<CellKey, double> seconds;
+  for (const auto& cell : cells) {
+    const std::filesystem::path file = cell_path(run, cell.key) / kTimingFile;
+    if (!cell.ok() || !std::filesystem::exists(file)) continue;
+    const CsvTable table(read_file(file), file, {"stage", "frame", "seconds"});
+    double sum = 0.0;
+    for (std::size_t row = 0; row < table.rows(); ++row) sum += table.number(row, "seconds");
+    seconds[cell.key] = sum;
+  }
+  return seconds;
+}
+
+std::vector<MethodRanking> rank_methods(const std::vector<CellResults>& cells,
+                                        const std::map<CellKey, double>& seconds) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> scenarios;  // in order, with their pipelines
+  for (const auto& cell : cells) {
+    if (!cell.requested) continue;
+    if (scenarios.empty() || scenarios.back().first != cell.key.scenario) scenarios.push_back({cell.key.scenario, {}});
+    auto& pipelines = scenarios.back().second;
+    if (std::ranges::find(pipelines, cell.key.pipeline) == pipelines.end()) pipelines.push_back(cell.key.pipeline);
+  }
+  std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> groups;  // pipelines, scenarios
+  for (auto& [scenario, pipelines] : scenarios) {
+    const auto group =
+        std::ranges::find_if(groups, [&](const auto& g) { return std::ranges::is_permutation(g.first, pipelines); });
+    if (group != groups.end())
+      group->second.push_back(scenario);
+    else if (pipelines.size() > 1)
+      groups.push_back({std::move(pipelines), {scenario}});
+  }
+  const auto descriptions = metric_descriptions();
+  std::vector<MethodRanking> rankings;
+  for (auto& [pipelines, of_group] : groups)
+    if (auto ranking = Ranker(of_group, pipelines, cells, seconds).rank(descriptions); !ranking.methods.empty())
+      rankings.push_back(std::move(ranking));
+  return rankings;
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,38 @@
+// The pictures and tables of a catalogue, made from a run of its scenarios, and the pages that show them.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "harness/gallery/catalogue.hpp"
+#include "harness/page/table.hpp"
+#include "harness/report/figures.hpp"
+
+namespace scanbench::harness {
+
+/// An entry of a catalogue as it was made.
+struct MadeEntry {
+  CatalogueEntry entry;
+  std::vector<FigureFile> files;  ///< of a figure; empty if there was nothing to draw
+  std::vector<Table> tables;      ///< of a table
+  std::string failure;            ///< why there is neither; empty if there is
+};
+
+/// Draws every entry from the run into the folder of the options. A figure that has nothing to draw is a failure of its
+/// entry, not an exception. Throws ConfigError for what cannot be read or written.
+std::vector<MadeEntry> make_entries(const std::filesystem::path& run, const Catalogue& catalogue,
+                                    const FigureOptions& options,
+                                    const std::function<void(double, const std::string&)>& progress);
+
+/// "scanbench figures scenarios/figures.yaml --only NAME": makes one entry again.
+std::string command_of(const Catalogue& catalogue, const CatalogueEntry& entry);
+
+/// index.html of the folder: thumbnail, the paper's number, caption and command of each entry, and what is absent.
+std::string gallery_html(const Catalogue& catalogue, const std::vector<MadeEntry>& made, const FigureOptions& options);
+/// The same in Markdown; pictures are at `pictures` + name.
+std::string gallery_markdown(const Catalogue& catalogue, const std::vector<MadeEntry>& made,
+                             const FigureOptions& options, const std::string& pictures = "");
+
+}  // namespace scanbench::harness

@@ -1,0 +1,50 @@
+// Tables that are written as terminal text, Markdown and HTML.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace scanbench::harness {
+
+struct TableCell {
+  std::string text;
+  bool best = false;       ///< the best of its row or column
+  bool published = false;  ///< from a paper, not computed here
+  std::string spread{};    ///< "± 0.12": after the text, below it in HTML; may be empty
+  std::string link{};      ///< HTML: what the text leads to, a relative address; may be empty
+  std::string hint{};      ///< HTML: shown when the pointer rests on the text, for example a command
+};
+
+struct TableColumn {
+  std::string group;  ///< heading over neighbouring columns of the same group; may be empty
+  std::string head;
+  bool published = false;
+};
+
+struct Table {
+  std::string id;  ///< anchor, file name
+  std::string title;
+  std::string caption;
+  std::vector<std::string> row_heads;  ///< headings of the leading text columns
+  std::vector<TableColumn> columns;
+  struct Row {
+    std::vector<std::string> heads;
+    std::vector<TableCell> cells;
+    bool published = false;
+  };
+  std::vector<Row> rows;
+};
+
+/// Splits a table into parts of at most `width` characters if it is wider: between groups of columns, or between single
+/// columns if there are no groups. The first part has the title, the last the caption.
+std::vector<Table> parts_of_width(const Table& table, std::size_t width);
+
+/// Groups of columns that do not fit `width` characters side by side are written below each other.
+std::string to_terminal(const Table& table, bool color, std::size_t width = 1000);
+std::string to_markdown(const Table& table);
+std::string to_html(const Table& table);
+
+/// The five characters that HTML and XML reserve, escaped.
+std::string html_escaped(const std::string& text);
+
+}  // namespace scanbench::harness

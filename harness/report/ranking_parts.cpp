@@ -1,0 +1,130 @@
+// Writes rankings of methods as HTML.
+#include "harness/report/ranking_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/names.hpp"
+#include "harness/page/scatter_chart.hpp"
+#include "harness/page/table.hpp"
+#include "harness/report/table_marks.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+/// The unit in which the values of a column are shown.
+Display shown_unit(const std::string& unit, const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double v : values)
+    if (std::isfinite(v)) largest = std::max(largest, std::fabs(v));
+  return display_for(unit, largest);
+}
+
+Display quality_unit(const MethodRanking& ranking) {
+  std::vector<double> values;
+  for (const auto& method : ranking.methods) values.push_back(method.quality.mean);
+  return shown_unit(ranking.quality.unit, values);
+}
+
+std::string interval_text(const MeanInterval& interval) {
+  return std::isfinite(interval.mean) ? fmt::format("{:.2f} … {:.2f}", interval.low, interval.high) : "";
+}
+
+TableCell probability_cell(const MeanInterval& interval) {
+  if (!std::isfinite(interval.mean)) return {"–"};
+  return {.text = fmt::format("{:.2f}", interval.mean), .spread = interval_text(interval)};
+}
+
+TableCell quality_cell(const RankedMethod& method, const Display& display, bool is_best) {
+  TableCell cell{.text = value_text(method.quality.mean, display), .best = is_best};
+  if (method.quality.count > 1) cell.spread = spread_text(method.quality.half_width(), display);
+  if (!method.complete()) cell.spread += fmt::format(" ({} of {})", method.defined, method.cells);
+  return cell;
+}
+
+Table ranking_table(const MethodRanking& ranking) {
+  const Display quality = quality_unit(ranking);
+  std::vector<double> seconds;
+  for (const auto& method : ranking.methods) seconds.push_back(method.seconds);
+  const Display time = shown_unit("s", seconds);
+  Table table{"",
+              "",
+              "",
+              {"pipeline"},
+              {{"", heading(ranking.quality.metric, quality)},
+               {"", "beats the next"},
+               {"", heading("time", time)},
+               {"", "front"}},
+              {}};
+  for (const auto& method : ranking.methods) {
+    const bool is_best = &method == &ranking.methods.front() && method.complete();
+    table.rows.push_back({{method.pipeline},
+                          {quality_cell(method, quality, is_best),
+                           probability_cell(method.beats_next),
+                           {value_text(method.seconds, time)},
+                           {method.on_front ? "●" : ""}},
+                          false});
+  }
+  return table;
+}
+
+std::string list_of(const std::vector<std::string>& scenarios) {
+  return scenarios.size() <= 3 ? join(scenarios) : fmt::format("{} scenarios", scenarios.size());
+}
+
+}  // namespace
+
+std::string ranking_sentence(const MethodRanking& ranking) {
+  const auto& methods = ranking.methods;
+  const std::string where = list_of(ranking.scenarios);
+  const auto complete = std::ranges::count_if(methods, &RankedMethod::complete);
+  if (complete == 0) return fmt::format("No pipeline has values for all cells of {}, so none is called best.", where);
+  const RankedMethod& best = methods.front();
+  const Display display = quality_unit(ranking);
+  const std::string unit = display.unit.empty() ? "" : " " + display.unit;
+  std::string text = fmt::format("{} has the best {} of {} pipelines in {}, {}{}", best.pipeline,
+                                 ranking.quality.metric, complete, where, value_text(best.quality.mean, display), unit);
+  if (std::isfinite(best.beats_next.mean)) {
+    text += best.beats_next.low > 0.5
+                ? fmt::format(", and beats the next, {}, with probability {:.2f}", methods[1].pipeline,
+                              best.beats_next.mean)
+                : fmt::format("; the seeds do not separate it from the next, {}", methods[1].pipeline);
+  }
+  text += ".";
+  if (complete < std::ssize(methods))
+    text += fmt::format(" {} more {} not complete.", std::ssize(methods) - complete,
+                        std::ssize(methods) - complete == 1 ? "is" : "are");
+  return text;
+}
+
+std::string accuracy_chart(const MethodRanking& ranking) {
+  const Display quality = quality_unit(ranking);
+  ScatterChart chart{"CPU time of one recording [ms]", heading(ranking.quality.metric, quality), {}};
+  for (const auto& method : ranking.methods)
+    chart.points.push_back(
+        {1e3 * method.seconds, quality.scale * method.quality.mean, method.pipeline, method.on_front});
+  return scatter_chart(chart);
+}
+
+std::string html_rankings(const std::vector<MethodRanking>& rankings, const std::string& report) {
+  if (rankings.empty()) return "";
+  std::string out =
+      "<p class=\"caption\">Means over the seeds with their 95 % intervals. “Beats the next” is the probability to be "
+      "better than the next row on a new seed, with its 95 % interval. The time is the CPU time of all stages for one "
+      "recording. ● no other pipeline is both as good and as fast.</p>\n";
+  for (const auto& ranking : rankings) {
+    std::string heads;
+    for (const auto& name : ranking.scenarios)
+      heads += fmt::format("{}<a href=\"{}#{}\">{}</a>", heads.empty() ? "" : ", ", html_escaped(report),
+                           html_escaped(name), html_escaped(name));
+    out +=
+        fmt::format("<h3>{}</h3>\n<p>{}</p>\n<div class=\"ranking\">\n{}{}</div>\n", heads,
+                    html_escaped(ranking_sentence(ranking)), to_html(ranking_table(ranking)), accuracy_chart(ranking));
+  }
+  return out;
+}
+
+}  // namespace scanbench::harness

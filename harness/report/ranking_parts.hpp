@@ -1,0 +1,22 @@
+// Rankings of methods as parts of a page: a table, and accuracy against time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/analysis/method_ranking.hpp"
+
+namespace scanbench::harness {
+
+/// "optimal has the best f1 of 9 pipelines in room, 0.98, and beats the next, polyline, with probability 0.9." or why
+/// none is called best.
+std::string ranking_sentence(const MethodRanking& ranking);
+
+/// One section per ranking: the sentence, the table and the chart. Names of scenarios lead to `report` + "#" + name; an
+/// empty `report` means this page.
+std::string html_rankings(const std::vector<MethodRanking>& rankings, const std::string& report);
+
+/// Accuracy against time as inline SVG; empty if no time is known.
+std::string accuracy_chart(const MethodRanking& ranking);
+
+}  // namespace scanbench::harness

@@ -1,0 +1,56 @@
+// Reads the facts from the scenario; it has every default filled in.
+#include "harness/report/recording_note.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/geometry/angles.hpp"
+#include "core/names.hpp"
+#include "core/params.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+std::string text_of(const SimulatedInput& input, std::uint64_t seed) {
+  std::vector<std::string> facts{fmt::format("Simulated with seed {}", seed)};
+  if (!input.tilt.level())
+    facts.push_back(
+        fmt::format("the sensor is tilted anew for each scan (standard deviations {:.3g} deg of roll, "
+                    "{:.3g} deg of pitch)",
+                    degrees(input.tilt.roll_sigma_rad), degrees(input.tilt.pitch_sigma_rad)));
+  facts.emplace_back(input.odometry.any() ? "poses by odometry with errors" : "odometry without errors");
+  if (input.sweep) facts.emplace_back("the sensor moves while it scans");
+  return join(facts, "; ") + ".";
+}
+
+std::string text_of(const RecordedInput& input, std::uint64_t seed) {
+  std::string text = "Recorded log " + input.log.filename().string();
+  if (const auto poses = input.params.find("poses"); poses != input.params.end())
+    text += fmt::format(", its {} poses", to_text(poses->second));
+  if (input.odometry.any()) text += fmt::format(" with added errors of seed {}", seed);
+  return text + ".";
+}
+
+std::string text_of(const LinesInput& input, std::uint64_t seed) {
+  return input.file.empty() ? fmt::format("Copies of the walls with seed {}.", seed)
+                            : "Lines of " + input.file_name + ".";
+}
+
+}  // namespace
+
+std::string recording_note(const Scenario& scenario, std::uint64_t seed) {
+  return std::visit([seed](const auto& input) { return text_of(input, seed); }, scenario.input);
+}
+
+std::string recording_title_note(const Scenario& scenario, std::uint64_t seed) {
+  std::vector<std::string> facts;
+  if (const auto* simulated = std::get_if<SimulatedInput>(&scenario.input))
+    if (!simulated->tilt.level()) facts.emplace_back("tilted sensor");
+  if (scenario.seeds.size() > 1) facts.push_back(fmt::format("seed {} of {} seeds", seed, scenario.seeds.size()));
+  return join(facts);
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,18 @@
+// What a reader of a figure must know of its recording: seed, tilt, errors of the poses.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "harness/scenario/scenario.hpp"
+
+namespace scanbench::harness {
+
+/// A sentence for captions: "Simulated with seed 1; poses by odometry with errors.", "Recorded log intel.log.gz, its
+/// reference poses."
+std::string recording_note(const Scenario& scenario, std::uint64_t seed);
+
+/// The same for titles, only what is unusual: "tilted sensor, seed 3 of 20 seeds"; empty if nothing is.
+std::string recording_title_note(const Scenario& scenario, std::uint64_t seed);
+
+}  // namespace scanbench::harness

@@ -1,0 +1,126 @@
+// Reads the scans.csv of all cells, keeps the worst scans of each pipeline and draws them.
+#include "harness/report/worst_scans.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "core/recording.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/files/csv.hpp"
+#include "harness/page/scan_sketch.hpp"
+#include "harness/report/line_verdicts.hpp"
+#include "harness/store/cell_files.hpp"
+#include "harness/store/recording_folder.hpp"
+#include "harness/store/run_folder.hpp"
+#include "harness/store/run_scenarios.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_worse(const WorstScan& a, const WorstScan& b) {
+  const auto rank = [](const WorstScan& scan) {
+    return std::tuple(scan.f1, -(scan.false_lines + scan.missed + scan.split));
+  };
+  return rank(a) < rank(b);
+}
+
+/// Inserts the scans of one cell into the list of its pipeline, which stays in order and short.
+void insert_scans(const fs::path& file, const CellKey& key, std::size_t count, std::vector<WorstScan>& worst) {
+  const CsvTable table(read_file(file), file, {"frame", "true", "false", "missed", "split", "f1"});
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const WorstScan scan{key,
+                         static_cast<std::size_t>(std::max(0, table.index(row, "frame"))),
+                         table.number(row, "f1"),
+                         table.index(row, "true"),
+                         table.index(row, "false"),
+                         table.index(row, "missed"),
+                         table.index(row, "split")};
+    if (std::isnan(scan.f1)) continue;
+    const auto same = std::ranges::find_if(
+        worst, [&](const WorstScan& other) { return other.frame == scan.frame && other.key.scenario == key.scenario; });
+    if (same != worst.end()) {
+      if (!is_worse(scan, *same)) continue;
+      worst.erase(same);
+    }
+    worst.insert(std::ranges::upper_bound(worst, scan, is_worse), scan);
+    if (worst.size() > count) worst.pop_back();
+  }
+}
+
+SketchLine kind_of(render::LineVerdict verdict) {
+  switch (verdict) {
+    case render::LineVerdict::right:
+      return SketchLine::right;
+    case render::LineVerdict::split:
+      return SketchLine::split;
+    case render::LineVerdict::false_line:
+      return SketchLine::false_line;
+    default:
+      return SketchLine::unjudged;
+  }
+}
+
+/// A recording and the verdicts on a pipeline's lines in it.
+class JudgedCell {
+ public:
+  JudgedCell(const fs::path& run, const CellKey& key, const std::vector<Scenario>& scenarios)
+      : recording_(load_recording(recording_path(run, key.scenario, key.seed))),
+        result_(load_result(cell_path(run, key))) {
+    const auto scenario = std::ranges::find(scenarios, key.scenario, &Scenario::name);
+    if (scenario != scenarios.end()) verdicts_ = line_verdicts(recording_, result_, segment_rules(scenario->metrics));
+  }
+
+  std::string sketch(const WorstScan& scan) const {
+    if (scan.frame >= recording_.observed.frames.size() || scan.frame >= result_.lines.size()) return "";
+    ScanSketch sketch;
+    sketch.points = valid_points(recording_.observed.scan(scan.frame)).points;
+    const auto& lines = result_.lines[scan.frame].lines;
+    const bool judged = scan.frame < verdicts_.size();
+    for (std::size_t k = 0; k < lines.size(); ++k)
+      sketch.lines.push_back(
+          {lines[k].segment, judged ? kind_of(verdicts_[scan.frame].lines[k]) : SketchLine::unjudged});
+    if (judged)
+      for (const Segment& missed : verdicts_[scan.frame].missed) sketch.lines.push_back({missed, SketchLine::missed});
+    sketch.label =
+        fmt::format("{}, scan {}: F1 {:.2f}, {} right, {} false, {} missed, {} split lines", to_string(scan.key),
+                    scan.frame, scan.f1, scan.found, scan.false_lines, scan.missed, scan.split);
+    return scan_sketch(sketch);
+  }
+
+ private:
+  Recording recording_;
+  PipelineResult result_;
+  std::vector<render::ScanVerdict> verdicts_;
+};
+
+}  // namespace
+
+std::vector<PipelineWorst> worst_scans(const fs::path& run, const RunResults& results, std::size_t count) {
+  std::vector<PipelineWorst> all;
+  for (const auto& cell : results.cells) {
+    const fs::path file = cell_path(run, cell.key) / "scans.csv";
+    if (!cell.ok() || !fs::exists(file)) continue;
+    auto of_pipeline = std::ranges::find(all, cell.key.pipeline, &PipelineWorst::pipeline);
+    if (of_pipeline == all.end()) of_pipeline = all.insert(of_pipeline, {cell.key.pipeline, {}});
+    insert_scans(file, cell.key, count, of_pipeline->scans);
+  }
+  if (all.empty()) return all;
+  const std::vector<Scenario> scenarios = load_run_scenarios(run);
+  for (auto& [pipeline, scans] : all) {
+    std::map<CellKey, JudgedCell> cells;
+    for (auto& scan : scans) {
+      const auto cell = cells.try_emplace(scan.key, run, scan.key, scenarios).first;
+      scan.sketch = cell->second.sketch(scan);
+    }
+  }
+  return all;
+}
+
+}  // namespace scanbench::harness

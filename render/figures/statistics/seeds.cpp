@@ -1,0 +1,109 @@
+// The values of a metric over the seeds: a dot for each, the mean and its 95 % interval, one row per pipeline.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/registry.hpp"
+#include "render/figures/parts/measured.hpp"
+#include "render/figures/parts/style.hpp"
+
+namespace scanbench::render {
+namespace {
+
+constexpr double kDotPt = 3.0;
+const Stroke kInterval{kBlack, 1.2, Dash::solid};
+
+/// Offsets across the row, in rows, so that values nearer to each other than `width` do not cover each other: the
+/// first of a cluster is in the middle, the next ones alternate above and below.
+std::vector<double> spread(const std::vector<double>& sorted, double width) {
+  std::vector<double> offsets;
+  int in_cluster = 0;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    in_cluster = i > 0 && sorted[i] - sorted[i - 1] < width ? in_cluster + 1 : 0;
+    const int rank = (in_cluster + 1) / 2;
+    offsets.push_back(std::clamp((in_cluster % 2 == 1 ? 0.09 : -0.09) * rank, -0.36, 0.36));
+  }
+  return offsets;
+}
+
+class Seeds : public Figure {
+ public:
+  struct Params {
+    std::string metric = "f1";
+    static auto fields() {
+      return std::tuple{field("metric", &Params::metric, "the metric that is shown, of the subject all")};
+    }
+  };
+  explicit Seeds(const Params& params) : params_(params) {}
+
+  std::string why_nothing(const FigureInput&) const override { return no_value_of(params_.metric); }
+
+  std::vector<NamedScene> draw(const FigureInput& input) const override {
+    std::vector<const MeasuredPipeline*> shown;
+    for (const MeasuredPipeline& measured : input.measured)
+      if (band_of(measured, params_.metric)) shown.push_back(&measured);
+    if (shown.empty()) return {};
+    std::vector<std::string> names;
+    double low = INFINITY, high = -INFINITY;
+    for (const MeasuredPipeline* measured : shown) {
+      names.push_back(measured->pipeline);
+      const auto [least, most] = std::ranges::minmax(measured->metrics.at(params_.metric));
+      low = std::min(low, least), high = std::max(high, most);
+    }
+    const std::vector<MethodStyle> styles = method_styles(names);
+    const auto rows = static_cast<double>(shown.size());
+    Panel panel{.x = {.label = metric_label(input, params_.metric)},
+                .y = {.range = std::pair(-0.5, rows - 0.5), .grid = false},
+                .equal_aspect = false,
+                .items = {}};
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      const double row = rows - 1.0 - static_cast<double>(i);  // the first pipeline is on top
+      panel.y.ticks.emplace_back(row, names[i]);
+      add_row(*shown[i], row, styles[i].color, (high - low) / 60.0, panel);
+    }
+    Scene scene{.title = fmt::format("{}: {} over the seeds", input.title, params_.metric),
+                .box_aspect = std::clamp(0.13 * rows, 0.3, 2.0)};
+    scene.legend = {{.text = "one seed", .marker = Marker::circle, .marker_color = kGrey, .marker_size_pt = kDotPt},
+                    {.text = "mean and 95 % interval",
+                     .stroke = kInterval,
+                     .marker = Marker::diamond,
+                     .marker_color = kBlack,
+                     .marker_size_pt = 4.5}};
+    scene.panels.push_back(std::move(panel));
+    const std::size_t seeds = most_seeds(input, params_.metric);
+    return {{"seeds",
+             fmt::format("{}: {} of each of {}, with the mean and its 95 % interval.", input.title, params_.metric,
+                         counted(seeds, "seed")),
+             std::move(scene)}};
+  }
+
+ private:
+  void add_row(const MeasuredPipeline& measured, double row, Color color, double width, Panel& panel) const {
+    std::vector<double> values = measured.metrics.at(params_.metric);
+    std::ranges::sort(values);
+    const std::vector<double> offsets = spread(values, width);
+    Points dots{.marker = Marker::circle, .color = color, .size_pt = kDotPt};
+    for (std::size_t k = 0; k < values.size(); ++k) dots.points.emplace_back(values[k], row + offsets[k]);
+    panel.items.emplace_back(std::move(dots));
+    const MeanBand band = *band_of(measured, params_.metric);
+    const auto cap = [&](double x) { return Segment{{x, row - 0.12}, {x, row + 0.12}}; };
+    if (band.high > band.low)
+      panel.items.emplace_back(
+          Lines{.segments = {{{band.low, row}, {band.high, row}}, cap(band.low), cap(band.high)}, .stroke = kInterval});
+    panel.items.emplace_back(
+        Points{.points = {{band.mean, row}}, .marker = Marker::diamond, .color = kBlack, .size_pt = 4.5});
+  }
+
+  Params params_;
+};
+
+const bool registered = Registry<Figure>::add<Seeds>(
+    {.name = "seeds",
+     .summary = "a metric over the seeds: a dot for each, the mean and its 95 % interval, a row per pipeline",
+     .reference = ""});
+
+}  // namespace
+}  // namespace scanbench::render

@@ -1,0 +1,118 @@
+// An alignment: the lines of all scans after each iteration of an aligner, with its hypotheses about lines and
+// rectangles.
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/registry.hpp"
+#include "core/trace/force_field_trace.hpp"
+#include "core/trace/trace_rows.hpp"
+#include "render/figures/parts/clusters.hpp"
+#include "render/figures/parts/style.hpp"
+#include "render/figures/parts/view_box.hpp"
+#include "render/film.hpp"
+#include "render/films/stage.hpp"
+
+namespace scanbench::render {
+namespace {
+
+constexpr std::string_view kSlot = "align";
+constexpr int kDropped = 3;  // the fate of a hypothesis that was given up
+const Stroke kHypothesis{Color{200, 200, 200}, 2.6, Dash::solid};
+
+struct Iteration {
+  int number = 0;
+  std::vector<Pose2> poses;                     ///< of all scans
+  std::vector<std::vector<Vec2>> hypotheses{};  ///< corners
+};
+
+std::vector<Iteration> iterations_of(const TraceRows* trace, std::size_t scans) {
+  std::map<int, Iteration> found;
+  if (trace == nullptr) return {};
+  for (const auto& row : rows_of<force_field::PoseRow>(*trace, kSlot)) {
+    if (row.scan < 0 || row.scan >= static_cast<int>(scans)) continue;
+    Iteration& iteration = found[row.iteration];
+    iteration.number = row.iteration;
+    iteration.poses.resize(scans);
+    iteration.poses[static_cast<std::size_t>(row.scan)] = Pose2(row.x_m, row.y_m, row.yaw_rad);
+  }
+  for (const auto& row : rows_of<force_field::HypothesisRow>(*trace, kSlot))
+    if (const auto at = found.find(row.iteration); at != found.end() && row.fate != kDropped)
+      at->second.hypotheses.push_back(
+          {{row.x1_m, row.y1_m}, {row.x2_m, row.y2_m}, {row.x3_m, row.y3_m}, {row.x4_m, row.y4_m}});
+  std::vector<Iteration> iterations;
+  iterations.reserve(found.size());
+  for (auto& [number, iteration] : found) iterations.push_back(std::move(iteration));
+  return iterations;
+}
+
+class AlignmentMoves final : public FilmKind {
+ public:
+  using Params = NoParams;
+  explicit AlignmentMoves(const Params&) {}
+
+  std::vector<std::string> trace_rows() const override {
+    return {key_of<force_field::PoseRow>(kSlot), key_of<force_field::HypothesisRow>(kSlot)};
+  }
+
+  std::optional<Film> make(const FigureInput& input, std::size_t most) const override {
+    if (input.results.empty()) return std::nullopt;
+    const NamedResult& shown = input.results.front();
+    const auto iterations =
+        std::make_shared<const std::vector<Iteration>>(iterations_of(shown.trace, shown.result->lines.size()));
+    if (iterations->empty()) return std::nullopt;
+    const auto steps = chosen_steps(iterations->size(), most);
+    std::vector<Vec2> places;
+    for (const Pose2& pose : iterations->back().poses) places.push_back(pose.translation());
+    const auto scene = [&input, &shown, iterations, steps, colors = cluster_colors(places),
+                        view = view_of(shown, *iterations)](std::size_t k) {
+      const Iteration& now = (*iterations)[steps[k]];
+      Panel panel = view;
+      panel.title = fmt::format("{}: iteration {}, {} hypotheses", shown.pipeline, now.number, now.hypotheses.size());
+      for (const auto& corners : now.hypotheses)
+        panel.items.emplace_back(Polyline{.points = corners, .stroke = kHypothesis, .closed = true});
+      for (std::size_t f = 0; f < now.poses.size(); ++f) {
+        Lines lines{.segments = {}, .stroke = {colors[f], 0.8, Dash::solid}};
+        for (const LineFeature& line : shown.result->lines[f].lines)
+          lines.segments.push_back(now.poses[f] * line.segment);
+        panel.items.emplace_back(std::move(lines));
+      }
+      return film_scene(input.title, {std::move(panel)},
+                        {{.text = "lines, a colour for each scan", .stroke = Stroke{kScanColor, 0.8, Dash::solid}},
+                         {.text = "hypotheses", .stroke = kHypothesis}});
+    };
+    return Film{steps.size(), scene,
+                fmt::format("{}: the lines of {} after each iteration of {}.", input.title,
+                            counted(shown.result->lines.size(), "scan"), shown.pipeline)};
+  }
+
+ private:
+  /// The range of the first and the last iteration.
+  static Panel view_of(const NamedResult& shown, const std::vector<Iteration>& iterations) {
+    std::vector<Vec2> ends;
+    for (const Iteration* iteration : {&iterations.front(), &iterations.back()})
+      for (std::size_t f = 0; f < iteration->poses.size(); ++f)
+        for (const LineFeature& line : shown.result->lines[f].lines) {
+          const Segment placed = iteration->poses[f] * line.segment;
+          ends.insert(ends.end(), {placed.a, placed.b});
+        }
+    Panel panel;
+    set_view(ends, {}, panel);
+    return panel;
+  }
+};
+
+const bool registered =
+    Registry<FilmKind>::add<AlignmentMoves>({.name = "alignment",
+                                             .summary = "scans that an aligner moves, with its hypotheses",
+                                             .reference = "Lakaemper 2010, figures 10 and 12"});
+
+}  // namespace
+}  // namespace scanbench::render

@@ -1,0 +1,141 @@
+// A map that grows: that of a mapper after each scan, from its trace; else the lines of all scans so far, and at the
+// end the map that a merger made of them.
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/registry.hpp"
+#include "core/trace/map_trace.hpp"
+#include "core/trace/trace_rows.hpp"
+#include "render/figures/parts/frames.hpp"
+#include "render/figures/parts/style.hpp"
+#include "render/figures/parts/view_box.hpp"
+#include "render/film.hpp"
+#include "render/films/stage.hpp"
+
+namespace scanbench::render {
+namespace {
+
+constexpr std::string_view kSlot = "map";
+const Stroke kPath{kPathColor, 0.8, Dash::solid};
+const Stroke kNewest{kVermillion, 1.6, Dash::solid};
+const Stroke kMerged{kBlack, 1.4, Dash::solid};
+
+/// The lines of a mapper's map as they come and go: number of the frame, number of the line.
+struct Changes {
+  std::multimap<int, std::pair<int, Segment>> born;
+  std::multimap<int, int> gone;
+
+  explicit Changes(const TraceRows* trace) {
+    if (trace == nullptr) return;
+    if (const auto rows = trace->find(key_of<mapping::BornRow>(kSlot)); rows != trace->end())
+      for (const TraceRow& raw : rows->second)
+        if (const auto row = row_from<mapping::BornRow>(raw.values))
+          born.emplace(raw.frame, std::pair(row->line, Segment{{row->x1_m, row->y1_m}, {row->x2_m, row->y2_m}}));
+    if (const auto rows = trace->find(key_of<mapping::GoneRow>(kSlot)); rows != trace->end())
+      for (const TraceRow& raw : rows->second)
+        if (const auto row = row_from<mapping::GoneRow>(raw.values)) gone.emplace(raw.frame, row->line);
+  }
+
+  std::vector<Segment> map_after(int frame) const {
+    std::map<int, Segment> lines;
+    for (auto it = born.begin(); it != born.upper_bound(frame); ++it) lines[it->second.first] = it->second.second;
+    for (auto it = gone.begin(); it != gone.upper_bound(frame); ++it) lines.erase(it->second);
+    std::vector<Segment> segments;
+    segments.reserve(lines.size());
+    for (const auto& [number, segment] : lines) segments.push_back(segment);
+    return segments;
+  }
+};
+
+/// What every frame needs.
+struct Growth {
+  Changes changes;
+  std::vector<Pose2> poses;
+  std::vector<std::vector<Segment>> found;  ///< by scan, world
+  std::vector<Segment> map;                 ///< at the end; empty without one
+  Panel view;
+
+  std::vector<Segment> lines_after(std::size_t f, bool last) const {
+    if (!changes.born.empty()) return changes.map_after(static_cast<int>(f));
+    if (last && !map.empty()) return map;
+    std::vector<Segment> lines;
+    for (std::size_t k = 0; k <= f; ++k) lines.insert(lines.end(), found[k].begin(), found[k].end());
+    return lines;
+  }
+};
+
+class MapGrows final : public FilmKind {
+ public:
+  using Params = NoParams;
+  explicit MapGrows(const Params&) {}
+
+  std::vector<std::string> trace_rows() const override {
+    return {key_of<mapping::BornRow>(kSlot), key_of<mapping::GoneRow>(kSlot)};
+  }
+
+  std::optional<Film> make(const FigureInput& input, std::size_t most) const override {
+    if (input.results.empty()) return std::nullopt;
+    const NamedResult& shown = input.results.front();
+    const std::size_t frames = shown.result->lines.size();
+    const auto growth = std::make_shared<const Growth>(growth_of(input.recording, shown));
+    if (frames == 0 || growth->poses.size() != frames) return std::nullopt;
+    const auto steps = chosen_steps(frames, most);
+    const auto scene = [&input, &shown, steps, growth, frames](std::size_t k) {
+      const std::size_t f = steps[k];
+      const bool last = k + 1 == steps.size(), is_merged = last && growth->changes.born.empty() && !growth->map.empty();
+      Panel panel = growth->view;
+      Lines lines{growth->lines_after(f, last),
+                  is_merged ? kMerged : Stroke{method_color(input.results, 0), 0.9, Dash::solid}};
+      panel.title = fmt::format("{}: scan {} of 0 to {}, {}", shown.pipeline, f, frames - 1,
+                                counted(lines.segments.size(), is_merged ? "line of the map" : "line"));
+      panel.items.emplace_back(std::move(lines));
+      if (!is_merged) panel.items.emplace_back(Lines{growth->found[f], kNewest});
+      add_path(input, std::span(growth->poses).first(f + 1), kPath, panel);
+      panel.items.emplace_back(Arrow{.pose = growth->poses[f], .length_pt = 14, .stroke = kNewest});
+      return film_scene(input.title, {std::move(panel)},
+                        {{.text = growth->changes.born.empty() ? "lines of all scans so far" : "map",
+                          .stroke = Stroke{method_color(input.results, 0), 0.9, Dash::solid}},
+                         {.text = "lines of this scan", .stroke = kNewest},
+                         path_legend(input, kPath)});
+    };
+    return Film{steps.size(), scene,
+                growth->changes.born.empty()
+                    ? fmt::format("{}: the lines of all scans so far, and at the end the map of {}.", input.title,
+                                  shown.pipeline)
+                    : fmt::format("{}: the map of {} after each scan.", input.title, shown.pipeline)};
+  }
+
+ private:
+  static Growth growth_of(const Recording& recording, const NamedResult& shown) {
+    Growth growth{.changes = Changes(shown.trace),
+                  .poses = place_frames(recording, shown.result).world_from_sensor,
+                  .found = {},
+                  .map = {},
+                  .view = {}};
+    std::vector<Vec2> ends;
+    for (std::size_t f = 0; f < shown.result->lines.size() && f < growth.poses.size(); ++f) {
+      auto& lines = growth.found.emplace_back();
+      for (const LineFeature& line : shown.result->lines[f].lines) lines.push_back(growth.poses[f] * line.segment);
+      for (const Vec2& end : ends_of(lines)) ends.push_back(end);
+    }
+    for (const MapLine& line : shown.result->map.lines) growth.map.push_back(line.segment);
+    std::vector<Vec2> places;
+    for (const Pose2& pose : growth.poses) places.push_back(pose.translation());
+    set_view(ends, places, growth.view);
+    return growth;
+  }
+};
+
+const bool registered =
+    Registry<FilmKind>::add<MapGrows>({.name = "map", .summary = "a map that grows scan by scan", .reference = ""});
+
+}  // namespace
+}  // namespace scanbench::render

@@ -1,0 +1,110 @@
+// report --scans: the page that plays the scans of a run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "tests/app/browser.hpp"
+#include "tests/app/program.hpp"
+
+namespace scanbench::app_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class Player : public testing::Test {
+ protected:
+  void SetUp() override {
+    // A threshold of half a metre rounds off corners in some scans only.
+    folder_.write("room.yaml",
+                  room_with("metrics:",
+                            "  - {name: coarse, extract: {module: iepf, params: {threshold_m: 0.5, "
+                            "min_points: 2}}}\nmetrics:")
+                      .replace(room().find("{preset: sick_lms200}"), 21, "{preset: sick_lms200, sigma_m: 0.15}"));
+    ASSERT_EQ(here({"run", "room.yaml", "--out", "run", "-q", "--no-figures"}).code, 0);
+  }
+  Outcome here(const Args& args) const { return run(args, {}, folder_.path()); }
+  Folder folder_;
+};
+
+/// The scans of scans.csv, lowest F1 first, of equal ones the first.
+std::string from_worst_to_best(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  std::vector<std::pair<double, int>> scans;
+  while (std::getline(lines, line)) {
+    std::istringstream row(line);
+    std::string fields[7];
+    for (std::string& field : fields) std::getline(row, field, ',');
+    scans.emplace_back(std::stod(fields[6]), std::stoi(fields[0]));
+  }
+  std::ranges::sort(scans);
+  std::string order;
+  for (const auto& [f1, scan] : scans) order += std::to_string(scan) + " ";
+  return order;
+}
+
+TEST_F(Player, IsAPageOfItsOwnThatTheManifestLists) {
+  const auto outcome = here({"report", "run", "--scans"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("run/scans.html"));
+  const std::string page = read(folder_ / "run/scans.html");
+  EXPECT_THAT(page, Not(HasSubstr("http")));
+  EXPECT_THAT(page, HasSubstr("at most 2000 scans"));
+  EXPECT_THAT(read(folder_ / "run/manifest.json"), HasSubstr("scans.html"));
+  ASSERT_EQ(here({"report", "run", "--scans"}).code, 0);
+  EXPECT_EQ(read(folder_ / "run/scans.html"), page);
+}
+
+TEST_F(Player, KeysAndTheSliderGoThroughTheScansAndNothingIsRequested) {
+  if (!has_browser()) GTEST_SKIP() << "chromium is not installed";
+  ASSERT_EQ(here({"report", "run", "--scans"}).code, 0);
+  const std::string title = title_after(folder_ / "run/scans.html", R"js(
+    const press = key => document.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true}));
+    const scan = () => document.getElementById('what').textContent.split(' ')[1];
+    const seen = [scan()];
+    for (const key of ['ArrowRight', 'ArrowRight', 'ArrowLeft', 'End', 'ArrowRight', 'Home']) { press(key); seen.push(scan()); }
+    const slider = document.getElementById('scan');
+    slider.value = 3; slider.dispatchEvent(new Event('input')); seen.push(scan());
+    const c = document.getElementById('view'), pixels = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+    let drawn = 0; for (let k = 3; k < pixels.length; k += 4) drawn += pixels[k] > 0;
+    seen.push('rows', document.querySelectorAll('#facts tbody tr').length);
+    document.title = seen.join(' ') + (drawn > 1000 ? ' drawn ' : ' blank ') +
+        performance.getEntriesByType('resource').filter(r => !r.name.startsWith('data:')).length;
+  )js",
+                                        folder_);
+  EXPECT_EQ(title, "0 1 2 1 4 4 0 3 rows 2 drawn 0");
+}
+
+TEST_F(Player, SortsTheScansByTheF1OfAPipeline) {
+  if (!has_browser()) GTEST_SKIP() << "chromium is not installed";
+  ASSERT_EQ(here({"report", "run", "--scans"}).code, 0);
+  const std::string title = title_after(folder_ / "run/scans.html", R"js(
+    const order = document.getElementById('order'), seen = [];
+    order.value = 'f1 of coarse'; order.dispatchEvent(new Event('change'));
+    for (let k = 0; k < 5; ++k) {
+      seen.push(document.getElementById('what').textContent.split(' ')[1] + ' ');
+      document.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowRight', bubbles: true}));
+    }
+    document.title = seen.join('') + '|';
+  )js",
+                                        folder_);
+  const std::string expected = from_worst_to_best(read(folder_ / "run/cells/room/coarse/1/scans.csv"));
+  EXPECT_NE(expected, "0 1 2 3 4 ") << "a page that does not sort would pass";
+  EXPECT_EQ(title, expected + "|");
+}
+
+TEST_F(Player, OfARunWithoutScansIsRefused) {
+  ASSERT_EQ(here({"simulate", "room.yaml", "--out", "recordings"}).code, 0);
+  const auto outcome = here({"report", "recordings", "--scans"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("no scans with lines to play"));
+}
+
+}  // namespace
+}  // namespace scanbench::app_test

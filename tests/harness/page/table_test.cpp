@@ -1,0 +1,59 @@
+// Tables as terminal text, Markdown and HTML.
+#include "harness/page/table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace scanbench::harness {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Table example() {
+  Table table;
+  table.id = "t";
+  table.title = "Lines <of> a & b";
+  table.row_heads = {"line"};
+  table.columns = {{"N", "lt", false}, {"N", "LT (paper)", true}, {"eta", "lt", false}};
+  table.rows = {{{"1"}, {{"1.25", true, false}, {"1.28", false, true}, {"0.9", false, false}}, false},
+                {{"10"}, {{"11.50", false, false}, {"", false, true}, {"–", false, false}}, false}};
+  return table;
+}
+
+TEST(TerminalTable, AlignsNumbersToTheRightUnderTheirHeads) {
+  EXPECT_EQ(to_terminal(example(), false),
+            "Lines <of> a & b\n"
+            "      N                   eta\n"
+            "line     lt  LT (paper)    lt\n"
+            "1     1.25*        1.28   0.9\n"
+            "10    11.50                 –\n");
+}
+
+TEST(PartsOfWidth, KeepGroupsTogetherAndLoseNoColumn) {
+  const auto parts = parts_of_width(example(), 30);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].columns.size(), 2u);
+  EXPECT_EQ(parts[1].columns.size(), 1u);
+  EXPECT_EQ(parts[1].rows[0].cells[0].text, "0.9");
+  EXPECT_EQ(parts[1].rows[0].heads, example().rows[0].heads);
+  EXPECT_EQ(parts_of_width(example(), 200).size(), 1u);
+}
+
+TEST(TerminalTable, UsesNoEscapesWithoutColour) {
+  EXPECT_THAT(to_terminal(example(), false), Not(HasSubstr("\x1b")));
+  EXPECT_THAT(to_terminal(example(), true), HasSubstr("\x1b[1m"));
+}
+
+TEST(MarkdownTable, HasARulerAndMarksTheBest) {
+  EXPECT_THAT(to_markdown(example()), HasSubstr("| 1 | **1.25** | 1.28 | 0.9 |"));
+  EXPECT_THAT(to_markdown(example()), HasSubstr("|---|---:|---:|---:|"));
+}
+
+TEST(HtmlTable, EscapesWhatHtmlReserves) {
+  EXPECT_THAT(to_html(example()), HasSubstr("Lines &lt;of&gt; a &amp; b"));
+  EXPECT_THAT(to_html(example()), HasSubstr("colspan=\"2\">N</th>"));
+}
+
+}  // namespace
+}  // namespace scanbench::harness
