@@ -64,16 +64,47 @@ class Wall {
     return fixed_ + std::max(half_misfit, 0.0);
   }
 
+  // Not more than any cost(u_p, u_q), rounding included: the points' misfit on their best line.
+  double least_cost() const {
+    const double squares = 4.0 * pp_ * qq_, determinant = squares - pq_ * pq_;
+    if (!(determinant > kLeastDeterminant * squares)) return fixed_;
+    const double gain = (qq_ * p_ * p_ - pq_ * p_ * q_ + pp_ * q_ * q_) / determinant;
+    return fixed_ + std::max(one_ - gain - kRounding * one_, 0.0);
+  }
+  // The same for a given u_q.
+  double least_cost(double u_q) const {
+    if (!(pp_ > kLeastDeterminant * qq_)) return fixed_;
+    const double slope = pq_ * u_q + p_;
+    const double half_misfit = u_q * (qq_ * u_q + q_) + one_ - 0.25 * slope * slope / pp_;
+    return fixed_ + std::max(half_misfit - kRounding * one_, 0.0);
+  }
+
  private:
+  // The terms of the misfit are about one_ and cancel. Rounding errors of the least misfit grow with the inverse of
+  // the determinant: they are far below kRounding * one_ as long as it is not near 0.
+  static constexpr double kLeastDeterminant = 1e-5;
+  static constexpr double kRounding = 1e-9;
+
   double pp_, pq_, qq_, p_, q_, one_, fixed_;
 };
 
 // One programme. A state is a place (a point that may have a vertex), the choice of its inverse range, and the number m
-// of vertices so far.
+// of vertices so far. If their number is free, there is no count: m is 0 and each vertex has a cost.
 class Programme {
  public:
-  Programme(std::span<const SegmentationPoint> points, const VertexChoices& choices, int max_vertices, int stride)
-      : points_(points), choices_(choices), levels_(as_index(max_vertices) + 1), sums_(running_sums(points)) {
+  static Programme counted(std::span<const SegmentationPoint> points, const VertexChoices& choices, int max_vertices,
+                           int stride) {
+    return {points, choices, as_index(max_vertices) + 1, 1, 0.0, stride};
+  }
+  static Programme free(std::span<const SegmentationPoint> points, const VertexChoices& choices, double vertex_cost,
+                        int stride) {
+    return {points, choices, 1, 0, vertex_cost, stride};
+  }
+
+ private:
+  Programme(std::span<const SegmentationPoint> points, const VertexChoices& choices, std::size_t levels,
+            std::size_t step, double vertex_cost, int stride)
+      : points_(points), levels_(levels), step_(step), vertex_cost_(vertex_cost), sums_(running_sums(points)) {
     const int n = static_cast<int>(points.size());
     for (int i = 0; i < n; ++i) {
       const bool gap_before = i > 0 && points[as_index(i)].gap_cost == kInf;
@@ -86,15 +117,18 @@ class Programme {
     done_.assign((places_.size() + 1) * levels_, kInf);
     clutter_.assign(as_index(n) + 1, 0.0);
     for (int i = 0; i < n; ++i) clutter_[as_index(i) + 1] = clutter_[as_index(i)] + points[as_index(i)].clutter_cost;
+    set_begins(choices);
   }
 
-  // Any number of chains with clutter between them.
+ public:
+  // Any number of chains with clutter between them. `vertex_cost`: of each vertex, if they are counted.
   GridChains run(double vertex_cost) {
     for (std::size_t m = 0; m < levels_; ++m) done_[m] = 0.0;
     for (std::size_t p = 0; p < places_.size(); ++p) {
       close(p);  // before a chain begins here, because a single vertex is no chain
       for (std::size_t a = 0; a < width_; ++a)
-        for (std::size_t m = 1; m < levels_; ++m) relax(open(p, a, m), done_[p * levels_ + m - 1] + begin_cost(p, a));
+        for (std::size_t m = step_; m < levels_; ++m)
+          relax(open(p, a, m), done_[p * levels_ + m - step_] + begin_cost(p, a) + vertex_cost_);
       extend(p);
     }
     std::size_t best = 0;
@@ -117,6 +151,7 @@ class Programme {
   GridChains trace_back(std::size_t m) const {
     GridChains result;
     result.cost = done_[places_.size() * levels_ + m];
+    std::size_t vertices = 0;
     for (std::size_t p = places_.size(); p > 0;) {
       Extension best;
       std::size_t choice_of_best = 0;
@@ -129,8 +164,10 @@ class Programme {
       }
       result.chains.push_back(trace_chain(p - 1, choice_of_best, m));
       p = place_of(result.chains.back().front().point);
-      m -= result.chains.back().size();
+      vertices += result.chains.back().size();
+      m -= step_ * result.chains.back().size();
     }
+    result.cost -= static_cast<double>(vertices) * vertex_cost_;
     std::ranges::reverse(result.chains);
     return result;
   }
@@ -147,14 +184,28 @@ class Programme {
   static void relax(double& cost, double candidate) { cost = std::min(cost, candidate); }
 
   const SegmentationPoint& point(std::size_t p) const { return points_[as_index(places_[p])]; }
-  double choice(std::size_t p, std::size_t a) const { return choices_[as_index(places_[p])][a]; }
+  double choice(std::size_t p, std::size_t a) const { return at_places_[p * width_ + a]; }
   double& open(std::size_t p, std::size_t a, std::size_t m) { return open_[(p * width_ + a) * levels_ + m]; }
   double open(std::size_t p, std::size_t a, std::size_t m) const { return open_[(p * width_ + a) * levels_ + m]; }
 
   // The first vertex of a chain pays for its own point, later ones for all points after the vertex before.
-  double begin_cost(std::size_t p, std::size_t a) const {
-    const double e = point(p).inverse_range - choice(p, a);
-    return point(p).line_cost + 0.5 * point(p).weight * e * e;
+  double begin_cost(std::size_t p, std::size_t a) const { return begins_[p * width_ + a]; }
+
+  void set_begins(const VertexChoices& choices) {
+    for (const int place : places_)
+      for (const double inverse_range : choices[as_index(place)]) at_places_.push_back(inverse_range);
+    begins_.resize(places_.size() * width_);
+    for (std::size_t p = 0; p < places_.size(); ++p) {
+      double cheapest = kInf, dearest = 0.0;
+      for (std::size_t a = 0; a < width_; ++a) {
+        const double e = point(p).inverse_range - choice(p, a);
+        const double begin = begins_[p * width_ + a] = point(p).line_cost + 0.5 * point(p).weight * e * e;
+        cheapest = std::min(cheapest, begin);
+        dearest = std::max(dearest, begin);
+      }
+      most_saved_before_.push_back(std::max(0.0, point(p).clutter_cost - cheapest));
+      most_paid_after_.push_back(std::max(dearest, point(p).clutter_cost));
+    }
   }
 
   // Clutter cost from this place up to the next place or the end.
@@ -202,17 +253,35 @@ class Programme {
       // A wall that costs more than clutter between p and q is never needed. Instead, the chain ends at p (or p is
       // clutter too, if the chain began there), and a chain begins at q (or q is clutter too, if it would end there).
       const double apart = clutter_[as_index(places_[q])] - clutter_[as_index(places_[p]) + 1];
+      const double most_saved = most_saved_before_[p];
+      if (w.least_cost() > apart + most_paid_after_[q] + most_saved) continue;
       for (std::size_t b = 0; b < width_; ++b) {
         const double limit = apart + std::max(begin_cost(q, b), point(q).clutter_cost);
+        if (w.least_cost(choice(q, b)) > limit + most_saved) continue;
+        if (step_ == 0) {
+          extend_free(p, w, q, b);
+          continue;
+        }
         double* to = &open(q, b, 0);
         for (std::size_t a = 0; a < width_; ++a) {
           const double cost = w.cost(choice(p, a), choice(q, b));
           if (!(cost <= limit + std::max(0.0, point(p).clutter_cost - begin_cost(p, a)))) continue;
           const double* from = &open(p, a, 0);
-          for (std::size_t m = 1; m < levels_; ++m) to[m] = std::min(to[m], from[m - 1] + cost);
+          for (std::size_t m = step_; m < levels_; ++m)
+            to[m] = std::min(to[m], from[m - step_] + (cost + vertex_cost_));
         }
       }
     }
+  }
+
+  // One state, without branches: which of two costs is less is chance.
+  void extend_free(std::size_t p, const Wall& w, std::size_t q, std::size_t b) {
+    const double u_q = choice(q, b);
+    const double* from = &open_[p * width_];
+    const double* u_p = &at_places_[p * width_];
+    double best = open(q, b, 0);
+    for (std::size_t a = 0; a < width_; ++a) best = std::min(best, from[a] + (w.cost(u_p[a], u_q) + vertex_cost_));
+    open(q, b, 0) = best;
   }
 
   // The best wall that ends at (p, a), the m-th vertex.
@@ -223,12 +292,12 @@ class Programme {
   };
   Extension extension(std::size_t p, std::size_t a, std::size_t m) const {
     Extension best;
-    if (m == 0) return best;
+    if (m < step_) return best;
     for (std::size_t s = 0; s < p; ++s) {
       if (!wall_between(s, p)) continue;
       const Wall w = wall(s, p);
       for (std::size_t c = 0; c < width_; ++c) {
-        const double cost = open(s, c, m - 1) + w.cost(choice(s, c), choice(p, a));
+        const double cost = open(s, c, m - step_) + (w.cost(choice(s, c), choice(p, a)) + vertex_cost_);
         if (cost < best.cost) best = {cost, s, c};
       }
     }
@@ -238,9 +307,10 @@ class Programme {
   // The chain of two or more vertices that ends at (p, a), m vertices in all.
   std::vector<GridVertex> trace_chain(std::size_t p, std::size_t a, std::size_t m) const {
     std::vector<GridVertex> chain;
-    for (;; --m) {
+    for (;; m -= step_) {
       const Extension before = extension(p, a, m);
-      const bool begins = !chain.empty() && !(before.cost < done_[p * levels_ + m - 1] + begin_cost(p, a));
+      const bool begins =
+          !chain.empty() && !(before.cost < done_[p * levels_ + m - step_] + begin_cost(p, a) + vertex_cost_);
       chain.push_back({places_[p], choice(p, a)});
       if (begins || !(before.cost < kInf)) break;
       p = before.place;
@@ -251,12 +321,16 @@ class Programme {
   }
 
   std::span<const SegmentationPoint> points_;
-  const VertexChoices& choices_;
   std::size_t levels_, width_ = 0;
+  std::size_t step_;  // of m at a vertex
+  double vertex_cost_;
   std::vector<Sums> sums_;
   std::vector<int> places_;
   std::vector<int> blocks_;  // per point: the number of infinite gaps before it
   std::vector<double> open_, done_, clutter_;
+  std::vector<double> at_places_;                            // the choices, per place
+  std::vector<double> begins_;                               // per place and choice
+  std::vector<double> most_saved_before_, most_paid_after_;  // per place: bounds of what a wall may cost over clutter
 };
 
 }  // namespace
@@ -264,8 +338,15 @@ class Programme {
 GridChains best_chains(std::span<const SegmentationPoint> points, const VertexChoices& choices, int max_vertices,
                        double vertex_cost, int stride) {
   if (points.empty()) return {};
-  Programme programme(points, choices, max_vertices, stride);
-  return programme.run(vertex_cost);
+  if (vertex_cost > 0) {
+    // Without a count there is a state where a count needs one for each number of vertices. If the best of all numbers
+    // is within the limit, it is also the best with a count.
+    GridChains best = Programme::free(points, choices, vertex_cost, stride).run(0.0);
+    std::size_t vertices = 0;
+    for (const auto& chain : best.chains) vertices += chain.size();
+    if (vertices <= as_index(max_vertices)) return best;
+  }
+  return Programme::counted(points, choices, max_vertices, stride).run(vertex_cost);
 }
 
 GridChains best_closed_chain(std::span<const SegmentationPoint> points, const VertexChoices& choices, int vertices,
@@ -283,8 +364,7 @@ GridChains best_closed_chain(std::span<const SegmentationPoint> points, const Ve
   rotated.back().weight = 0.0;  // the first vertex pays for the point
   rotated.back().line_cost = 0.0;
   rotated_choices.front().front() = rotated_choices.back().front() = fixed.inverse_range;
-  Programme programme(rotated, rotated_choices, vertices + 1, stride);
-  GridChains result = programme.run_closed(0);
+  GridChains result = Programme::counted(rotated, rotated_choices, vertices + 1, stride).run_closed(0);
   for (auto& chain : result.chains)
     for (GridVertex& v : chain) v.point += fixed.point;
   return result;

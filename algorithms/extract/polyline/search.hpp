@@ -32,7 +32,8 @@ using VertexChoices = std::vector<std::vector<double>>;
 /// The cheapest description by chains with at most `max_vertices` vertices together, at `vertex_cost` each. Points on
 /// chains cost `line_cost` and half the weighted squared error of the inverse range; other points are clutter. Chains
 /// pay finite gap costs and do not cross infinite ones. Vertices are at every `stride`-th point, at both sides of gaps
-/// and at the ends. O(points^2 choices^2 max_vertices / stride^2).
+/// and at the ends. O(points^2 choices^2 / stride^2) if `vertex_cost` > 0 and the cheapest description of any number of
+/// vertices is within the limit; otherwise max_vertices times as much.
 GridChains best_chains(std::span<const SegmentationPoint> points, const VertexChoices& choices, int max_vertices,
                        double vertex_cost, int stride);
 
