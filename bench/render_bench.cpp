@@ -4,6 +4,13 @@
 
 #include <cmath>
 
+#ifdef SCANBENCH_WITH_OPENCV
+#include <GL/osmesa.h>
+
+#include <cstdlib>
+#include <opencv2/imgcodecs.hpp>
+#endif
+
 #include "core/index.hpp"
 #include "core/line_raster.hpp"
 #include "core/registry.hpp"
@@ -60,12 +67,52 @@ void pdf(benchmark::State& state) {
   const Scene scene = segments_scene(state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(to_pdf(scene));
 }
-/// 10 000 segments on 1200 x 900 pixels.
+/// The segments on 1200 x 900 pixels.
 void png_large(benchmark::State& state) {
   Scene scene{.width_in = 6.0, .height_in = 4.5, .title = "segments"};
-  scene.panels.push_back({.equal_aspect = false, .items = {segments(10000, 0, kBlue)}});
+  scene.panels.push_back({.equal_aspect = false, .items = {segments(static_cast<int>(state.range(0)), 0, kBlue)}});
   for (auto _ : state) benchmark::DoNotOptimize(to_png(scene));
 }
+
+#ifdef SCANBENCH_WITH_OPENCV
+/// The alternative for the same segments and pixels, without axes and texts: lines that OpenGL smooths, encoded by
+/// OpenCV. Such lines depend on the number of threads.
+void smooth_lines_imencode(benchmark::State& state) {
+  constexpr int kWidth = 1200, kHeight = 900;
+  const Lines lines = segments(static_cast<int>(state.range(0)), 0, kBlue);
+  std::vector<float> ends;
+  for (const Segment& s : lines.segments)
+    for (const Vec2& p : {s.a, s.b}) ends.insert(ends.end(), {static_cast<float>(p.x()), static_cast<float>(p.y())});
+  setenv("LP_NUM_THREADS", "0", 1);
+  OSMesaContext context = OSMesaCreateContextExt(OSMESA_BGRA, 0, 0, 0, nullptr);
+  cv::Mat image(kHeight, kWidth, CV_8UC4);
+  OSMesaMakeCurrent(context, image.data, GL_UNSIGNED_BYTE, kWidth, kHeight);
+  OSMesaPixelStore(OSMESA_Y_UP, 0);
+  for (auto _ : state) {
+    glViewport(0, 0, kWidth, kHeight);
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glOrtho(-1, 15, -1, 15, -1, 1);
+    glClearColor(1, 1, 1, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glEnable(GL_LINE_SMOOTH);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glLineWidth(1.4F);  // 0.5 pt
+    glColor4ub(kBlue.r, kBlue.g, kBlue.b, 255);
+    glEnableClientState(GL_VERTEX_ARRAY);
+    glVertexPointer(2, GL_FLOAT, 0, ends.data());
+    glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(ends.size() / 2));
+    glFinish();
+    std::vector<unsigned char> bytes;
+    cv::imencode(".png", image, bytes);
+    benchmark::DoNotOptimize(bytes);
+  }
+  OSMesaDestroyContext(context);
+}
+BENCHMARK(smooth_lines_imencode)->Arg(1654)->Arg(10000)->Unit(benchmark::kMillisecond);
+#endif
+
 /// A map of 1000 lines in 20 m x 20 m, up to 5 cm beside 1000 walls.
 struct MapOfLines {
   ScanSet observed;
@@ -106,7 +153,7 @@ BENCHMARK(raster_truth)->Unit(benchmark::kMillisecond);
 BENCHMARK(layout_only)->Arg(1)->Arg(3)->Unit(benchmark::kMillisecond);
 BENCHMARK(tessellate_only)->Arg(1)->Arg(3)->Unit(benchmark::kMillisecond);
 BENCHMARK(png)->Arg(1)->Arg(3)->Unit(benchmark::kMillisecond);
-BENCHMARK(png_large)->Unit(benchmark::kMillisecond);
+BENCHMARK(png_large)->Arg(1654)->Arg(10000)->Unit(benchmark::kMillisecond);
 BENCHMARK(svg)->Arg(1)->Arg(3)->Unit(benchmark::kMillisecond);
 BENCHMARK(pdf)->Arg(1)->Arg(3)->Unit(benchmark::kMillisecond);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include <fmt/format.h>
@@ -44,6 +45,14 @@ bool may_meet(const Vertex* t, const Rect& tile) {
     if (flip * (nx * (x - a.x) + ny * (y - a.y)) < 0) return false;
   }
   return true;
+}
+
+/// True for four pixels of the buffer, summed over four rows, that are white and opaque.
+bool is_white(const std::uint16_t* sums) {
+  std::array<std::uint64_t, 4> words{};
+  std::memcpy(words.data(), sums, sizeof words);
+  constexpr std::uint64_t kWhiteSums = 0x03FC03FC03FC03FCU;  // 4 * 255 in each channel
+  return ((words[0] ^ kWhiteSums) | (words[1] ^ kWhiteSums) | (words[2] ^ kWhiteSums) | (words[3] ^ kWhiteSums)) == 0;
 }
 
 class Picture {
@@ -153,6 +162,7 @@ class Picture {
                                         static_cast<std::size_t>(tile.x))];
       for (std::size_t x = 0; x < static_cast<std::size_t>(tile.width); ++x) {
         const std::uint16_t* s = &sums[16 * x];
+        if (is_white(s)) continue;  // as the picture begins
         for (std::size_t c = 0; c < 3; ++c)
           out[3 * x + c] = static_cast<std::uint8_t>((s[c] + s[c + 4] + s[c + 8] + s[c + 12] + 8) / 16);
       }

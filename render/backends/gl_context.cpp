@@ -10,7 +10,7 @@ namespace {
 
 OSMesaContext create(const OsMesa& gl) {
   setenv("LP_NUM_THREADS", "0", 1);  // draw in the calling thread: workers already fill the cores
-  const OSMesaContext context = gl.create_context(OSMESA_RGBA, 0, 0, 0, nullptr);
+  OSMesaContext context = gl.create_context(OSMESA_RGBA, 0, 0, 0, nullptr);
   if (context == nullptr) throw InternalError("OSMesa: cannot create a context");
   return context;
 }

@@ -93,7 +93,8 @@ void draw(const TileTriangles& triangles, const CurrentGl& current) {
   for (std::size_t layer = 0; layer < triangles.size(); ++layer) {
     const std::vector<Corner>& corners = triangles[layer];
     if (corners.empty()) continue;
-    gl.color_mask(layer == 0, layer == 1, layer == 2, GL_FALSE);
+    const auto only = [layer](std::size_t channel) -> GLboolean { return layer == channel ? GL_TRUE : GL_FALSE; };
+    gl.color_mask(only(0), only(1), only(2), GL_FALSE);
     gl.vertex_pointer(2, GL_FLOAT, sizeof(Corner), &corners[0].x);
     gl.color_pointer(4, GL_UNSIGNED_BYTE, sizeof(Corner), &corners[0].r);
     gl.draw_arrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners.size()));
@@ -108,7 +109,7 @@ void collect(const std::vector<std::uint8_t>& buffer, int first_column, BandRows
   for (std::size_t y = 0; y < as_index(kTile); ++y) {
     const std::uint8_t* row = &buffer[4 * as_index(kTile) * y];
     for (std::size_t x = 0; x < as_index(kTile); x += 4) {
-      std::array<std::uint64_t, 2> four;  // most pixels are not set
+      std::array<std::uint64_t, 2> four{};  // most pixels are not set
       std::memcpy(four.data(), row + 4 * x, sizeof four);
       if ((four[0] | four[1]) == 0) continue;
       for (std::size_t i = x; i < x + 4; ++i)

@@ -49,6 +49,7 @@ class TrajectoryError : public Figure {
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     const std::vector<Pose2> truth = true_poses(input.recording);
     std::vector<Pose2> odometry;
+    odometry.reserve(input.recording.observed.frames.size());
     for (const Frame& frame : input.recording.observed.frames) odometry.push_back(frame.odom_from_sensor);
     std::vector<NamedPoses> shown;
     for (const NamedResult& named : input.results)

@@ -61,7 +61,8 @@ std::vector<fs::path> scenario_files() {
   std::vector<fs::path> files;
   for (const char* folder : {"scenarios", "scenarios/scenes", "tests/golden/scenarios"})
     for (const auto& entry : fs::directory_iterator(places::source_dir() / folder))
-      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+      if (entry.path().extension() == ".yaml" && entry.path().filename() != "figures.yaml")  // a catalogue
+        files.push_back(entry.path());
   std::ranges::sort(files);
   return files;
 }

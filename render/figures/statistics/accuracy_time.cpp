@@ -56,6 +56,7 @@ class AccuracyTime : public Figure {
     const std::vector<PlacedPipeline> placed = place(input);
     if (placed.empty()) return {};
     std::vector<std::string> names;
+    names.reserve(placed.size());
     for (const PlacedPipeline& p : placed) names.push_back(p.name);
     const std::vector<MethodStyle> styles = method_styles(names);
 

@@ -42,11 +42,13 @@ class PrecisionRecall : public Figure {
         varied_pipelines(params_.parameter, input.measured, {params_.precision, params_.recall});
     if (groups.empty()) return {};
     std::vector<std::string> names;
+    names.reserve(groups.size());
     for (const VariedPipelines& group : groups) names.push_back(group.name);
     const std::vector<MethodStyle> styles = method_styles(names);
 
     Panel panel{.x = {.label = params_.recall}, .y = {.label = params_.precision}, .equal_aspect = false, .items = {}};
     std::vector<std::vector<Vec2>> curves;
+    curves.reserve(groups.size());
     for (const VariedPipelines& group : groups) curves.push_back(means_of(group));
     const double lowest = set_ranges(curves, panel);
     add_equal_f(lowest, panel);
@@ -104,7 +106,8 @@ class PrecisionRecall : public Figure {
   /// Where 2 P R / (P + R) = F: P = F R / (2 R - F).
   static void add_equal_f(double lowest, Panel& panel) {
     const double step = lowest > 0.9 ? 0.02 : lowest > 0.6 ? 0.05 : 0.1;
-    for (double f = step; f < 1.0 - 1e-9; f += step) {
+    for (int i = 1; i * step < 1.0 - 1e-9; ++i) {
+      const double f = i * step;
       Polyline line{.stroke = kEqualF};
       for (int k = 0; k <= 60; ++k) {
         const double recall = f / (2.0 - f) + (1.0 - f / (2.0 - f)) * k / 60.0;

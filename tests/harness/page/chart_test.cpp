@@ -1,0 +1,56 @@
+// Charts and sketches of pages.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/special_values.hpp"
+#include "harness/page/scan_sketch.hpp"
+#include "harness/page/scatter_chart.hpp"
+#include "harness/page/sparkline.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+TEST(ScatterChart, HasAPointANameAndAHintForEveryFinitePoint) {
+  const ScatterChart chart{
+      "time [ms]", "f1", {{1.0, 0.9, "slow", false}, {0.1, 0.5, "fast", true}, {kNaN, 0.5, "lost", false}}};
+  const std::string svg = scatter_chart(chart);
+  EXPECT_THAT(svg, HasSubstr("<title>slow: 1, 0.9</title>"));
+  EXPECT_THAT(svg, HasSubstr(">fast</text>"));
+  EXPECT_THAT(svg, HasSubstr("class=\"front\""));
+  EXPECT_THAT(svg, Not(HasSubstr("lost")));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+}
+
+TEST(ScatterChart, EscapesNamesAndIsEmptyWithoutPoints) {
+  EXPECT_THAT(scatter_chart({"t", "y", {{1.0, 1.0, "<script>", false}}}), Not(HasSubstr("<script>")));
+  EXPECT_THAT(scatter_chart({"t", "y", {{0.0, 1.0, "a", false}, {1.0, kInf, "b", false}}}), IsEmpty());
+}
+
+TEST(ScatterChart, OfEqualPointsStillHasAnAxis) {
+  EXPECT_THAT(scatter_chart({"t", "y", {{1.0, 0.0, "a", true}, {1.0, 0.0, "b", true}}}), Not(HasSubstr("nan")));
+}
+
+TEST(ScanSketch, KeepsTheShapeAndDrawsEveryKindOfLineInItsClass) {
+  ScanSketch sketch;
+  sketch.points = {{4, 3}, {kNaN, 1}};
+  sketch.lines = {{{{0, 3}, {4, 3}}, SketchLine::right}, {{{4, 0}, {4, 3}}, SketchLine::missed}};
+  const std::string svg = scan_sketch(sketch);
+  // 4 m by 3 m from the sensor at the lower left corner fill 452 x 332 of 480 x 360: the height decides the scale.
+  EXPECT_THAT(svg, HasSubstr("class=\"right\" d=\"M19 14L461 14\""));
+  EXPECT_THAT(svg, HasSubstr("class=\"missed\" d=\"M461 346L461 14\""));
+  EXPECT_THAT(svg, HasSubstr("class=\"points\" d=\"M461 14h0\""));
+  EXPECT_THAT(svg, HasSubstr("M19 346m"));  // the sensor
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+}
+
+TEST(Sparkline, HasAGapWhereAValueIsNotDefined) {
+  const std::vector<double> values{1.0, kNaN, 2.0};
+  EXPECT_THAT(sparkline(values, "f1"), HasSubstr("M3.0 21.0M117.0 3.0"));
+}
+
+}  // namespace
+}  // namespace scanbench::harness
