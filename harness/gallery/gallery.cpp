@@ -59,6 +59,8 @@ void make_entry(const fs::path& run, const Catalogue& catalogue, const FigureOpt
     else
       made.files.push_back(std::move(file));
   }
+  if (made.files.empty() && made.failure.empty())
+    made.failure = scenario.figures.front().module + " spans all scenarios of a run: `scanbench figures RUN` draws it";
 }
 
 /// "environment {frame: 9}, pipelines iepf, smf, 5 seeds of borges2000.yaml": what makes it.

@@ -89,7 +89,7 @@ void ApngWriter::add(const Pixels& frame) {
   SCANBENCH_ASSERT(added_ <= frames_ && (first || (frame.width == before_.width && frame.height == before_.height)));
   const Box box = first ? Box{0, 0, frame.width, frame.height} : changed(before_, frame);
   const int width = box.x1 - box.x0, height = box.y1 - box.y0;
-  const std::string png = encode_png(part(frame, box), width, height, kScreenDpi);
+  const std::string png = encode_png(part(frame, box), width, height, kScreenDpi, PngColors::rgb);
   if (first) {
     bytes_ = png.substr(0, 8);
     for_each_chunk(png, [this](std::string_view type, std::string_view, std::string_view whole) {

@@ -112,10 +112,10 @@ bool write(png_structp png, png_infop info, const Image& image, Output& out) {
 
 }  // namespace
 
-std::string encode_png(std::span<const std::uint8_t> rgb, int width, int height, double dpi) {
+std::string encode_png(std::span<const std::uint8_t> rgb, int width, int height, double dpi, PngColors colors) {
   SCANBENCH_ASSERT(width > 0 && height > 0);
   SCANBENCH_ASSERT(rgb.size() == std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  const std::optional<IndexedPixels> listed = indexed(rgb);
+  const std::optional<IndexedPixels> listed = colors == PngColors::rgb ? std::nullopt : indexed(rgb);
   const Image image{listed ? listed->indices.data() : rgb.data(),
                     listed ? std::span<const png_color>(listed->colors) : std::span<const png_color>(),
                     static_cast<png_uint_32>(width), static_cast<png_uint_32>(height),
