@@ -13,9 +13,9 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "core/error.hpp"
+#include "core/geometry/pose_errors.hpp"
 #include "core/registry.hpp"
 #include "metrics/pose_bound.hpp"
-#include "core/geometry/pose_errors.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::metrics {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/index.hpp"
-#include "core/registry.hpp"
 #include "core/geometry/plane_alignment.hpp"
 #include "core/geometry/pose_errors.hpp"
+#include "core/index.hpp"
+#include "core/registry.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::metrics {

@@ -18,8 +18,8 @@ struct MeanInterval {
 };
 
 /// The wider, at each end, of Student's t interval and a seeded bias-corrected and accelerated bootstrap (Efron 1987):
-/// the percentile bootstrap alone covers too little below some twenty seeds. Of more than 400 values, where both agree to
-/// within the bootstrap's own noise, Student's t interval alone. NaN values are left out.
+/// the percentile bootstrap alone covers too little below some twenty seeds. Of more than 400 values, where both agree
+/// to within the bootstrap's own noise, Student's t interval alone. NaN values are left out.
 MeanInterval mean_interval(std::span<const double> values);
 
 /// Two-sided p-value of Student's t test that the mean of the differences of pairs is zero. NaN for fewer than two

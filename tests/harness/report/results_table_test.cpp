@@ -1,6 +1,6 @@
 // Result tables: marks, missing cells, common input, digits.
-#include "harness/report/page_parts.hpp"
 #include "harness/report/results_table.hpp"
+#include "harness/report/page_parts.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
