@@ -74,8 +74,7 @@ int nightly(const Options& options, const std::vector<std::string>& argv) {
 int accept(const Options& options) {
   check_run_exists(options.runs.front());
   const harness::RunResults results = harness::load_run_results(options.runs.front());
-  const std::string suite =
-      options.suite.empty() ? fs::absolute(options.runs.front()).lexically_normal().filename().string() : options.suite;
+  const std::string suite = options.suite.empty() ? harness::suite_of_run(options.runs.front()) : options.suite;
   const fs::path file = harness::accept_baseline(
       options.baselines, suite, results, harness::Gates(harness::load_gates(options.runs.front())), options.reason);
   fmt::print("{}\n", file.string());
@@ -87,8 +86,7 @@ int add_to_store(const Options& options) {
   for (const auto& run : options.runs) {
     check_run_exists(run);
     const harness::RunResults results = harness::load_run_results(run);
-    const std::string suite =
-        options.suite.empty() ? fs::absolute(run).lexically_normal().filename().string() : options.suite;
+    const std::string suite = options.suite.empty() ? harness::suite_of_run(run) : options.suite;
     store.replace(suite, run, results);
     fmt::print("{}: {} cells\n", run, results.cells.size());
   }
@@ -124,7 +122,8 @@ void add_nightly(Context& context) {
   accept_verb->add_option("RUN", options->runs, "a complete run folder")->required()->expected(1);
   accept_verb->add_option("--reason", options->reason, "why the baseline moves, for those who read it later")
       ->required();
-  accept_verb->add_option("--suite", options->suite, "the suite's name (default: the run folder's)");
+  accept_verb->add_option("--suite", options->suite,
+                          "the suite's name (default: that of its night, else of its folder)");
   accept_verb->add_option("--baselines", options->baselines, "folder of the baselines")->capture_default_str();
   accept_verb->callback([&context, options] { context.action = [options] { return accept(*options); }; });
 
@@ -132,7 +131,8 @@ void add_nightly(Context& context) {
       context.app.add_subcommand("store", "Adds finished runs to a store of nights, or makes it again from them");
   store_verb->add_option("FILE", options->store, "the store (made if there is none)")->required();
   store_verb->add_option("RUN", options->runs, "run folders, oldest first")->required();
-  store_verb->add_option("--suite", options->suite, "the suite's name (default: the run folder's)");
+  store_verb->add_option("--suite", options->suite,
+                         "the suite's name (default: that of its night, else of its folder)");
   store_verb->callback([&context, options] { context.action = [options] { return add_to_store(*options); }; });
 }
 

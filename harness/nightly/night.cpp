@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "harness/report/figures.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/report/shown_scan.hpp"
+#include "harness/store/json_file.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_lock.hpp"
@@ -162,6 +164,15 @@ void keep_good_night(const fs::path& run) {
 
 }  // namespace
 
+std::string suite_of_run(const fs::path& run) {
+  if (!fs::exists(run / kNightFile)) return fs::absolute(run).lexically_normal().filename().string();
+  return with_json_of(run / kNightFile, [&](const nlohmann::ordered_json& json) {
+    const auto suite = json.at("suite").get<std::string>();
+    check_name("suite", suite);
+    return suite;
+  });
+}
+
 void check_plan(const NightPlan& plan) {
   if (const auto file = chosen_baseline(plan)) load_baseline(*file);
 }
@@ -178,6 +189,7 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
   input.rankings = rank_methods(input.now.cells, load_cell_seconds(plan.run, input.now.cells));
   input.worst = worst_scans(plan.run, input.now, kWorstScans);
   input.files = {kSummaryFile.name(), kManifestFile.name()};
+  write_file_atomically(plan.run / kNightFile, nlohmann::ordered_json{{"suite", plan.suite}}.dump() + "\n");
   const std::int64_t tonight = store.add(plan.suite, plan.run, input.now);
 
   NightOutcome outcome;
@@ -204,13 +216,14 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
     const bool missing = std::ranges::any_of(
         input.now.cells, [](const CellResults& cell) { return cell.status == "missing" && cell.requested; });
     outcome.exit_code = missing ? 4 : bad > 0 ? 1 : 0;
-    outcome.sentence = fmt::format(
-        "{}: this is the first night of the suite, so nothing can be worse; {} of {} cells "
-        "are ok.",
-        missing   ? "INCOMPLETE"
-        : bad > 0 ? "FAIL"
-                  : "PASS",
-        std::ssize(input.now.cells) - bad, input.now.cells.size());
+    outcome.sentence = fmt::format("{}: {}, so nothing can be worse; {} of {} cells are ok.",
+                                   missing   ? "INCOMPLETE"
+                                   : bad > 0 ? "FAIL"
+                                             : "PASS",
+                                   store.nights(plan.suite).size() > 1
+                                       ? "no earlier night of the suite was good and there is no baseline"
+                                       : "this is the first night of the suite",
+                                   std::ssize(input.now.cells) - bad, input.now.cells.size());
     store.set_verdict(tonight, missing ? "INCOMPLETE" : bad > 0 ? "FAIL" : "PASS", outcome.sentence);
   }
   if (const auto files = baseline_files(plan.baselines, plan.suite); files.size() > 1) {

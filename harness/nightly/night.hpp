@@ -14,6 +14,11 @@ namespace scanbench::harness {
 inline const RunFile kComparisonJson("comparison.json");
 inline const RunFile kComparisonMarkdown("comparison.md");
 inline const RunFile kComparisonJunit("comparison.junit.xml");
+inline const RunFile kNightFile("night.json");
+
+/// The suite of a run: the one that its night states (night.json), else the name of its folder. Throws ConfigError for
+/// a damaged night.json.
+std::string suite_of_run(const std::filesystem::path& run);
 
 struct NightPlan {
   std::string suite;

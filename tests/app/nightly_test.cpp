@@ -63,6 +63,23 @@ TEST_F(Nightly, FailsWhenAParameterMakesAGateWorseAndPassesWhenItIsRestored) {
   EXPECT_THAT(here({"accept", "out/nightly/suite", "--reason", "again"}).err, HasSubstr("has these values already"));
 }
 
+TEST_F(Nightly, KeepsTheNameOfItsSuiteInAnyFolder) {
+  ASSERT_EQ(night({"--out", "elsewhere"}).code, 0);
+  const Outcome accepted = here({"accept", "elsewhere", "--reason", "first"});
+  EXPECT_THAT(accepted.out, HasSubstr("baselines/suite/0001.json")) << accepted.err;
+  ASSERT_EQ(night({"--out", "elsewhere"}).code, 0);
+  EXPECT_THAT(read(folder_ / "elsewhere/nightly.html"), HasSubstr("baseline 0001"));
+}
+
+TEST_F(Nightly, AfterABadFirstNightSaysThatThereIsNoReference) {
+  folder_.write("room.yaml", room_with("metrics:", "  - {name: hang, extract: {module: iepf}}\nmetrics:"));
+  const Outcome first = night({"--set", "limits.seconds=0.000001"});
+  EXPECT_EQ(first.code, 1) << first.out;
+  const Outcome second = night();
+  EXPECT_EQ(second.code, 0) << second.out;
+  EXPECT_THAT(second.out, HasSubstr("no earlier night of the suite was good and there is no baseline"));
+}
+
 TEST_F(Nightly, WithoutABaselineIsComparedWithTheLastGoodNight) {
   ASSERT_EQ(night().code, 0);
   EXPECT_EQ(night(worsened_).code, 1);

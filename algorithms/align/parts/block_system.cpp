@@ -64,7 +64,7 @@ BlockSystem::BlockSystem(std::vector<Eigen::Matrix3d> diagonal, std::span<const 
 
 void BlockSystem::multiply(const Vectors& x, Vectors& product) const {
   for (std::size_t row = 0; row < diagonal_.size(); ++row) {
-    const Eigen::Vector3d of_row = x[row];
+    const Eigen::Vector3d& of_row = x[row];
     Eigen::Vector3d sum = diagonal_[row] * of_row;
     for (std::size_t e = begin_[row]; e < begin_[row + 1]; ++e) {
       const auto& [column, value] = entries_[e];
