@@ -24,8 +24,6 @@
 namespace scanbench::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct Options {
   std::string before, after, csv, json, markdown, junit;
   bool all = false;

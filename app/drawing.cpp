@@ -1,7 +1,7 @@
 // One child draws all figures: it may take ten times as long as all cells, and the memory of the largest.
 #include "app/drawing.hpp"
 
-#include <stdlib.h>
+#include <cstdlib>
 
 #include <algorithm>
 #include <cstddef>

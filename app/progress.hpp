@@ -1,7 +1,7 @@
 // Progress of long work: a bar on a terminal, else a line per tenth of the work or per minute, nothing with --quiet.
 #pragma once
 
-#include <signal.h>
+#include <csignal>
 
 #include <chrono>
 #include <string>
