@@ -51,6 +51,14 @@ std::string direction_text(const metrics::MetricDescription& metric) {
   return "no value is better than another";
 }
 
+/// What a comparison of two runs does with it.
+std::string gate_text(const metrics::MetricDescription& metric) {
+  if (metric.timing) return "gate: only if a suite says so, because it depends on the machine";
+  if (metric.direction == metrics::Direction::neither) return "gate: no, compare and nightly only show changes";
+  return fmt::format("gate: compare and nightly fail if it is worse by more than {:g}, unless a suite has other gates",
+                     metric.tolerance);
+}
+
 /// An entry for every metric of every family.
 std::vector<CatalogEntry> single_metrics() {
   std::vector<CatalogEntry> entries;
@@ -60,8 +68,7 @@ std::vector<CatalogEntry> single_metrics() {
       described.notes.push_back("family: " + family);
       if (!metric.unit.empty()) described.notes.push_back("unit: " + metric.unit);
       described.notes.push_back("direction: " + direction_text(metric));
-      described.notes.push_back(metric.timing ? "depends on the machine: compare does not judge it"
-                                              : fmt::format("compare accepts a change of {:g}", metric.tolerance));
+      described.notes.push_back(gate_text(metric));
       entries.push_back(std::move(described));
     }
   return entries;
