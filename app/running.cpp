@@ -53,7 +53,7 @@ FinishedRun run_and_report(const std::vector<harness::Scenario>& scenarios, harn
   FaultNotes faults;
   options.progress = [&](const harness::RunProgress& now) {
     if (now.cell != nullptr) note_cell(progress, faults, *now.cell);
-    const double total = static_cast<double>(now.total);
+    const auto total = static_cast<double>(now.total);
     progress.update(total > 0 ? 0.95 * static_cast<double>(now.done) / total : 0.0, now.what);
   };
   FinishedRun finished;

@@ -198,17 +198,19 @@ std::vector<MethodRanking> rank_methods(const std::vector<CellResults>& cells,
     if (std::ranges::find(pipelines, cell.key.pipeline) == pipelines.end()) pipelines.push_back(cell.key.pipeline);
   }
   std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> groups;  // pipelines, scenarios
-  for (auto& [scenario, pipelines] : scenarios) {
+  for (const auto& of_scenario : scenarios) {
+    const std::string& scenario = of_scenario.first;
+    const std::vector<std::string>& pipelines = of_scenario.second;
     const auto group =
         std::ranges::find_if(groups, [&](const auto& g) { return std::ranges::is_permutation(g.first, pipelines); });
     if (group != groups.end())
       group->second.push_back(scenario);
     else if (pipelines.size() > 1)
-      groups.push_back({std::move(pipelines), {scenario}});
+      groups.push_back({pipelines, {scenario}});
   }
   const auto descriptions = metric_descriptions();
   std::vector<MethodRanking> rankings;
-  for (auto& [pipelines, of_group] : groups)
+  for (const auto& [pipelines, of_group] : groups)
     if (auto ranking = Ranker(of_group, pipelines, cells, seconds).rank(descriptions); !ranking.methods.empty())
       rankings.push_back(std::move(ranking));
   return rankings;

@@ -57,8 +57,8 @@ Ends bca_bootstrap(std::span<const double> values, double mean) {
     double sum = 0.0;
     for (std::size_t i = 0; i < n; ++i) sum += values[static_cast<std::size_t>(rng.uniform() * static_cast<double>(n))];
     r = sum / static_cast<double>(n);
-    below += r < mean;
-    equal += r == mean;
+    below += r < mean ? 1 : 0;
+    equal += r == mean ? 1 : 0;
   }
   std::ranges::sort(resampled);
   const boost::math::normal normal;

@@ -20,11 +20,11 @@ struct MeanInterval {
 /// The wider, at each end, of Student's t interval and a seeded bias-corrected and accelerated bootstrap (Efron 1987):
 /// the percentile bootstrap alone covers too little below some twenty seeds. Of more than 400 values, where both agree
 /// to within the bootstrap's own noise, Student's t interval alone. NaN values are left out.
-MeanInterval mean_interval(std::span<const double> values);
+MeanInterval mean_interval(std::span<const double> all);
 
 /// Two-sided p-value of Student's t test that the mean of the differences of pairs is zero. NaN for fewer than two
 /// values; 0 or 1 for differences without spread. NaN values are left out.
-double paired_p_value(std::span<const double> differences);
+double paired_p_value(std::span<const double> all);
 
 /// p-values corrected for multiple tests, in the same order: Holm, "A simple sequentially rejective multiple test
 /// procedure", Scandinavian Journal of Statistics 1979. NaN values do not count as tests and stay NaN.
@@ -40,7 +40,7 @@ std::vector<double> benjamini_hochberg(std::span<const double> p_values);
 /// no pairs. NaN if a sample has no finite value.
 double rank_p_value(std::span<const double> a, std::span<const double> b);
 
-double median(std::span<const double> values);  ///< NaN values left out; NaN for none
+double median(std::span<const double> all);  ///< NaN values left out; NaN for none
 
 /// The interval between two of the values that contains the median of their distribution with at least 95 %
 /// probability, for every distribution (of 20 values, the 6th and the 15th in order). Fewer than six values have none:
@@ -50,7 +50,7 @@ struct MedianInterval {
   double high;
   double half_width() const { return 0.5 * (high - low); }
 };
-MedianInterval median_interval(std::span<const double> values);  ///< NaN values left out
+MedianInterval median_interval(std::span<const double> all);  ///< NaN values left out
 
 double pearson_correlation(std::span<const double> x,
                            std::span<const double> y);  ///< NaN for fewer than two pairs or no spread

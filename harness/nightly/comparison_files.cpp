@@ -116,7 +116,7 @@ std::string comparison_junit(const Comparison& comparison) {
     if (!change.gate) continue;
     ++tests;
     const bool worse = change.finding == Finding::worse;
-    failures += worse;
+    failures += worse ? 1 : 0;
     cases += test_case(change.scenario + "." + change.pipeline, change.metric.metric,
                        worse ? "<failure message=\"" + xml(change_sentence(change)) + "\"/>" : "");
   }

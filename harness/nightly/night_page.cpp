@@ -100,9 +100,9 @@ std::string matrix(const Comparison& comparison, const std::string& report) {
       for (const auto& change : comparison.changes) {
         if (!change.gate || change.scenario != scenario || change.pipeline != pipeline) continue;
         ++all;
-        worse += change.finding == Finding::worse;
-        better += change.finding == Finding::better;
-        same += change.finding == Finding::same;
+        worse += change.finding == Finding::worse ? 1 : 0;
+        better += change.finding == Finding::better ? 1 : 0;
+        same += change.finding == Finding::same ? 1 : 0;
       }
       const auto broken = std::ranges::count_if(comparison.broken, [&](const StatusChange& change) {
         return change.cell.scenario == scenario && change.cell.pipeline == pipeline;

@@ -70,7 +70,7 @@ std::string scan_sketch(const ScanSketch& sketch) {
       paths[static_cast<std::size_t>(kind)] += "M" + view.place(segment.a) + "L" + view.place(segment.b);
   std::string lines;
   for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
-    if (!paths[kind].empty()) lines += fmt::format("<path class=\"{}\" d=\"{}\"/>", kKinds[kind].first, paths[kind]);
+    if (!paths[kind].empty()) lines += fmt::format(R"(<path class="{}" d="{}"/>)", kKinds[kind].first, paths[kind]);
   return fmt::format(
       "<svg class=\"scan\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">{}<path "
       "class=\"points\" d=\"{}\"/><path class=\"sensor\" d=\"M{}m-7 -8l14 8l-14 8z\"/></svg>",
@@ -80,9 +80,8 @@ std::string scan_sketch(const ScanSketch& sketch) {
 std::string scan_sketch_key() {
   std::string out = "<p class=\"key\">";
   for (const auto& [kind, name] : kKinds)
-    out += fmt::format(
-        "<span><svg class=\"scan\" viewBox=\"0 0 64 12\"><path class=\"{}\" d=\"M2 6H62\"/></svg> {}</span>", kind,
-        name);
+    out += fmt::format(R"(<span><svg class="scan" viewBox="0 0 64 12"><path class="{}" d="M2 6H62"/></svg> {}</span>)",
+                       kind, name);
   return out + "<span>▶ sensor</span></p>\n";
 }
 

@@ -53,7 +53,9 @@ std::vector<double> round_values(double low, double high) {
       break;
     }
   std::vector<double> values;
-  for (double k = std::ceil(low / step); k * step <= high; k += 1.0) values.push_back(k * step);
+  const auto first = static_cast<long>(std::ceil(low / step));
+  const auto last = static_cast<long>(std::floor(high / step));
+  for (long k = first; k <= last; ++k) values.push_back(static_cast<double>(k) * step);
   return values;
 }
 
@@ -63,7 +65,7 @@ std::vector<double> round_powers(const Axis& axis) {
   if (axis.high - axis.low < std::log10(5.0)) return round_values(std::pow(10.0, axis.low), std::pow(10.0, axis.high));
   std::vector<double> values;
   const bool is_short = axis.high - axis.low < 2.5;
-  for (double power = std::floor(axis.low); power <= axis.high; power += 1.0)
+  for (int power = static_cast<int>(std::floor(axis.low)); power <= axis.high; ++power)
     for (const double factor : {1.0, 2.0, 5.0}) {
       const double value = factor * std::pow(10.0, power);
       const double place = std::log10(value);
@@ -110,22 +112,20 @@ class ScatterDrawing {
   Box around(const ScatterPoint& point) const { return {px(point) - 5, py(point) - 5, px(point) + 5, py(point) + 5}; }
 
   std::string axes() const {
-    std::string out = fmt::format("<g class=\"axis\"><path d=\"M{0} {1}V{2}H{3}\"/>", kLeft, kTop, kBottom, kRight);
+    std::string out = fmt::format(R"(<g class="axis"><path d="M{0} {1}V{2}H{3}"/>)", kLeft, kTop, kBottom, kRight);
     for (const double value : round_powers(x_)) {
       const double at = x_(std::log10(value));
-      out +=
-          fmt::format("<path d=\"M{0:.1f} {1}v4\"/><text x=\"{0:.1f}\" y=\"{2}\" text-anchor=\"middle\">{3:g}</text>",
-                      at, kBottom, kBottom + 17, value);
+      out += fmt::format(R"(<path d="M{0:.1f} {1}v4"/><text x="{0:.1f}" y="{2}" text-anchor="middle">{3:g}</text>)", at,
+                         kBottom, kBottom + 17, value);
     }
     for (const double value : log_y_ ? round_powers(y_) : round_values(y_.low, y_.high)) {
       const double at = at_y(value);
       const double shown = !log_y_ && std::fabs(value) < 1e-12 * (y_.high - y_.low) ? 0.0 : value;
-      out +=
-          fmt::format("<path d=\"M{0} {1:.1f}h-4\"/><text x=\"{2}\" y=\"{3:.1f}\" text-anchor=\"end\">{4:.4g}</text>",
-                      kLeft, at, kLeft - 7, at + 4, shown);
+      out += fmt::format(R"(<path d="M{0} {1:.1f}h-4"/><text x="{2}" y="{3:.1f}" text-anchor="end">{4:.4g}</text>)",
+                         kLeft, at, kLeft - 7, at + 4, shown);
     }
-    out += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>", 0.5 * (kLeft + kRight),
-                       kHeight - 8, html_escaped(plain_line(chart_.x_label)));
+    out += fmt::format(R"(<text x="{:.1f}" y="{}" text-anchor="middle">{}</text>)", 0.5 * (kLeft + kRight), kHeight - 8,
+                       html_escaped(plain_line(chart_.x_label)));
     return out +
            fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text></g>",
                        0.5 * (kTop + kBottom), html_escaped(plain_line(chart_.y_label)));
@@ -139,16 +139,16 @@ class ScatterDrawing {
                            : fmt::format("H{:.1f}V{:.1f}", px(point), py(point));
     }
     if (path.empty()) return "";
-    return fmt::format("<path class=\"front\" d=\"{}H{:.0f}\"/>", path, kRight);
+    return fmt::format(R"(<path class="front" d="{}H{:.0f}"/>)", path, kRight);
   }
 
   std::string dots() {
     std::string out;
     for (const auto& point : points_) {
       const std::string name = html_escaped(plain_line(point.name));
-      out += fmt::format(
-          "<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"><title>{}: {:.3g}, {:.3g}</title></circle>",
-          point.on_front ? "on" : "off", px(point), py(point), name, point.x, point.y);
+      out +=
+          fmt::format(R"(<circle class="{}" cx="{:.1f}" cy="{:.1f}" r="4"><title>{}: {:.3g}, {:.3g}</title></circle>)",
+                      point.on_front ? "on" : "off", px(point), py(point), name, point.x, point.y);
       out += label(point, name);
     }
     return out;
@@ -170,7 +170,7 @@ class ScatterDrawing {
       const bool inside = box.left >= kLeft + 2 && box.right <= kWidth && box.top >= 0 && box.bottom <= kBottom;
       if (!inside || std::ranges::any_of(taken_, [&](const Box& other) { return box.meets(other); })) continue;
       taken_.push_back(box);
-      return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", place.left, place.base, escaped);
+      return fmt::format(R"(<text x="{:.1f}" y="{:.1f}">{}</text>)", place.left, place.base, escaped);
     }
     return "";
   }

@@ -42,7 +42,7 @@ std::string sparkline(std::span<const double> values, const std::string& label) 
       continue;
     }
     path += fmt::format("{}{:.1f} {:.1f}", joined ? "L" : "M", x(i), y(values[i]));
-    last = fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"currentColor\"/>", x(i), y(values[i]));
+    last = fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="2.5" fill="currentColor"/>)", x(i), y(values[i]));
     joined = true;
   }
   return fmt::format(

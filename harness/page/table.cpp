@@ -212,14 +212,14 @@ std::string to_markdown(const Table& table) {
 std::string to_html(const Table& table) {
   // A part without a title continues the one before it.
   std::string out = table.title.empty() ? "<section class=\"table\">"
-                                        : fmt::format("<section class=\"table\" id=\"{}\"><h3>{}</h3>",
+                                        : fmt::format(R"(<section class="table" id="{}"><h3>{}</h3>)",
                                                       html_escaped(table.id), html_escaped(table.title));
   out += "<div class=\"scroll\"><table>\n<thead>";
   if (has_groups(table)) {
     out += "<tr>";
     for (std::size_t c = 0; c < table.row_heads.size(); ++c) out += "<th></th>";
     for (const auto& span : group_spans(table))
-      out += fmt::format("<th class=\"group\" colspan=\"{}\">{}</th>", span.count, html_escaped(span.group));
+      out += fmt::format(R"(<th class="group" colspan="{}">{}</th>)", span.count, html_escaped(span.group));
     out += "</tr>\n";
   }
   out += "<tr>";
