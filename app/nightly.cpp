@@ -43,6 +43,8 @@ int nightly(const Options& options, const std::vector<std::string>& argv) {
   run_options.jobs = options.jobs;
   run_options.resume = true;
   run_options.argv = argv;
+  if (options.baselines != Options().baselines && !fs::is_directory(options.baselines))
+    throw ConfigError("--baselines: there is no folder " + options.baselines);
   harness::Store store(options.store);  // a store that cannot be used is said before the night, not after it
   harness::NightPlan plan{.suite = suite,
                           .run = run_options.out,

@@ -27,7 +27,7 @@ using metrics::MetricRow;
 /// What rankings are about: lines that were found, walls that a map covers, errors of poses, lines missed, distances of
 /// points from lines. The first that most pipelines have decides.
 constexpr std::array<std::string_view, 8> kQuality{"f1",           "covered_5cm",  "position_error", "pose_efficiency",
-                                                   "rpe_position", "ate_position", "missed",         "s_mean"};
+                                                   "rpe_position", "ate_position", "missed",         "d_mean"};
 
 /// The value of a metric in a cell: of the subject "all", else "mean", else the mean over its subjects. NaN: none.
 double value_in(const std::vector<MetricRow>& rows, std::string_view metric) {
@@ -69,7 +69,8 @@ class Ranker {
     std::size_t most = 0;
     for (const std::string_view metric : kQuality) {
       const auto known = descriptions.find(std::string(metric));
-      const std::size_t pipelines = known == descriptions.end() ? 0 : pipelines_with(metric);
+      if (known == descriptions.end() || known->second.direction == metrics::Direction::neither) continue;
+      const std::size_t pipelines = pipelines_with(metric);
       if (pipelines <= most) continue;
       most = pipelines;
       ranking_.quality = known->second;

@@ -215,15 +215,18 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
     const auto bad = std::ranges::count_if(input.now.cells, [](const CellResults& cell) { return !cell.ok(); });
     const bool missing = std::ranges::any_of(
         input.now.cells, [](const CellResults& cell) { return cell.status == "missing" && cell.requested; });
+    for (const RunFile* file : {&kComparisonJson, &kComparisonMarkdown, &kComparisonJunit})
+      fs::remove(plan.run / *file);  // of an earlier night, which had a reference
     outcome.exit_code = missing ? 4 : bad > 0 ? 1 : 0;
-    outcome.sentence = fmt::format("{}: {}, so nothing can be worse; {} of {} cells are ok.",
-                                   missing   ? "INCOMPLETE"
-                                   : bad > 0 ? "FAIL"
-                                             : "PASS",
-                                   store.nights(plan.suite).size() > 1
-                                       ? "no earlier night of the suite was good and there is no baseline"
-                                       : "this is the first night of the suite",
-                                   std::ssize(input.now.cells) - bad, input.now.cells.size());
+    const std::string why = store.nights(plan.suite).size() > 1
+                                ? "no earlier night of the suite was good and there is no baseline"
+                                : "this is the first night of the suite";
+    const auto first = std::ranges::find_if(input.now.cells, [](const CellResults& cell) { return !cell.ok(); });
+    outcome.sentence =
+        bad == 0 ? fmt::format("PASS: {}, so nothing can be worse; all {} cells are ok.", why, input.now.cells.size())
+                 : fmt::format("{}: {} of {} cells are not ok, first {}: {}. There is nothing to compare with: {}.",
+                               missing ? "INCOMPLETE" : "FAIL", bad, input.now.cells.size(), to_string(first->key),
+                               first->status, why);
     store.set_verdict(tonight, missing ? "INCOMPLETE" : bad > 0 ? "FAIL" : "PASS", outcome.sentence);
   }
   if (const auto files = baseline_files(plan.baselines, plan.suite); files.size() > 1) {

@@ -72,9 +72,9 @@ std::string scan_sketch(const ScanSketch& sketch) {
   for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
     if (!paths[kind].empty()) lines += fmt::format(R"(<path class="{}" d="{}"/>)", kKinds[kind].first, paths[kind]);
   return fmt::format(
-      "<svg class=\"scan\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">{}<path "
-      "class=\"points\" d=\"{}\"/><path class=\"sensor\" d=\"M{}m-7 -8l14 8l-14 8z\"/></svg>",
-      kWidth, kHeight, html_escaped(plain_line(sketch.label)), lines, points, view.place(Vec2::Zero()));
+      "<svg class=\"scan\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\"><path "
+      "class=\"points\" d=\"{}\"/>{}<path class=\"sensor\" d=\"M{}m-7 -8l14 8l-14 8z\"/></svg>",
+      kWidth, kHeight, html_escaped(plain_line(sketch.label)), points, lines, view.place(Vec2::Zero()));
 }
 
 std::string scan_sketch_key() {

@@ -71,10 +71,26 @@ TEST_F(Nightly, KeepsTheNameOfItsSuiteInAnyFolder) {
   EXPECT_THAT(read(folder_ / "elsewhere/nightly.html"), HasSubstr("baseline 0001"));
 }
 
+TEST_F(Nightly, WithoutAReferenceLeavesNoComparisonOfAnEarlierNight) {
+  ASSERT_EQ(night().code, 0);
+  ASSERT_EQ(night(worsened_).code, 1);
+  ASSERT_TRUE(fs::exists(folder_ / "out/nightly/suite/comparison.md"));
+  ASSERT_EQ(night({"--store", "other.sqlite"}).code, 0);
+  for (const char* file : {"comparison.md", "comparison.json", "comparison.junit.xml"})
+    EXPECT_FALSE(fs::exists(folder_ / "out/nightly/suite" / file)) << file;
+}
+
+TEST_F(Nightly, RefusesAFolderOfBaselinesThatIsNotThere) {
+  const Outcome outcome = night({"--baselines", "baselinse"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--baselines: there is no folder baselinse"));
+}
+
 TEST_F(Nightly, AfterABadFirstNightSaysThatThereIsNoReference) {
   folder_.write("room.yaml", room_with("metrics:", "  - {name: hang, extract: {module: iepf}}\nmetrics:"));
   const Outcome first = night({"--set", "limits.seconds=0.000001"});
   EXPECT_EQ(first.code, 1) << first.out;
+  EXPECT_THAT(first.out, HasSubstr("cells are not ok, first room/"));
   const Outcome second = night();
   EXPECT_EQ(second.code, 0) << second.out;
   EXPECT_THAT(second.out, HasSubstr("no earlier night of the suite was good and there is no baseline"));
