@@ -120,6 +120,7 @@ class Ranker {
       by_seed[cell->key.seed].second += 1.0;
     }
     std::vector<double> averages;
+    averages.reserve(by_seed.size());
     for (const auto& [seed, sum] : by_seed) averages.push_back(sum.first / sum.second);
     method.quality = mean_interval(averages);
     method.seconds = timed > 0 ? std::exp(log_seconds / timed) : kNaN;
