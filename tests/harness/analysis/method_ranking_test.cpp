@@ -100,8 +100,8 @@ TEST(MethodRanking, IsEmptyWithoutAMetricOfTheListOrASecondPipeline) {
   const auto ones = [](const auto&, const auto&, std::uint64_t) { return 1.0; };
   EXPECT_THAT(rank_methods(made_up_run({"a", "b"}, {"n_true"}, 3, ones).cells, {}), IsEmpty());
   EXPECT_THAT(rank_methods(made_up_run({"a"}, {"f1"}, 3, ones).cells, {}), IsEmpty());
-  // No number of lines is better than another.
-  EXPECT_THAT(rank_methods(made_up_run({"a", "b"}, {"s_mean"}, 3, ones).cells, {}), IsEmpty());
+  // No number of lines is better than another, and small distances of points from lines do not make an extractor good.
+  EXPECT_THAT(rank_methods(made_up_run({"a", "b"}, {"s_mean", "d_mean"}, 3, ones).cells, {}), IsEmpty());
 }
 
 }  // namespace
