@@ -27,8 +27,8 @@ using metrics::MetricRow;
 /// What rankings are about: lines that were found, walls that a map covers, errors of poses, lines missed. The first
 /// that most pipelines have decides. Distances of points from their lines are not in the list: many short lines, or few
 /// easy ones, have small distances.
-constexpr std::array<std::string_view, 7> kQuality{
-    "f1", "covered_5cm", "position_error", "pose_efficiency", "rpe_position", "ate_position", "missed"};
+constexpr std::array<std::string_view, 7> kQuality{"f1",           "covered_5cm",  "position_error", "pose_efficiency",
+                                                   "rpe_position", "ate_position", "missed"};
 
 /// The value of a metric in a cell: of the subject "all", else "mean", else the mean over its subjects. NaN: none.
 double value_in(const std::vector<MetricRow>& rows, std::string_view metric) {
