@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/names.hpp"
+#include "harness/files/folder.hpp"
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/scenario/suite.hpp"
 #include "harness/store/run_scenarios.hpp"
@@ -16,15 +17,6 @@ namespace scanbench::app {
 
 namespace fs = std::filesystem;
 namespace {
-
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    names.push_back(entry->path().filename().string());
-  std::ranges::sort(names);
-  return names;
-}
 
 /// Throws ConfigError for a folder, and, with the nearest file, if there is no such file.
 void check_exists(const std::string& file) {
@@ -44,11 +36,11 @@ void check_exists(const std::string& file) {
 std::string nearest_file(const fs::path& path) {
   const bool bare = !path.has_parent_path();
   const std::string name = path.filename().string();
-  if (const std::string near = nearest_name(name, names_in(bare ? "." : path.parent_path())); !near.empty())
+  if (const std::string near = nearest_name(name, harness::names_in(bare ? "." : path.parent_path())); !near.empty())
     return (path.parent_path() / near).string();
   if (!bare) return "";
   for (const fs::path folder : {"scenarios", "scenarios/suites", "scenarios/logs", "out"}) {
-    const auto names = names_in(folder);
+    const auto names = harness::names_in(folder);
     for (const std::string& candidate : {name, path.stem().string() + ".yaml"})
       if (const std::string near = nearest_name(candidate, names); !near.empty()) return (folder / near).string();
   }

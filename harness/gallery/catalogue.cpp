@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/names.hpp"
+#include "harness/files/folder.hpp"
 #include "harness/files/placed_error.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/scenario/figure_pipelines.hpp"
@@ -27,16 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostSeeds = 1000;
-
-/// Names of the files in a folder.
-std::vector<std::string> files_of(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    names.push_back(entry->path().filename().string());
-  std::ranges::sort(names);
-  return names;
-}
 
 class CatalogueReader {
  public:
@@ -112,7 +103,7 @@ class CatalogueReader {
     const fs::path path = catalogue_.path.parent_path() / text;
     std::error_code error;
     if (text.find("${") == std::string::npos && !fs::exists(path, error)) {
-      const std::string near = nearest_name(path.filename().string(), files_of(path.parent_path()));
+      const std::string near = nearest_name(path.filename().string(), names_in(path.parent_path()));
       const std::string hint =
           near.empty() ? "" : "; did you mean '" + (fs::path(text).parent_path() / near).generic_string() + "'?";
       throw PlacedError(node.mark, "there is no scenario " + quoted_excerpt(text) + " (" + path.string() + ")" + hint);
