@@ -1,6 +1,7 @@
 // The page of a night: what a maintainer opens in the morning. It answers "is anything worse?" first.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -50,6 +51,9 @@ struct NightInput {
   std::string report;              ///< the run's own report beside this page: a relative link; empty: there is none
   std::vector<std::string> files;  ///< other files beside this page that hold its numbers
 };
+
+/// How many cells the night took from an earlier one, as a sentence.
+std::string reuse_text(std::size_t cells, std::size_t reused);
 
 /// Self-contained HTML: no request, light and dark, readable without JavaScript.
 std::string night_page(const NightInput& input);

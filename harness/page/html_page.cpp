@@ -58,6 +58,11 @@ input.filter { font: inherit; padding: .05rem .5rem; border: 1px solid var(--rul
 .spark { vertical-align: middle; color: var(--accent); } figure img { cursor: zoom-in; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr)); gap: 1.2rem; }
 dialog { max-width: 96vw; max-height: 96vh; padding: .5rem; border: 0; background: #fff; } dialog img { max-width: 92vw; max-height: 88vh; }
+.matrices { display: flex; flex-wrap: wrap; gap: .6rem 2rem; align-items: flex-start; } .matrices section { max-width: 100%; } .matrices td { text-align: left; }
+.matrices thead th { white-space: normal; overflow-wrap: anywhere; max-width: 9rem; text-align: left; vertical-align: bottom; } .matrices td a { text-decoration: none; }
+td.worse, td.failed, td.missing { background: #d55e0030; box-shadow: inset .25rem 0 #d55e00; } td.better { background: #0072b22b; box-shadow: inset .25rem 0 #0072b2; }
+td.failed { background: #cc79a740; box-shadow: inset .25rem 0 #cc79a7; } td.uncertain { background: #e69f0030; box-shadow: inset .25rem 0 #e69f00; }
+.nights th.head:last-child { white-space: normal; min-width: 16rem; font-weight: 400; } .nights th.head { vertical-align: top; }
 @media print { nav, .tools { display: none; } body { max-width: none; } .scroll { overflow: visible; } }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; font-size: .86rem; } dt { color: var(--faint); } dd { margin: 0; overflow-wrap: anywhere; }
 )css";

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "core/names.hpp"
 #include "harness/page/scatter_chart.hpp"
@@ -56,7 +57,7 @@ Table ranking_table(const MethodRanking& ranking) {
               {"pipeline"},
               {{"", heading(ranking.quality.metric, quality)},
                {"", "beats the next"},
-               {"", heading("time", time)},
+               {"", heading("time a scan", time)},
                {"", "front"}},
               {}};
   for (const auto& method : ranking.methods) {
@@ -100,12 +101,28 @@ std::string ranking_sentence(const MethodRanking& ranking) {
   return text;
 }
 
+std::string budget_sentence(const MethodRanking& ranking) {
+  std::vector<const RankedMethod*> front;
+  for (const auto& method : ranking.methods)
+    if (method.on_front) front.push_back(&method);
+  if (front.size() < 2) return "";
+  std::ranges::sort(front, {}, &RankedMethod::seconds);
+  const Display quality = quality_unit(ranking);
+  std::vector<std::string> parts;
+  for (const RankedMethod* method : front) {
+    const Display time = display_for("s", method->seconds);
+    parts.push_back(fmt::format("{} from {} {} ({})", method->pipeline, value_text(method->seconds, time), time.unit,
+                                value_text(method->quality.mean, quality)));
+  }
+  return "The best for a given time a scan: " + join(parts) + ".";
+}
+
 std::string accuracy_chart(const MethodRanking& ranking) {
   const Display quality = quality_unit(ranking);
-  ScatterChart chart{"CPU time of one recording [ms]", heading(ranking.quality.metric, quality), {}};
+  ScatterChart chart{"CPU time of one scan [µs]", heading(ranking.quality.metric, quality), {}};
   for (const auto& method : ranking.methods)
     chart.points.push_back(
-        {1e3 * method.seconds, quality.scale * method.quality.mean, method.pipeline, method.on_front});
+        {1e6 * method.seconds, quality.scale * method.quality.mean, method.pipeline, method.on_front});
   return scatter_chart(chart);
 }
 
@@ -113,16 +130,18 @@ std::string html_rankings(const std::vector<MethodRanking>& rankings, const std:
   if (rankings.empty()) return "";
   std::string out =
       "<p class=\"caption\">Means over the seeds with their 95 % intervals. “Beats the next” is the probability to be "
-      "better than the next row on a new seed, with its 95 % interval. The time is the CPU time of all stages for one "
-      "recording. ● no other pipeline is both as good and as fast.</p>\n";
+      "better than the next row on a new seed, with its 95 % interval. The time is the CPU time of all stages of one "
+      "scan. ● no other pipeline is both as good and as fast.</p>\n";
   for (const auto& ranking : rankings) {
     std::string heads;
     for (const auto& name : ranking.scenarios)
       heads += fmt::format("{}<a href=\"{}#{}\">{}</a>", heads.empty() ? "" : ", ", html_escaped(report),
                            html_escaped(name), html_escaped(name));
-    out +=
-        fmt::format("<h3>{}</h3>\n<p>{}</p>\n<div class=\"ranking\">\n{}{}</div>\n", heads,
-                    html_escaped(ranking_sentence(ranking)), to_html(ranking_table(ranking)), accuracy_chart(ranking));
+    const std::string condition =
+        ranking.condition.empty() ? "" : "<p class=\"faint\">Condition: " + html_escaped(ranking.condition) + "</p>\n";
+    out += fmt::format("<h3>{}</h3>\n{}<p>{} {}</p>\n<div class=\"ranking\">\n{}{}</div>\n", heads, condition,
+                       html_escaped(ranking_sentence(ranking)), html_escaped(budget_sentence(ranking)),
+                       to_html(ranking_table(ranking)), accuracy_chart(ranking));
   }
   return out;
 }
