@@ -30,11 +30,12 @@ std::string interval(const MetricChange& change) {
   return fmt::format("({:+.3g} … {:+.3g})", change.difference.low, change.difference.high);
 }
 
-/// "mean over 6 of 7 walls" where a wall has no value in one of the runs, on the seed with most of them.
+/// "6 of 7 walls", of which the value is the mean, where a wall has no value in one of the runs, on the seed with most
+/// of them.
 std::string wall_note(const SubjectCounts& walls) {
   if (walls.uncommon() == 0) return "";
-  if (walls.both > 0) return fmt::format("mean over {} of {} walls", walls.both, std::max(walls.before, walls.after));
-  return fmt::format("mean over {} walls, before {}", walls.after, walls.before);  // against a baseline
+  if (walls.both > 0) return fmt::format("{} of {} walls", walls.both, std::max(walls.before, walls.after));
+  return fmt::format("{} walls, before {}", walls.after, walls.before);  // against a baseline
 }
 
 /// What the interval comes from: the number of seeds, or the scans of a recorded log.
@@ -43,7 +44,8 @@ TableCell sample_cell(const MetricChange& change) {
     return {.text = fmt::format("{} {}", change.scans->count, change.scans->of),
             .spread = fmt::format("blocks of {}", change.scans->block),
             .hint = "per-scan pairs: " + sample_text(change)};
-  TableCell cell{.text = fmt::format("{} seed{}", change.pairs.size(), change.pairs.size() == 1 ? "" : "s")};
+  TableCell cell{.text = fmt::format("{} seed{}", change.pairs.size(), change.pairs.size() == 1 ? "" : "s"),
+                 .spread = wall_note(change.subjects)};
   if (change.by_value.empty()) return cell;
   cell.text = "value only";
   cell.spread = change.by_value;
@@ -110,7 +112,7 @@ Table change_table(const std::string& id, const std::string& title, const std::v
   Table table{id,
               title,
               "",
-              {"scenario", "pipeline", "metric", "finding"},
+              {"scenario", "pipeline", "metric"},
               {{"", "before"},
                {"", "now"},
                {"", "difference"},
@@ -122,12 +124,11 @@ Table change_table(const std::string& id, const std::string& title, const std::v
               {}};
   for (const MetricChange* change : changes) {
     const std::string unit = change->metric.unit.empty() ? "" : " [" + change->metric.unit + "]";
-    std::string finding(to_string(change->finding));
-    if (change->lost > 0) finding += fmt::format(" (undefined on {})", change->lost);
-    if (const std::string note = wall_note(change->subjects); !note.empty()) finding += " (" + note + ")";
-    table.rows.push_back({{change->scenario, change->pipeline, change->metric.metric + unit, finding},
+    TableCell now{.text = shown(change->after), .link = cells_link(*change)};
+    if (change->lost > 0) now.spread = fmt::format("undefined on {}", change->lost);
+    table.rows.push_back({{change->scenario, change->pipeline, change->metric.metric + unit},
                           {{shown(change->before)},
-                           {.text = shown(change->after), .link = cells_link(*change)},
+                           std::move(now),
                            {.text = signed_number(change->difference.mean), .spread = interval(*change)},
                            {shown(change->metric.tolerance)},
                            {std::isfinite(change->effect) ? fmt::format("{:+.2f}", change->effect) : "–"},

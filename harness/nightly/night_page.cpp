@@ -97,12 +97,17 @@ std::string trends(const NightInput& input) {
          out + "</tbody></table></div>\n";
 }
 
+/// Twelve digits; "(changed)" for a program whose code was not that of the commit.
+std::string commit_text(const std::string& commit) {
+  return commit.substr(0, 12) + (commit.find("-dirty-") == std::string::npos ? "" : " (changed)");
+}
+
 std::string history(const NightInput& input) {
   constexpr std::size_t kShown = 30;
   Table table{"nights", "", "", {"start (UTC)", "commit", "verdict"}, {}, {}};
   for (std::size_t i = input.nights.size(); i-- > 0 && table.rows.size() < kShown;) {
     const Night& night = input.nights[i];
-    table.rows.push_back({{night.start, night.commit.substr(0, 12), night.sentence}, {}, false});
+    table.rows.push_back({{night.start, commit_text(night.commit), night.sentence}, {}, false});
   }
   return table.rows.size() < 2 ? "" : "<div class=\"nights\">\n" + to_html(table) + "</div>\n";
 }

@@ -123,6 +123,21 @@ TableCell cell_of(const State& state, const std::string& ranked) {
   return cell(state.same == state.gates ? "= same" : "≈ within", "", ranked);
 }
 
+/// A scenario whose pipelines no other scenario has: they are side by side, because a column would be long and narrow.
+template <class CellAt>
+std::string one_scenario(const std::string& scenario, const std::vector<std::string>& pipelines,
+                         const CellAt& cell_at) {
+  std::string out = "<section class=\"chips\"><h3>" + html_escaped(scenario) + "</h3><div>\n";
+  for (const auto& pipeline : pipelines) {
+    const TableCell cell = cell_at(scenario, pipeline);
+    const std::string tag = cell.link.empty() ? "span" : "a";
+    const std::string link = cell.link.empty() ? "" : " href=\"" + html_escaped(cell.link) + "\"";
+    out += fmt::format("<{0} class=\"chip {1}\"{2}><b>{3}</b>{4}<small>{5}</small></{0}>\n", tag, cell.state, link,
+                       html_escaped(pipeline), html_escaped(cell.text), html_escaped(cell.spread));
+  }
+  return out + "</div></section>\n";
+}
+
 }  // namespace
 
 std::string html_status_matrices(const RunResults& now, const Comparison& comparison,
@@ -133,18 +148,23 @@ std::string html_status_matrices(const RunResults& now, const Comparison& compar
       "<p class=\"caption\">Counts are of gates. ▼ worse, ▲ better, = same to the bit, ≈ changed within the "
       "tolerances, ? changed by more but not on enough seeds, ✗ not ok, ∅ missing. Below is the largest change, else "
       "the value by which the pipelines are ranked.</p>\n<div class=\"matrices\">\n";
+  const auto cell_at = [&](const std::string& scenario, const std::string& pipeline) {
+    const auto state = states.find({scenario, pipeline});
+    if (state == states.end()) return TableCell{"–"};
+    TableCell cell = cell_of(state->second, ranked_value(state->second, scenario, rankings));
+    if (!report.empty()) cell.link = report + "#" + scenario;
+    return cell;
+  };
   for (const auto& group : groups_of(now, comparison)) {
+    if (group.scenarios.size() == 1) {
+      out += one_scenario(group.scenarios.front(), group.pipelines, cell_at);
+      continue;
+    }
     Table table{"", "", "", {"pipeline"}, {}, {}};
     for (const auto& scenario : group.scenarios) table.columns.push_back({"", scenario});
     for (const auto& pipeline : group.pipelines) {
       Table::Row row{{pipeline}, {}, false};
-      for (const auto& scenario : group.scenarios) {
-        const auto state = states.find({scenario, pipeline});
-        row.cells.push_back(state == states.end()
-                                ? TableCell{"–"}
-                                : cell_of(state->second, ranked_value(state->second, scenario, rankings)));
-        if (state != states.end() && !report.empty()) row.cells.back().link = report + "#" + scenario;
-      }
+      for (const auto& scenario : group.scenarios) row.cells.push_back(cell_at(scenario, pipeline));
       table.rows.push_back(std::move(row));
     }
     out += to_html(table);
