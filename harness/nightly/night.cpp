@@ -202,6 +202,7 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
   input.now = load_run_results(plan.run);
   input.facts = manifest_facts(plan.run);
   if (fs::exists(plan.run / kReportPage)) input.report = kReportPage.name();
+  if (!load_benchmark(plan.run)) input.scenarios_page = input.report;
   std::map<std::string, std::string> conditions;
   for (const auto& scenario : load_run_scenarios(plan.run)) conditions[scenario.name] = condition_text(scenario);
   input.rankings = rank_methods(input.now.cells, load_scan_seconds(plan.run, input.now.cells), conditions);

@@ -117,6 +117,7 @@ std::string definitions(const NightInput& input) {
   std::set<std::string> used;
   if (input.comparison)
     for (const auto& change : input.comparison->changes) used.insert(change.metric.metric);
+  for (const auto& ranking : input.rankings) used.insert(ranking.quality.metric);
   std::string out;
   for (const auto& metric : used) {
     const auto found = descriptions.find(metric);
@@ -185,10 +186,10 @@ std::vector<PagePart> parts_of(const NightInput& input) {
     add("better-section", "What became better", table_of(*comparison, "better"));
     add("cells-section", "Completeness", table_of(*comparison, "completeness"));
     add("matrix-section", "Pipelines × scenarios",
-        html_status_matrices(input.now, *comparison, input.rankings, input.report));
+        html_status_matrices(input.now, *comparison, input.rankings, input.scenarios_page));
     add("figures-section", "Figures of what became worse", picture_pairs(input.figures));
   }
-  add("rankings-section", "Rankings, and accuracy against time", html_rankings(input.rankings, input.report));
+  add("rankings-section", "Rankings, and accuracy against time", html_rankings(input.rankings, input.scenarios_page));
   add("worst-section", "The worst scans of each pipeline", worst_list(input));
   add("trends-section", "Trends", trends(input));
   add("nights-section", "Nights", history(input));

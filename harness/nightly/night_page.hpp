@@ -49,6 +49,7 @@ struct NightInput {
   std::vector<std::pair<std::string, std::string>> facts;  ///< how to get the numbers again
   std::size_t reused = 0;                                  ///< cells that were not run again, because nothing changed
   std::string report;              ///< the run's own report beside this page: a relative link; empty: there is none
+  std::string scenarios_page;      ///< the same if it has an anchor per scenario, as that of a benchmark has not
   std::vector<std::string> files;  ///< other files beside this page that hold its numbers
 };
 
