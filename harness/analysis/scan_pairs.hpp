@@ -15,7 +15,7 @@ namespace scanbench::harness {
 /// The scans that give the change on a recorded log its interval. A log has one value per run and no seeds to pair.
 struct PairedScans {
   std::size_t count = 0;     ///< of all scans, also of those without a value
-  const char* of = "scans";  ///< or "relations"
+  const char* of = "scans";  ///< or "pairs of scans", "relations"
   std::size_t block = 0;     ///< length of the bootstrap's blocks
   std::size_t lost = 0;      ///< scans that have a value only in the earlier run
   std::size_t gained = 0;    ///< only in the later one

@@ -154,6 +154,10 @@ struct ScanValueReader::Cell {
     place->second = means_over(frames, "scans", [&](std::size_t first, std::size_t count) {
       return of_frames(*family, recording, result, first, count);
     });
+    if (frames > 1)
+      place->second.merge(means_over(frames - 1, "pairs of scans", [&](std::size_t first, std::size_t count) {
+        return of_frames(*family, recording, result, first, count + 1);
+      }));
     if (!recording.reference || recording.reference->relations.empty()) return place->second;
     std::vector<PoseRelation> relations = recording.reference->relations;
     std::ranges::stable_sort(relations, {}, [](const PoseRelation& r) { return std::pair(r.first, r.second); });

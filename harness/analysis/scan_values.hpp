@@ -14,10 +14,10 @@
 
 namespace scanbench::harness {
 
-/// A metric that is a mean over scans, or over the relations of a log.
+/// A metric that is a mean over scans, over pairs of neighbouring scans, or over the relations of a log.
 struct ScanValues {
   ScanMean mean = ScanMean::mean;
-  const char* of = "scans";    ///< or "relations", in the order of their first scans
+  const char* of = "scans";    ///< or "pairs of scans", or "relations", all in the order of their first scans
   std::vector<double> values;  ///< one per scan, in the metric's unit; NaN: the scan has none
   std::vector<double> weights;
 };

@@ -42,7 +42,7 @@ std::string wall_note(const SubjectCounts& walls) {
 TableCell sample_cell(const MetricChange& change) {
   if (change.scans)
     return {.text = fmt::format("{} {}", change.scans->count, change.scans->of),
-            .spread = fmt::format("blocks of {}", change.scans->block),
+            .spread = fmt::format("in blocks of {}", change.scans->block),
             .hint = "per-scan pairs: " + sample_text(change)};
   TableCell cell{.text = fmt::format("{} seed{}", change.pairs.size(), change.pairs.size() == 1 ? "" : "s"),
                  .spread = wall_note(change.subjects)};
@@ -170,7 +170,7 @@ std::vector<Table> comparison_tables(const Comparison& comparison, bool all) {
       "is the share of false alarms among all gates that are as certain (Benjamini–Hochberg). Only gates fail.");
   if (auto cells = completeness_table(comparison)) tables.push_back(std::move(*cells));
   add("uncertain", "Changed by more than the tolerance, but not on enough seeds to be certain", Finding::uncertain,
-      true, "More seeds would tell.");
+      true, "More seeds, or a longer log, would tell.");
   add("better", "What became better", Finding::better, false, "");
   if (!all) return tables;
   add("changed", "Changed, of metrics without a better direction", Finding::changed, false, "");

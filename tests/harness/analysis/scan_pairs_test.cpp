@@ -144,5 +144,32 @@ TEST_F(ScanPairs, OfRelationsAreTheirDeviations) {
   EXPECT_FALSE(reader.of(key, "no_such_metric").has_value());
 }
 
+TEST_F(ScanPairs, OfNeighbouringScansAreTheErrorsOfTheirMotion) {
+  std::string log;
+  for (int i = 0; i < kScans; ++i) {
+    log += fmt::format("FLASER {}", kBeams);
+    for (int beam = 0; beam < kBeams; ++beam) log += fmt::format(" {:.2f}", 3.0 + 0.01 * ((beam * i) % 7));
+    log += fmt::format(" {:.3f} 0 0 {:.3f} 0 0 {:.3f} host {:.3f}\n", i + shift(i), 1.0 * i, 1.0 * i, 1.0 * i);
+  }
+  write_file_atomically(folder_.path() / "carmen.log", log);
+  write_file_atomically(folder_.path() / "mine.yaml",
+                        "schema: 1\nabout: a log\nrecording: {log: carmen.log, format: carmen, no_return_m: 81, "
+                        "first_angle_deg: -60, step_deg: 8, poses: odometry, compare_poses: reference}\nseed: 1\n"
+                        "pipelines:\n  - {name: a, extract: {module: test_line}, match: {module: test_ahead}}\n"
+                        "metrics: [trajectory]\n");
+  const fs::path out = folder_.path() / "run";
+  ASSERT_EQ(run({load_scenario(folder_.path() / "mine.yaml")}, {.out = out}).exit_code(), 0);
+  ScanValueReader reader(out);
+  const auto values = reader.of({"mine", "a", 1}, "rpe_position");
+  ASSERT_TRUE(values.has_value());
+  EXPECT_STREQ(values->of, "pairs of scans");
+  EXPECT_EQ(values->mean, ScanMean::root_mean_square);
+  ASSERT_EQ(values->values.size(), static_cast<std::size_t>(kScans - 1));
+  // The matcher moves one metre ahead; the reference moves by 1 + shift(i + 1) - shift(i).
+  for (int i = 0; i + 1 < kScans; ++i)
+    EXPECT_NEAR(values->values[static_cast<std::size_t>(i)], std::fabs(shift(i + 1) - shift(i)), 1e-9) << i;
+  EXPECT_FALSE(reader.of({"mine", "a", 1}, "ate_position_max").has_value());
+}
+
 }  // namespace
 }  // namespace scanbench::harness
