@@ -72,10 +72,10 @@ FinishedRun run_and_report(const std::vector<harness::Scenario>& scenarios, harn
   return finished;
 }
 
-std::string unfinished_text(const harness::RunResult& result) {
+std::string unfinished_text(const harness::RunResult& result, const std::string& how) {
   if (result.interrupted)
-    return fmt::format("scanbench: interrupted; the finished cells of a new run stay in {} (--resume continues)\n",
-                       result.out.string());
+    return fmt::format("scanbench: interrupted; the finished cells of a new run stay in {} ({})\n", result.out.string(),
+                       how);
   return result.exit_code() == kIncomplete ? missing_text(result) : "";
 }
 

@@ -27,6 +27,7 @@ FinishedRun run_and_report(const std::vector<harness::Scenario>& scenarios, harn
                            const Presentation& presentation);
 
 /// What is said on standard error after a run that was interrupted or is incomplete; empty if there is nothing to say.
-std::string unfinished_text(const harness::RunResult& result);
+/// `how`: what makes an interrupted one go on.
+std::string unfinished_text(const harness::RunResult& result, const std::string& how = "--resume continues");
 
 }  // namespace scanbench::app

@@ -82,6 +82,8 @@ function(scanbench_executable name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   scanbench_flags(${name})
+  # The linker's build id is a hash of everything, so of the commit too, which the version of the code leaves out.
+  target_link_options(${name} PRIVATE LINKER:--build-id=none)
   list(TRANSFORM arg_ROOMS PREPEND scanbench_ OUTPUT_VARIABLE rooms)
   target_link_libraries(${name} PRIVATE ${rooms})
   set_target_properties(${name} PROPERTIES LINK_LIBRARY_OVERRIDE

@@ -246,8 +246,8 @@ std::string to_html(const Table& table) {
     for (std::size_t c = 0; c < row.cells.size(); ++c) {
       const bool first = c == 0 || table.columns[c].group != table.columns[c - 1].group;
       const auto& cell = row.cells[c];
-      out += fmt::format("<td class=\"{}{}{}\">{}</td>", cell.best ? "best " : "", cell.published ? "published " : "",
-                         first ? "first" : "", html_content(cell));
+      out += fmt::format("<td class=\"{}{}{}{}\">{}</td>", cell.best ? "best " : "", cell.published ? "published " : "",
+                         cell.state.empty() ? "" : cell.state + " ", first ? "first" : "", html_content(cell));
     }
     out += "</tr>\n";
   }

@@ -145,7 +145,7 @@ function sort() {
   const [key, name] = el('order').value.split(' of ');
   order = rec.frames.map((_, i) => i);
   const p = rec.pipelines.find(p => p.name === name);
-  const value = i => { const v = p[key][i]; return v === null ? -Infinity : key === 'f1' ? -v : v; };
+  const value = i => { const v = p[key][i]; return v === null ? -Infinity : v; };
   if (p) order.sort((a, b) => value(b) - value(a) || a - b);
 }
 function choose(index) {
@@ -153,7 +153,7 @@ function choose(index) {
   el('recording').value = index;
   const options = [['number', 'by number']];
   for (const p of rec.pipelines) {
-    if (p.f1) options.push(['f1 of ' + p.name, 'lowest F1 of ' + p.name]);
+    if (p.error) options.push(['error of ' + p.name, 'lowest F1 of ' + p.name]);
     options.push(['unexplained of ' + p.name, 'most returns without a line, ' + p.name]);
     options.push(['residual_m of ' + p.name, 'largest RMS distance from lines, ' + p.name]);
   }

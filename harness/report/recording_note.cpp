@@ -10,6 +10,7 @@
 #include "core/geometry/angles.hpp"
 #include "core/names.hpp"
 #include "core/params.hpp"
+#include "core/sensor_model.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -47,6 +48,18 @@ std::string text_of(const LinesInput& input, std::span<const std::uint64_t> seed
 
 std::string recording_note(const Scenario& scenario, std::span<const std::uint64_t> seeds) {
   return std::visit([seeds](const auto& input) { return text_of(input, seeds); }, scenario.input);
+}
+
+std::string condition_text(const Scenario& scenario) {
+  if (std::holds_alternative<RecordedInput>(scenario.input)) return "recorded log";
+  const auto* simulated = std::get_if<SimulatedInput>(&scenario.input);
+  if (simulated == nullptr) return "";
+  const SensorNoise& noise = simulated->sensor.noise;
+  std::vector<std::string> parts;
+  if (noise.sigma_m > 0) parts.push_back(fmt::format("{:.3g} cm", 100.0 * noise.sigma_m));
+  if (noise.sigma_relative > 0) parts.push_back(fmt::format("{:.3g} % of the range", 100.0 * noise.sigma_relative));
+  return fmt::format("sensor {}, range noise {}", simulated->sensor_preset,
+                     parts.empty() ? "none" : join(parts, noise.relative_from_m > 0 ? " or, farther away, " : " and "));
 }
 
 std::string recording_title_note(const Scenario& scenario, std::span<const std::uint64_t> seeds) {

@@ -13,7 +13,12 @@ namespace scanbench::harness {
 /// "Recorded log intel.log.gz, its reference poses." `seeds`: those that are shown.
 std::string recording_note(const Scenario& scenario, std::span<const std::uint64_t> seeds);
 
-/// The same for titles, only what is unusual: "tilted sensor, seed 3 of 20 seeds"; empty if nothing is.
+/// What decides how hard a simulated scenario is: "sensor ladar_2d30, range noise 5 cm"; "recorded log", or empty for
+/// lines instead of scans.
+std::string condition_text(const Scenario& scenario);
+
+/// The same as recording_note() for titles, only what is unusual: "tilted sensor, seed 3 of 20 seeds"; empty if nothing
+/// is.
 std::string recording_title_note(const Scenario& scenario, std::span<const std::uint64_t> seeds);
 
 }  // namespace scanbench::harness
