@@ -188,8 +188,7 @@ void ModeSearch::process_box(std::span<PendingClimb> climbs, std::vector<Pending
   const BoxKey box = climbs.front().box;
   const Vec3 centre = boxes_.centre(box);
   candidates_.clear();
-  grid_.for_each_near(centre, boxes_.half(kMargin), options_.cutoff + 1e-3,
-                      [&](std::size_t, const Vec3& d) { candidates_.add(Float3::rounded(d)); });
+  candidates_.add_near(grid_, centre, boxes_.half(kMargin), options_.cutoff + 1e-3);
   candidates_.seal();
   collect_anchors(box, centre);
 
