@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include <malloc.h>
+
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "harness/files/system_error.hpp"
@@ -80,6 +82,7 @@ void Execution::add(std::size_t cell) {
 void Execution::work(const fs::path& folder, bool flush, double grace_seconds) {
   folder_ = folder;
   flush_ = flush;
+  ::malloc_trim(0);  // each fork copies the page tables of what this process holds, freed or not
   try {
     run_all(grace_seconds);
   } catch (...) {
@@ -91,7 +94,7 @@ void Execution::work(const fs::path& folder, bool flush, double grace_seconds) {
   put_in_place();
   interrupted_ = pool_->interrupted();
   terminated_ = pool_->terminated();
-  for (auto& group : groups_) group.staged.reset();
+  for (auto& group : groups_) group.active.reset();
 }
 
 void Execution::run_all(double grace_seconds) {
@@ -135,7 +138,8 @@ bool Execution::start_next() {
 }
 
 void Execution::start_recording(std::size_t index) {
-  Group& group = groups_[index];
+  groups_[index].active = std::make_unique<ActiveGroup>();
+  ActiveGroup& group = *groups_[index].active;
   const PlannedGroup& planned = plan_.groups[index];
   try {
     group.staged.emplace(recording_path(folder_, planned.scenario->name, planned.seed));
@@ -159,13 +163,14 @@ void Execution::start_recording(std::size_t index) {
 }
 
 void Execution::finish_recording(std::size_t index, WorkerOutcome outcome) {
-  Group& group = groups_[index];
+  ActiveGroup& group = *groups_[index].active;
+  const std::vector<std::size_t>& cells = groups_[index].cells;
   if (outcome.status == CellStatus::ok) {
     try {
       const std::size_t blank = outcome.message.find(' ');
       const std::string hash = outcome.message.substr(0, blank);
       const double bytes = parse_number(std::string_view(outcome.message).substr(blank + 1)).value_or(0.0);
-      const bool by_child = group.cells.size() == 1 && bytes < kReadByChildBytes;
+      const bool by_child = cells.size() == 1 && bytes < kReadByChildBytes;
       if (!by_child) group.recording = load_recording(group.staged->path());
       // The new recording replaces the old one only if it differs.
       try {
@@ -175,7 +180,7 @@ void Execution::finish_recording(std::size_t index, WorkerOutcome outcome) {
         // The old recording is damaged.
       }
       if (group.staged) new_recordings_.push_back(index);
-      ready_.insert(ready_.end(), group.cells.begin(), group.cells.end());
+      ready_.insert(ready_.end(), cells.begin(), cells.end());
       return;
     } catch (const SystemError& e) {
       outcome = {.message = e.what(), .system_error = true};
@@ -205,7 +210,7 @@ std::function<std::string()> Execution::task_of(std::size_t cell, const fs::path
   return [this, cell, folder] {
     const PlannedCell& planned = plan_.cells[cell];
     const PlannedWork& work = plan_.works[planned.work];
-    const Group& group = group_of(cell);
+    const ActiveGroup& group = active_group_of(cell);
     std::optional<Recording> read;
     if (!group.recording)
       read = load_recording_of(group.staged ? group.staged->path() : fs::path(),
@@ -218,14 +223,14 @@ std::function<std::string()> Execution::task_of(std::size_t cell, const fs::path
 
 void Execution::start_cell(std::size_t cell) {
   has_other_failure_ = true;
-  if (!group_of(cell).fault.empty()) {
-    mark_missing(cell, group_of(cell).fault);
+  if (!active_group_of(cell).fault.empty()) {
+    mark_missing(cell, active_group_of(cell).fault);
     return;
   }
   std::optional<StagedFolder> staged = stage(cell);
   if (!staged) return;
   const Limits& limits = scenario_of(cell).limits;
-  const double reading = group_of(cell).recording ? 0.0 : kReadingBytes;
+  const double reading = active_group_of(cell).recording ? 0.0 : kReadingBytes;
   try {
     pool_->start(cell, task_of(cell, staged->path()), {limits.seconds, limits.memory_bytes + reading, 1});
     running_.emplace(cell, std::move(*staged));
@@ -294,19 +299,19 @@ void Execution::put_in_place() {
     if (flush_ && !finished_.empty())
       finished_.front().staged.flush();
     else if (flush_ && !new_recordings_.empty())
-      groups_[new_recordings_.front()].staged->flush();
+      groups_[new_recordings_.front()].active->staged->flush();
   } catch (const ConfigError& e) {
     fault = e.what();
   }
   for (const std::size_t index : std::exchange(new_recordings_, {})) {
-    Group& group = groups_[index];
+    ActiveGroup& group = *groups_[index].active;
     group.fault = place(*group.staged);
     group.staged.reset();
   }
   std::vector<Finished> ended = std::exchange(finished_, {});
   std::vector<std::string> faults;
   for (auto& cell : ended)
-    faults.push_back(group_of(cell.cell).fault.empty() ? place(cell.staged) : group_of(cell.cell).fault);
+    faults.push_back(active_group_of(cell.cell).fault.empty() ? place(cell.staged) : active_group_of(cell.cell).fault);
   try {
     if (flush_)
       for (const auto& parent : parents) flush_folder(parent);
@@ -318,6 +323,7 @@ void Execution::put_in_place() {
       end_cell(ended[i].cell, std::move(ended[i].result), std::move(ended[i].summary));
     else
       mark_missing(ended[i].cell, faults[i]);
+    if (group_of(ended[i].cell).unfinished == 0) group_of(ended[i].cell).active.reset();
   }
 }
 
@@ -334,7 +340,7 @@ void Execution::mark_missing(std::size_t cell, const std::string& reason) {
 
 void Execution::end_cell(std::size_t cell, CellResult result, std::string summary) {
   Group& group = group_of(cell);
-  if (--group.unfinished == 0) group.recording.reset();
+  if (--group.unfinished == 0 && group.active) group.active->recording.reset();
   events_.ended(cell, std::move(result), std::move(summary));
 }
 

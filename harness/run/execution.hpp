@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,12 +58,15 @@ class Execution {
   void release() { pool_.reset(); }
 
  private:
-  struct Group {
-    std::vector<std::size_t> cells;
-    std::size_t unfinished = 0;
+  struct ActiveGroup {
     std::optional<StagedFolder> staged;  ///< until the recording is in place
     std::optional<Recording> recording;  ///< while cells need it, unless a child reads it
     std::string fault;                   ///< why the recording could not be put in place
+  };
+  struct Group {
+    std::vector<std::size_t> cells;
+    std::size_t unfinished = 0;
+    std::unique_ptr<ActiveGroup> active;  ///< while cells run; a plan may have 10^5 groups
   };
   /// A finished cell whose folder is not yet in place.
   struct Finished {
@@ -88,6 +92,7 @@ class Execution {
   void mark_missing(std::size_t cell, const std::string& reason);
 
   Group& group_of(std::size_t cell) { return groups_[plan_.cells[cell].group]; }
+  ActiveGroup& active_group_of(std::size_t cell) { return *group_of(cell).active; }
   const Scenario& scenario_of(std::size_t cell) const { return *plan_.works[plan_.cells[cell].work].scenario; }
 
   const RunPlan& plan_;

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "core/error.hpp"
@@ -63,19 +64,20 @@ class Run {
     for (const auto& cell : plan_.cells) keys.push_back(plan_.key(cell));
     manifest_ =
         start_run(*target_, {scenarios_, std::move(keys), options_.argv, options_.rules, services_.effective_yaml});
+    manifest_.cells = {};  // until the end, because each child gets a copy
   }
+
+  CellKey key_of(std::size_t cell) const { return plan_.key(plan_.cells[cell]); }
 
   /// Cells of an earlier run that are ok and have the same address are kept; the others of the selection wait to be
   /// run. Cells outside the selection only add their rows to the summary.
   void reuse_finished_cells() {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      CellResult& cell = cells_[i];
-      cell.key = plan_.key(plan_.cells[i]);
-      const bool is_selected = selected(options_, cell.key);
+      const bool is_selected = selected(options_, key_of(i));
       if (earlier_ && (options_.resume || !is_selected)) try_to_reuse(i);
       if (!is_selected) continue;
       ++total_;
-      if (cell.reused)
+      if (cells_[i])
         ++done_;
       else
         execution_.add(i);
@@ -88,9 +90,11 @@ class Run {
     if (!earlier_ || options_.only.empty()) return;
     std::string first;
     std::size_t count = 0;
+    std::set<CellKey> kept;
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      if (cells_[i] || selected(options_, key_of(i))) kept.insert(key_of(i));
     for (const CellKey& key : load_manifest(target_->path()).cells) {
-      const auto cell = std::ranges::find(cells_, key, &CellResult::key);
-      if (cell != cells_.end() && (cell->reused || selected(options_, key))) continue;
+      if (kept.contains(key)) continue;
       if (!earlier_->is_ok(key)) continue;
       if (count++ == 0) first = to_string(key);
     }
@@ -103,20 +107,20 @@ class Run {
 
   void try_to_reuse(std::size_t index) {
     const PlannedCell& planned = plan_.cells[index];
-    CellResult& cell = cells_[index];
+    CellResult cell{.key = key_of(index), .done = true, .reused = true, .record = {}};
     const auto found =
         earlier_->find(cell.key, plan_.address(planned), *plan_.works[planned.work].pipeline, plan_.trace(planned));
     if (!found) return;
     summary_.set(index, summary_lines(cell.key, found->metrics));
     cell.record = found->record;
-    cell.done = cell.reused = true;
+    cells_[index] = std::make_unique<CellResult>(std::move(cell));
   }
 
   void end_cell(std::size_t index, CellResult result, const std::string& summary) {
     summary_.set(index, summary);
-    cells_[index] = std::move(result);
+    cells_[index] = std::make_unique<CellResult>(std::move(result));
     ++done_;
-    tell_progress(to_string(cells_[index].key), &cells_[index]);
+    tell_progress(to_string(cells_[index]->key), cells_[index].get());
   }
 
   void tell_progress(const std::string& what, const CellResult* cell) const {
@@ -140,7 +144,7 @@ class Run {
   void write_summary() const { write_file_atomically(target_->path() / kSummaryFile, summary_.text()); }
 
   void refuse_if_all_input_is_bad() {
-    const bool any_reused = std::ranges::any_of(cells_, &CellResult::reused);
+    const bool any_reused = std::ranges::any_of(cells_, [](const auto& cell) { return cell && cell->reused; });
     const std::string message = execution_.only_bad_input();
     if (execution_.interrupted() || message.empty() || any_reused) return;
     target_->abandon();
@@ -150,10 +154,10 @@ class Run {
   RunResult end() {
     RunResult result{.out = options_.out.lexically_normal(), .cells = {}, .interrupted = execution_.interrupted()};
     bool missing = false;
-    for (const auto& cell : cells_) {
-      if (!selected(options_, cell.key)) continue;
-      missing = missing || !cell.done;
-      result.cells.push_back(cell);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (!selected(options_, key_of(i))) continue;
+      result.cells.push_back(cells_[i] ? std::move(*cells_[i]) : CellResult{.key = key_of(i), .record = {}});
+      missing = missing || !result.cells.back().done;
     }
     result.old_run_kept = (missing || result.interrupted) && target_->replaces();
     if (result.old_run_kept) {
@@ -161,6 +165,7 @@ class Run {
       return result;
     }
     write_summary();
+    for (std::size_t i = 0; i < cells_.size(); ++i) manifest_.cells.push_back(key_of(i));
     manifest_.verified = verified_files();
     const std::string state = result.interrupted ? "interrupted" : missing ? "incomplete" : "complete";
     end_run(*target_, manifest_, state, options_.finish && state == "complete");
@@ -187,7 +192,8 @@ class Run {
   Execution execution_;  ///< destroyed late, so that no interrupt comes before the unfinished run is removed
   std::unique_ptr<RunTarget> target_;
   std::optional<EarlierCells> earlier_;  ///< of a run that is resumed
-  std::vector<CellResult> cells_;        ///< in the order of the plan
+  /// In the order of the plan; those that have ended. Each child gets a copy, so that they are made when needed.
+  std::vector<std::unique_ptr<CellResult>> cells_;
   SummaryRows summary_;
   std::size_t done_ = 0;
   std::size_t total_ = 0;
