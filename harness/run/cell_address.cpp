@@ -7,6 +7,7 @@
 
 #include "harness/files/hash.hpp"
 #include "harness/scenario/effective.hpp"
+#include "harness/scenario/foreign_slot.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -60,6 +61,8 @@ std::string cell_address(const std::string& input, const std::vector<ModuleChoic
   Scenario part;
   part.input = LinesInput{};  // no input here: it has its own address
   part.pipelines.push_back({.name = "", .slots = pipeline.slots, .published = ""});
+  for (ModuleChoice& slot : part.pipelines.back().slots)
+    if (slot.source) slot.source = without_folders(std::move(*slot.source));
   part.metrics = metrics;
   return Sha256()
       .part("schema", "2")

@@ -12,7 +12,8 @@ std::string make_cell(const std::filesystem::path& folder, const Scenario& scena
                       const TraceChoice& trace, const Recording& recording) {
   Journal journal(trace);
   const bool traced = !trace.nothing();
-  const PipelineRun run = run_pipeline(pipeline, recording.observed, traced ? &journal : nullptr);
+  const PipelineRun run = run_pipeline(pipeline, recording.observed, traced ? &journal : nullptr,
+                                       {.sandbox = scenario.limits.sandbox, .writable_folder = folder});
   write_result(folder, pipeline, run.result);
   if (traced) write_staged_file(folder / kTraceFile, journal.csv());
   const Scores scores = score_cell(scenario.metrics, recording, folder);
