@@ -99,6 +99,7 @@ class Pose:
 
     def _row(self):
         norm = math.hypot(self.cos, self.sin)
+        norm = 1.0 if abs(norm - 1.0) < 1e-12 else norm  # a pose that is passed on keeps its bits
         return (self.x, self.y, self.cos / norm, self.sin / norm)
 
 

@@ -70,9 +70,11 @@ PipelineSpec read_pipeline(const YamlNode& node, bool scans, const ModuleSources
     if (slot_node == nullptr) continue;
     marks.push_back(slot_node->mark);
     if (slot_node->kind != YamlKind::map)
-      throw PlacedError(slot_node->mark, fmt::format("{} of {} is {}; allowed: {{module: NAME}} or {{program: "
-                                                     "[WORD, ...]}}, either with params: {{key: value}}",
-                                                     slot.kind, pipeline.name, describe_node(*slot_node)));
+      throw PlacedError(
+          slot_node->mark,
+          fmt::format("{} of {} is {}; allowed: {{module: NAME}} or {{module: NAME, params: {{key: value}}}}, "
+                      "or {{program: [WORD, ...]}}",
+                      slot.kind, pipeline.name, describe_node(*slot_node)));
     const std::string kind(slot.kind);
     const std::string what = fmt::format("{} of {}", slot.kind, pipeline.name);
     const bool foreign = is_foreign_slot(*slot_node, kind, sources);

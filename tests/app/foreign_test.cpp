@@ -42,6 +42,14 @@ TEST_F(ForeignPrograms, AreDescribed) {
                                  HasSubstr("largest distance of a point from the chord")));
 }
 
+TEST_F(ForeignPrograms, OfTheExamplesConform) {
+  for (const std::string name : {"my_lines.py", "split_lines.py", "point_matcher.py"}) {
+    const auto outcome = run({"conform", "--program", "python3", example(name)});
+    EXPECT_EQ(outcome.code, 0) << name << ": " << outcome.out << outcome.err;
+  }
+  EXPECT_EQ(run({"conform"}).code, 2);
+}
+
 TEST_F(ForeignPrograms, BadParametersHaveTheirPlace) {
   const std::string program = "{program: [python3, '" + example("split_lines.py") + "'], params: ";
   auto outcome = run({"check", scenario(program + "{threshold_m: -1}}")});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -37,10 +38,12 @@ class Plugins : public testing::Test {
   Folder folder_;
 };
 
-TEST_F(Plugins, TheReadmesModuleInALibraryGivesTheLinesOfTheProgramInPython) {
+TEST_F(Plugins, TheReadmesModuleInALibraryGivesTheLinesOfTheProgramsInCAndPython) {
   const std::string library = places::plugin("my_lines");
   const bool python = std::system("python3 -c pass >/dev/null 2>&1") == 0;
-  std::string pipelines = "  - {name: library, extract: {module: my_lines}}\n";
+  const std::string c = library.substr(0, library.rfind('/')) + "/my_lines_c";
+  std::string pipelines =
+      "  - {name: library, extract: {module: my_lines}}\n  - {name: c, extract: {program: ['" + c + "']}}\n";
   if (python)
     pipelines += "  - {name: python, extract: {program: [python3, '" +
                  (places::source_dir() / "examples/programs/my_lines.py").string() + "']}}\n";
@@ -48,18 +51,19 @@ TEST_F(Plugins, TheReadmesModuleInALibraryGivesTheLinesOfTheProgramInPython) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::string lines = read(folder_ / "a/cells/room/library/1/lines.csv");
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 6);
+  const auto numbers = [](const std::string& csv) {
+    std::string text = csv.substr(csv.find('\n') + 1);
+    std::ranges::replace(text, ',', ' ');
+    std::istringstream words(text);
+    return std::vector<double>{std::istream_iterator<double>(words), {}};
+  };
+  const std::vector<double> expected = numbers(lines);
+  EXPECT_EQ(expected.size(), 60u);  // five frames, twelve columns
+  EXPECT_THAT(numbers(read(folder_ / "a/cells/room/c/1/lines.csv")),
+              testing::Pointwise(testing::DoubleNear(1e-12), expected));
   if (!python) GTEST_SKIP() << "there is no python3";
-  std::istringstream of_library(lines), of_python(read(folder_ / "a/cells/room/python/1/lines.csv"));
-  std::string a, b;
-  std::getline(of_library, a);
-  std::getline(of_python, b);
-  EXPECT_EQ(a, b);
-  int numbers = 0;
-  while (std::getline(of_library, a, ',') && std::getline(of_python, b, ',')) {
-    EXPECT_NEAR(std::stod(a), std::stod(b), 1e-12);
-    ++numbers;
-  }
-  EXPECT_GT(numbers, 50);
+  EXPECT_THAT(numbers(read(folder_ / "a/cells/room/python/1/lines.csv")),
+              testing::Pointwise(testing::DoubleNear(1e-12), expected));
 }
 
 TEST_F(Plugins, AreDescribedAndCheckedWithoutBeingLoadedHere) {
@@ -128,6 +132,37 @@ TEST_F(Plugins, ThatMisbehaveSpoilOnlyTheirOwnCells) {
   ASSERT_EQ(run({"run", alone, "--out", folder_ / "b", "--quiet", "--no-figures"}).code, 0);
   EXPECT_EQ(read(folder_ / "a/cells/room/good/1/lines.csv"), read(folder_ / "b/cells/room/good/1/lines.csv"));
   EXPECT_EQ(read(folder_ / "a/cells/room/good/1/metrics.csv"), read(folder_ / "b/cells/room/good/1/metrics.csv"));
+}
+
+/// The names of the checks that a module of the library of wrong ones fails.
+std::vector<std::string> failed_checks(const std::string& module, const std::string& out) {
+  std::vector<std::string> names;
+  std::istringstream lines(out.substr(out.find(module + " (extract")));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line) && line.starts_with("  "))
+    if (line.starts_with("  FAIL  ")) names.push_back(line.substr(8));
+  return names;
+}
+
+TEST_F(Plugins, ConformPassesGoodModulesAndNamesTheBrokenChecksOfWrongOnes) {
+  const auto outcome = run({"conform", "--plugin", places::plugin("wrong")});
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  // Each is a line through all returns, which is no extractor for a room: what it fails without its fault is known.
+  const auto with = [](std::vector<std::string> names) { return testing::IsSupersetOf(names); };
+  EXPECT_THAT(failed_checks("remembers", outcome.out), with({"TheAnswerIsTheSameTwiceAndTheScanUntouched"}));
+  EXPECT_THAT(failed_checks("reverses", outcome.out),
+              with({"AClockwiseScannerGivesTheSameWallWithTheSensorOnItsLeft"}));
+  EXPECT_THAT(failed_checks("counts", outcome.out), with({"ANoiseFreeWallIsOneLine"}));
+  EXPECT_THAT(failed_checks("few_beams", outcome.out), with({"TenAndAHundredThousandBeamsAreAnswered"}));
+  EXPECT_THAT(failed_checks("empty", outcome.out),
+              with({"AScanWithoutBeamsHasNoLines", "AScanWithoutReturnsHasNoLines"}));
+  EXPECT_THAT(failed_checks("reverses", outcome.out),
+              testing::Not(testing::Contains("TheAnswerIsTheSameTwiceAndTheScanUntouched")));
+  const auto good = run({"conform", "--plugin", places::plugin("my_lines")});
+  EXPECT_EQ(good.code, 0) << good.out;
+  const auto in_c = run({"conform", "--program", places::plugin("my_lines").parent_path() / "my_lines_c"});
+  EXPECT_EQ(in_c.code, 0) << in_c.out;
 }
 
 /// The package of `cmake --install`, a build outside of the source tree, and a run.

@@ -24,6 +24,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"render", {"core"}},
     {"harness/files", {"core"}},
     {"harness/yaml", {"core", "harness/files"}},
+    {"harness/conform", {"core"}},
     {"harness/foreign", {"core", "harness/files"}},
     {"harness/exchange", {"core", "sim", "harness/files"}},
     {"harness/scenario",
@@ -47,9 +48,9 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
       "harness/page", "harness/report"}},
     {"harness/film", {"core", "render", "harness/files", "harness/scenario", "harness/store", "harness/report"}},
     {"app",
-     {"core", "render", "harness/files", "harness/exchange", "harness/foreign", "harness/scenario", "harness/store",
-      "harness/run", "harness/analysis", "harness/page", "harness/report", "harness/nightly", "harness/player",
-      "harness/gallery", "harness/film"}},
+     {"core", "harness/conform", "render", "harness/files", "harness/exchange", "harness/foreign", "harness/scenario",
+      "harness/store", "harness/run", "harness/analysis", "harness/page", "harness/report", "harness/nightly",
+      "harness/player", "harness/gallery", "harness/film"}},
 };
 
 // Headers of a library that only one folder may name.
