@@ -46,16 +46,20 @@ double cpu_seconds_of(pid_t pid) {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Adds what the program uses during a call to the clock.
+/// Adds what the program uses during a call to the clock. In a sandbox the program is out of sight: the duration of the
+/// call counts.
 class CpuMeter {
  public:
-  explicit CpuMeter(pid_t pid) : pid_(pid), before_(cpu_seconds_of(pid)) {}
+  CpuMeter(pid_t pid, bool in_sandbox) : pid_(pid), in_sandbox_(in_sandbox), before_(reading()) {}
   CpuMeter(const CpuMeter&) = delete;
   CpuMeter& operator=(const CpuMeter&) = delete;
-  ~CpuMeter() { used_by_programs += std::max(0.0, cpu_seconds_of(pid_) - before_); }
+  ~CpuMeter() { used_by_programs += std::max(0.0, reading() - before_); }
 
  private:
+  double reading() const { return in_sandbox_ ? now_seconds() : cpu_seconds_of(pid_); }
+
   pid_t pid_;
+  bool in_sandbox_;
   double before_;
 };
 
@@ -100,7 +104,8 @@ void set_environment() {
 
 /// Under bubblewrap: no network, the whole file system read-only but for one folder.
 std::vector<std::string> in_sandbox(const std::vector<std::string>& program, const ForeignSetting& setting) {
-  std::vector<std::string> argv{"bwrap", "--unshare-all", "--die-with-parent", "--ro-bind", "/", "/", "--dev", "/dev"};
+  std::vector<std::string> argv{"bwrap", "--unshare-all", "--die-with-parent", "--ro-bind", "/",       "/",
+                                "--dev", "/dev",          "--ro-bind-try",     "/dev/shm",  "/dev/shm"};
   if (!setting.writable_folder.empty()) {
     const std::string folder = std::filesystem::absolute(setting.writable_folder).string();
     argv.insert(argv.end(), {"--bind", folder, folder, "--chdir", folder});
@@ -117,7 +122,7 @@ double called_programs_cpu_seconds() {
 }
 
 Program::Program(const ForeignSource& source, const ForeignSetting& setting, ProgramOutput output)
-    : text_(source.text()) {
+    : text_(source.text()), in_sandbox_(setting.sandbox) {
   start(setting.sandbox ? in_sandbox(source.program, setting) : source.program, output);
 }
 
@@ -268,7 +273,7 @@ void Program::refuse_unrequested() const {
 }
 
 Answer Program::exchange(const std::string& header, std::span<const std::span<const double>> parts) {
-  const CpuMeter meter(pid_);
+  const CpuMeter meter(pid_, in_sandbox_);
   refuse_unrequested();
   send_all(header, parts);
   std::array<char, kFrameHead> first{};

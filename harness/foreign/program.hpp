@@ -47,6 +47,7 @@ class Program {
   bool has_ended(double seconds);
 
   std::string text_;
+  bool in_sandbox_ = false;
   pid_t pid_ = -1;
   int socket_ = -1;
   int output_ = -1;

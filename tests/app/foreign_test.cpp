@@ -97,6 +97,21 @@ TEST_F(ForeignPrograms, ReportsOfARunDoNotNeedTheProgram) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
 
+TEST_F(ForeignPrograms, InTheSandboxCanWriteOnlyToTheFolderOfTheirCell) {
+  if (std::system("bwrap --unshare-all --ro-bind / / true >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "bubblewrap is not installed or not allowed";
+  const auto outside = folder_ / "outside";
+  program("writes.py", "open('inside', 'w').close()\n        open('" + outside.string() + "', 'w').close()");
+  const auto file = scenario("{program: [python3, writes.py]}");
+  const auto outcome = run({"run", file, "--out", folder_ / "a", "--sandbox", "--json", "--no-figures"});
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Read-only file system: '" + outside.string() + "'"));
+  EXPECT_FALSE(fs::exists(outside));
+  EXPECT_THAT(read(folder_ / "a/manifest.json"), HasSubstr("\"bubblewrap\""));
+  ASSERT_EQ(run({"run", file, "--out", folder_ / "b", "--quiet", "--no-figures"}).code, 3);
+  EXPECT_TRUE(fs::exists(outside)) << "without the sandbox nothing keeps the program from writing";
+}
+
 TEST_F(ForeignPrograms, AFaultSpoilsOnlyItsOwnCell) {
   program("raises.py", "raise ValueError('no such wall')");
   program("nan.py", "line = scan.fitted_line(scan.valid_beams()); line.rho = float('nan'); return [line]");
