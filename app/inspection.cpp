@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/foreign.hpp"
 #include "app/inputs.hpp"
 #include "harness/gallery/catalogue.hpp"
 #include "harness/report/catalog.hpp"
@@ -76,9 +77,13 @@ int list(const std::string& kind, bool json) {
   return kGood;
 }
 
-int describe(const std::string& name, bool all, bool markdown, bool json) {
-  if (name.empty() && !all) throw ConfigError("describe needs a name, or --all (`scanbench list` shows the names)");
-  const auto entries = all ? harness::catalog() : harness::find_in_catalog(name);
+int describe(const std::string& name, const ForeignOptions& foreign, bool all, bool markdown, bool json) {
+  const bool is_foreign = !foreign.plugins.empty() || !foreign.program.empty();
+  if (name.empty() && !all && !is_foreign)
+    throw ConfigError("describe needs a name, or --all (`scanbench list` shows the names)");
+  const auto entries = is_foreign ? foreign_entries(foreign)
+                       : all      ? harness::catalog()
+                                  : harness::find_in_catalog(name);
   if (json) {
     print(harness::catalog_json(entries));
   } else if (markdown) {
@@ -109,6 +114,7 @@ void add_inspection(Context& context) {
   struct Options {
     std::vector<std::string> files, sets;
     std::string name;
+    ForeignOptions foreign;
     bool effective = false, for_simulate = false, json = false, all = false, markdown = false;
   };
   auto options = std::make_shared<Options>();
@@ -117,11 +123,13 @@ void add_inspection(Context& context) {
       "check", "Checks scenario or suite files, or catalogues of figures, without running them");
   check_verb->add_option("FILE", options->files, "scenario or suite files, catalogues of figures")->required();
   check_verb->add_option("--set", options->sets, "KEY=VALUE: replaces a value of the file (dotted keys)")->take_all();
+  add_foreign_options(*check_verb, options->foreign, false);
   check_verb->add_flag("--effective", options->effective, "print the scenario with every default filled in");
   check_verb->add_flag("--simulate", options->for_simulate, "check for `simulate`, which needs no pipelines");
   check_verb->callback([&context, options] {
     context.action = [options] {
-      return check(options->files, options->sets, options->effective, options->for_simulate);
+      return check(options->files, with_foreign(options->sets, options->foreign, false), options->effective,
+                   options->for_simulate);
     };
   });
 
@@ -139,9 +147,12 @@ void add_inspection(Context& context) {
   describe_verb->add_flag("--all", options->all, "describe everything");
   describe_verb->add_flag("--markdown", options->markdown,
                           "as Markdown (docs/modules.md is made with --all --markdown)");
+  add_foreign_options(*describe_verb, options->foreign, true);
   describe_verb->add_flag("--json", options->json, "as JSON");
   describe_verb->callback([&context, options] {
-    context.action = [options] { return describe(options->name, options->all, options->markdown, options->json); };
+    context.action = [options] {
+      return describe(options->name, options->foreign, options->all, options->markdown, options->json);
+    };
   });
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/compare.hpp"
+#include "app/conform.hpp"
 #include "app/figures.hpp"
 #include "app/film.hpp"
 #include "app/inspection.hpp"
@@ -106,6 +107,7 @@ int run_program(int argc, char** argv) {
   app::add_compare(context);
   app::add_nightly(context);
   app::add_new_module(context);
+  app::add_conform(context);
   app::add_shell_help(context);
   app::add_show(context);
   try {

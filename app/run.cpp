@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/forecast.hpp"
+#include "app/foreign.hpp"
 #include "app/inputs.hpp"
 #include "app/option_checks.hpp"
 #include "app/progress.hpp"
@@ -31,6 +32,8 @@ struct Options {
   std::vector<std::string> files, sets, seeds, only;
   std::string out, plan, shard;
   int jobs = 1;
+  bool sandbox = false;
+  ForeignOptions foreign;
   bool resume = false, quiet = false, json = false, journal = false, no_figures = false, dry_run = false;
 };
 
@@ -53,7 +56,8 @@ int run(const Options& options, const std::vector<std::string>& argv) {
   if (options.files.empty()) throw ConfigError("'run' needs FILE: scenario or suite files");
   std::string name;
   harness::RunOptions run_options;
-  auto scenarios = load_inputs(options.files, options.sets, &name, &run_options.rules);
+  auto scenarios = load_inputs(options.files, with_foreign(options.sets, options.foreign, options.sandbox), &name,
+                               &run_options.rules);
   give_seeds(scenarios, options.seeds);
   for (const auto& scenario : scenarios)
     for (const auto& note : scenario.notes)
@@ -108,6 +112,9 @@ void add_run(Context& context) {
                  "print how many cells, rays, bytes and seconds the run would take, from a trial of a few scans; write "
                  "nothing");
   verb->add_flag("--no-figures", options->no_figures, "draw no figures");
+  add_foreign_options(*verb, options->foreign, false);
+  verb->add_flag("--sandbox", options->sandbox,
+                 "run programs under bubblewrap: no network, read-only but for the cell's folder");
   verb->add_flag("-q,--quiet", options->quiet, "print only errors");
   verb->add_flag("--json", options->json, "print the cells' outcomes as JSON");
   for (auto* option : verb->get_options())

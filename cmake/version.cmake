@@ -14,5 +14,5 @@ add_custom_target(scanbench_version
           -DBUILD_TYPE=${CMAKE_BUILD_TYPE} "-DCOMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"
           "-DFLAGS=${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${config}}" "-DLIBRARIES=${versions}"
           -DOUTPUT=${PROJECT_BINARY_DIR}/generated/scanbench_version.hpp -P ${PROJECT_SOURCE_DIR}/cmake/write_version.cmake
-  BYPRODUCTS ${PROJECT_BINARY_DIR}/generated/scanbench_version.hpp
+  BYPRODUCTS ${PROJECT_BINARY_DIR}/generated/scanbench_version.hpp ${PROJECT_BINARY_DIR}/generated/scanbench_stamp.hpp
   VERBATIM)

@@ -47,6 +47,30 @@ inline constexpr const char* kFlags = \"${FLAGS}\";
 inline constexpr const char* kLibraries = \"${LIBRARIES}\";
 }  // namespace scanbench::version
 ")
+# The stamp of shared libraries of modules has the version and a hash of the headers that they include.
+file(GLOB_RECURSE headers RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/core/*.hpp)
+list(SORT headers)
+set(hashes "")
+foreach(name ${headers})
+  file(SHA256 ${SOURCE_DIR}/${name} hash)
+  string(APPEND hashes "${name} ${hash}\n")
+endforeach()
+string(SHA256 hash "${hashes}")
+string(SUBSTRING ${hash} 0 12 hash)
+set(stamp "#pragma once
+
+#define SCANBENCH_STAMP_VERSION \"${VERSION}\"
+#define SCANBENCH_STAMP_HEADERS \"${hash}\"
+")
+get_filename_component(folder ${OUTPUT} DIRECTORY)
+set(old "")
+if(EXISTS ${folder}/scanbench_stamp.hpp)
+  file(READ ${folder}/scanbench_stamp.hpp old)
+endif()
+if(NOT old STREQUAL stamp)
+  file(WRITE ${folder}/scanbench_stamp.hpp "${stamp}")
+endif()
+
 set(old "")
 if(EXISTS ${OUTPUT})
   file(READ ${OUTPUT} old)

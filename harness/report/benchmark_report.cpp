@@ -135,7 +135,7 @@ Table modules_table(const ReportInput& input, const BenchmarkSpec& spec, const s
     const auto& pipelines = scenarios.front().pipelines;
     const auto k =
         static_cast<std::size_t>(std::ranges::find(pipelines, ranked.name, &PipelineSpec::name) - pipelines.begin());
-    const ModuleEntry module = find_module(spec.of, slot_of(pipelines[k], spec.of).module);
+    const ModuleEntry module = entry_of(slot_of(pipelines[k], spec.of));
     std::vector<std::string> params;
     for (const auto& param : module.params)
       if (auto text = param_text(scenarios, k, spec.of, param); !text.empty()) params.push_back(std::move(text));

@@ -7,6 +7,7 @@
 
 #include "harness/files/hash.hpp"
 #include "harness/scenario/effective.hpp"
+#include "harness/scenario/foreign_slot.hpp"
 #include "harness/store/manifest.hpp"
 
 namespace scanbench::harness {
@@ -60,6 +61,8 @@ std::string work_address(const std::vector<ModuleChoice>& metrics, const Pipelin
   Scenario part;
   part.input = LinesInput{};  // no input here: it has its own address
   part.pipelines.push_back({.name = "", .slots = pipeline.slots, .published = ""});
+  for (ModuleChoice& slot : part.pipelines.back().slots)
+    if (slot.source) slot.source = without_folders(std::move(*slot.source));
   part.metrics = metrics;
   return sha256_hex(effective_yaml(part));
 }

@@ -14,7 +14,8 @@ CellOutput make_cell(const std::filesystem::path& folder, const Scenario& scenar
                      const TraceChoice& trace, const Recording& recording) {
   Journal journal(trace);
   const bool traced = !trace.nothing();
-  const PipelineRun run = run_pipeline(pipeline, recording.observed, traced ? &journal : nullptr);
+  const PipelineRun run = run_pipeline(pipeline, recording.observed, traced ? &journal : nullptr,
+                                       {.sandbox = scenario.limits.sandbox, .writable_folder = folder});
   write_result(folder, pipeline, run.result);
   if (traced) write_staged_file(folder / kTraceFile, journal.csv());
   Scores scores = score_cell(scenario.metrics, recording, folder);

@@ -10,9 +10,10 @@
 
 #include "core/error.hpp"
 #include "core/modules.hpp"
-#include "core/registry.hpp"
+#include "harness/foreign/fault.hpp"
 #include "harness/run/stopwatch.hpp"
 #include "harness/scenario/chain.hpp"
+#include "harness/scenario/modules.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -21,15 +22,31 @@ namespace {
 /// the pass records.
 using Listener = std::function<void(std::string_view slot, int frame, const std::function<void(Trace&)>& call)>;
 
-void nobody_listens(std::string_view, int, const std::function<void(Trace&)>& call) {
+/// "extract, frame 3: ".
+std::string place_of(std::string_view slot, int frame) {
+  return std::string(slot) + (frame < 0 ? "" : ", frame " + std::to_string(frame)) + ": ";
+}
+
+/// Calls a module; its faults get the slot and the frame.
+void call_at(std::string_view slot, int frame, const std::function<void(Trace&)>& call, Trace& trace) {
+  try {
+    call(trace);
+  } catch (const ForeignFault& fault) {
+    throw ForeignFault(place_of(slot, frame) + fault.what(), fault.kind());
+  } catch (const InvalidResult& error) {
+    throw InvalidResult(place_of(slot, frame) + error.what());
+  }
+}
+
+void nobody_listens(std::string_view slot, int frame, const std::function<void(Trace&)>& call) {
   Trace silent;
-  call(silent);
+  call_at(slot, frame, call, silent);
 }
 
 Listener timed_into(std::vector<StageTime>& times) {
   return [&times, watch = Stopwatch()](std::string_view slot, int frame, const auto& call) mutable {
     Trace trace = watch.start();
-    call(trace);
+    call_at(slot, frame, call, trace);
     watch.stop(slot, frame, times);
   };
 }
@@ -37,7 +54,7 @@ Listener timed_into(std::vector<StageTime>& times) {
 Listener written_into(Journal& journal) {
   return [&journal](std::string_view slot, int frame, const auto& call) {
     Trace trace = journal.begin(slot, frame);
-    call(trace);
+    call_at(slot, frame, call, trace);
   };
 }
 
@@ -110,8 +127,8 @@ void check_map(const LineMap& map, const std::string& slot) {
 /// One pass over the slots after `extract`.
 class Chain {
  public:
-  Chain(const ScanSet& scans, PipelineResult& result, const Listener& listener)
-      : scans_(scans), result_(result), listener_(listener) {
+  Chain(const ScanSet& scans, PipelineResult& result, const Listener& listener, const ForeignSetting& foreign)
+      : scans_(scans), result_(result), listener_(listener), foreign_(foreign) {
     views_.reserve(scans.frames.size());
     for (std::size_t k = 0; k < scans.frames.size(); ++k) {
       views_.push_back(scans.scan(k));
@@ -155,7 +172,7 @@ class Chain {
   }
 
   void align(const ModuleChoice& slot) {
-    const auto aligner = Registry<Aligner>::make(slot.module, slot.params);
+    const auto aligner = make_module<Aligner>(slot, foreign_);
     std::vector<Observation> observations;
     for (std::size_t k = 0; k < views_.size(); ++k) observations.push_back(observation(k));
     Alignment alignment;
@@ -171,7 +188,7 @@ class Chain {
   }
 
   void match(const ModuleChoice& slot) {
-    const auto matcher = Registry<ScanMatcher>::make(slot.module, slot.params);
+    const auto matcher = make_module<ScanMatcher>(slot, foreign_);
     const bool odometry = has_odometry(scans_);
     for (std::size_t k = 1; k < views_.size(); ++k) {
       // Without odometry the sensor is taken to go on as it went from the scan before the last one to the last.
@@ -189,7 +206,7 @@ class Chain {
   }
 
   void map(const ModuleChoice& slot) {
-    const auto mapper = Registry<Mapper>::make(slot.module, slot.params);
+    const auto mapper = make_module<Mapper>(slot, foreign_);
     std::vector<Pose2> placed;
     for (std::size_t k = 0; k < views_.size(); ++k) {
       Insertion inserted;
@@ -210,7 +227,7 @@ class Chain {
   }
 
   void merge(const ModuleChoice& slot) {
-    const auto merger = Registry<SegmentMerger>::make(slot.module, slot.params);
+    const auto merger = make_module<SegmentMerger>(slot, foreign_);
     std::vector<MapLine> lines;
     std::vector<Vec2> points;
     std::vector<MergeLabel> labels;
@@ -253,6 +270,7 @@ class Chain {
   const ScanSet& scans_;
   PipelineResult& result_;
   const Listener& listener_;
+  const ForeignSetting& foreign_;
   std::vector<Scan> views_;
   std::vector<Pose2> poses_;
   std::map<std::string, std::map<Status, int>> outcomes_;
@@ -279,12 +297,13 @@ std::vector<ScanLines> given_lines(const ScanSet& scans) {
 
 }  // namespace
 
-PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Journal* journal) {
+PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Journal* journal,
+                         const ForeignSetting& foreign) {
   const bool given = scans.has_given_lines();
   if (const auto fault = chain_fault(pipeline, !given)) throw ConfigError(fault->message);
   const std::span<const ModuleChoice> after_lines = std::span(pipeline.slots).subspan(given ? 0 : 1);
   std::unique_ptr<LineExtractor> extractor;
-  if (!given) extractor = Registry<LineExtractor>::make(pipeline.slots.front().module, pipeline.slots.front().params);
+  if (!given) extractor = make_module<LineExtractor>(pipeline.slots.front(), foreign);
   const auto all_lines = [&](const Listener& listener) {
     return given ? given_lines(scans) : extract_all(*extractor, scans, listener);
   };
@@ -296,7 +315,7 @@ PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Jou
   const Listener stopwatch = timed_into(run.result.times);
   all_lines(stopwatch);
 
-  Chain chain(scans, run.result, stopwatch);
+  Chain chain(scans, run.result, stopwatch, foreign);
   for (const ModuleChoice& slot : after_lines) chain.run(slot);
   run.remarks = chain.remarks();
 
@@ -304,7 +323,7 @@ PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Jou
     const Listener listener = written_into(*journal);
     PipelineResult again;
     again.lines = all_lines(listener);
-    Chain journaled(scans, again, listener);
+    Chain journaled(scans, again, listener, foreign);
     for (const ModuleChoice& slot : after_lines) journaled.run(slot);
   }
   return run;

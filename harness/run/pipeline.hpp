@@ -27,7 +27,8 @@ struct PipelineRun {
 /// names, those of the other slots begin with `<slot>.`. A journal, if given, records a separate pass over all slots.
 ///
 /// Throws ConfigError for an unknown module or chain, ParamError for its parameters, InvalidResult, and what the
-/// modules throw.
-PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Journal* journal = nullptr);
+/// modules throw. Faults of foreign modules name the slot and the frame.
+PipelineRun run_pipeline(const PipelineSpec& pipeline, const ScanSet& scans, Journal* journal = nullptr,
+                         const ForeignSetting& foreign = {});
 
 }  // namespace scanbench::harness

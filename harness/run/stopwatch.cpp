@@ -5,7 +5,18 @@
 
 #include <algorithm>
 
+#include "harness/foreign/program.hpp"
+
 namespace scanbench::harness {
+
+namespace {
+
+/// The work of a foreign program is done in another process.
+double work_seconds() {
+  return thread_cpu_seconds() + called_programs_cpu_seconds();
+}
+
+}  // namespace
 
 double thread_cpu_seconds() {
   timespec t{};
@@ -16,7 +27,7 @@ double thread_cpu_seconds() {
 Trace Stopwatch::start() {
   parts_.clear();
   current_ = 0;
-  since_ = thread_cpu_seconds();
+  since_ = work_seconds();
   return Trace({.stage = [this](Stage begun) { stage(begun); }});
 }
 
@@ -26,14 +37,14 @@ void Stopwatch::close_current(double now) {
 }
 
 void Stopwatch::stage(Stage begun) {
-  if (!parts_.empty()) close_current(thread_cpu_seconds());
+  if (!parts_.empty()) close_current(work_seconds());
   const auto found = std::ranges::find(parts_, begun, &Part::stage);
   current_ = static_cast<std::size_t>(found - parts_.begin());
   if (found == parts_.end()) parts_.push_back({begun});
 }
 
 void Stopwatch::stop(std::string_view slot, int frame, std::vector<StageTime>& times) {
-  const double now = thread_cpu_seconds();
+  const double now = work_seconds();
   if (parts_.empty()) parts_.push_back({});
   close_current(now);
   for (const auto& part : parts_) times.push_back({std::string(slot), part.stage, frame, part.seconds});

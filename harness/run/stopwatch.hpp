@@ -15,8 +15,9 @@ namespace scanbench::harness {
 /// CPU time of the calling thread in seconds: other processes on the machine do not count.
 double thread_cpu_seconds();
 
-/// Thread CPU time per stage between start() and stop(). Time before the first stage counts for that stage; a module
-/// that names none has one time without a stage. Stages are listed in the order of their first appearance.
+/// CPU time per stage, of the thread and of the programs that it calls, between start() and stop(). Time before the
+/// first stage counts for that stage; a module that names none has one time without a stage. Stages are listed in the
+/// order of their first appearance.
 class Stopwatch {
  public:
   /// A trace whose stages are timed until stop().

@@ -27,6 +27,9 @@
 #include "core/number_text.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/system_error.hpp"
+#include "harness/foreign/confine.hpp"
+#include "harness/foreign/fault.hpp"
+#include "harness/run/descendants.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SCANBENCH_UNDER_SANITIZER 1
@@ -50,16 +53,37 @@ std::array<struct sigaction, std::size(kInterrupts)> old_actions;
 struct sigaction old_child_action;
 sigset_t held;  // the interrupts that a pool handles
 sigset_t old_mask;
+double memory_kills = 0.0;        // that the kernel had made when a worker was last found killed
+std::vector<pid_t> old_children;  // of this process when the pool was made
 
-void on_interrupt(int signal) {
-  if (interrupt_seen != SIGTERM) interrupt_seen = signal;
+volatile std::sig_atomic_t sender_seen = 0;  // the child that an interrupt came from; 0: none did
+
+/// An interrupt that a task or its descendant has sent is a fault of that task. Signals are delivered during ppoll()
+/// only, so that reading files is safe here.
+void note_interrupt(const siginfo_t& info) {
+  const pid_t sender = info.si_code <= 0 ? branch_of(info.si_pid) : 0;
+  if (sender > 0)
+    sender_seen = sender;
+  else if (interrupt_seen != SIGTERM)
+    interrupt_seen = info.si_signo;
 }
 
-/// While pipes have bytes to read, ppoll() returns before it delivers a signal, so pending signals count as well.
-bool has_come(int signal) {
-  sigset_t pending;
-  sigpending(&pending);
-  return interrupt_seen == signal || (sigismember(&held, signal) == 1 && sigismember(&pending, signal) == 1);
+void on_interrupt(int, siginfo_t* info, void*) {
+  note_interrupt(*info);
+}
+
+/// While pipes have bytes to read, ppoll() returns before it delivers a signal, so pending signals are taken here.
+void take_pending_signals() {
+  const timespec now{0, 0};
+  siginfo_t info{};
+  while (sigtimedwait(&held, &info, &now) > 0) note_interrupt(info);
+}
+
+/// True if the kernel has killed a process for want of memory that has not been accounted for yet.
+bool system_killed_for_memory() {
+  if (out_of_memory_kills() <= memory_kills) return false;
+  ++memory_kills;
+  return true;
 }
 
 double wall_seconds() {
@@ -128,6 +152,10 @@ std::string perform(const std::function<std::string()>& task) {
     return shortened(std::string("s") + e.what());
   } catch (const ConfigError& e) {
     return shortened(std::string("c") + e.what());
+  } catch (const ForeignFault& e) {
+    const bool ended = e.kind() == ForeignFault::Kind::ended;
+    const bool late = e.kind() == ForeignFault::Kind::timeout;
+    return shortened(std::string(ended ? "e" : late ? "t" : "f") + e.what());
   } catch (const InternalError& e) {
     return shortened(std::string("finternal error: ") + e.what());
   } catch (const std::exception& e) {
@@ -226,6 +254,7 @@ struct WorkerPool::Worker {
   double start;
   bool killed_for_time = false;
   bool killed_for_report = false;
+  bool killed_for_signal = false;
   bool report_open = true;
   bool output_open = true;
   std::string report_text = {};
@@ -261,6 +290,11 @@ struct WorkerPool::Worker {
       result.message = "reported more than " + std::to_string(kReportLimit) + " bytes";
       return result;
     }
+    if (killed_for_signal) {
+      result.status = CellStatus::crashed;
+      result.message = "sent a signal to this program, which is for the user to do";
+      return result;
+    }
     const bool exited = WIFEXITED(wait_status) && WEXITSTATUS(wait_status) == 0 && !report_text.empty();
     if (exited && result.wall_seconds > seconds) {
       // It ended before the parent saw that its time was over. Which comes first must not change the result.
@@ -274,6 +308,12 @@ struct WorkerPool::Worker {
           return result;
         case 'i':
           result.status = CellStatus::invalid;
+          break;
+        case 'e':
+          result.status = CellStatus::crashed;
+          break;
+        case 't':
+          result.status = CellStatus::timeout;
           break;
         case 'm':
           result.status = CellStatus::out_of_memory;
@@ -308,9 +348,9 @@ struct WorkerPool::Worker {
     } else if (signal == SIGXCPU) {
       result.status = CellStatus::timeout;
       result.message = "used up the limit of CPU time";
-    } else if (signal == SIGKILL) {
+    } else if (signal == SIGKILL && system_killed_for_memory()) {
       result.status = CellStatus::out_of_memory;
-      result.message = "killed by the system, most likely because it ran out of memory";
+      result.message = "killed by the system, because memory ran out";
     } else {
       // A bad_alloc in a noexcept function ends in abort(), after say_out_of_memory() has written its line.
       const bool memory = output_text.find(kOutOfMemory) != std::string::npos;
@@ -324,13 +364,18 @@ WorkerPool::WorkerPool() {
   SCANBENCH_ASSERT(!pool_exists);
   pool_exists = true;
   interrupt_seen = 0;
+  sender_seen = 0;
+  memory_kills = out_of_memory_kills();
+  old_children = children();
+  adopt_orphans();
   sigemptyset(&held);
   for (std::size_t i = 0; i < std::size(kInterrupts); ++i) {
     sigaction(kInterrupts[i], nullptr, &old_actions[i]);
     // `nohup` starts the program with SIGHUP ignored, which stays so.
     if (kInterrupts[i] == SIGHUP && old_actions[i].sa_handler == SIG_IGN) continue;
     struct sigaction action {};
-    action.sa_handler = on_interrupt;
+    action.sa_sigaction = on_interrupt;
+    action.sa_flags = SA_SIGINFO;
     sigaction(kInterrupts[i], &action, nullptr);
     sigaddset(&held, kInterrupts[i]);
   }
@@ -354,11 +399,13 @@ std::size_t WorkerPool::running() const {
 }
 
 bool WorkerPool::interrupted() const {
-  return std::ranges::any_of(kInterrupts, has_come);
+  take_pending_signals();
+  return interrupt_seen != 0;
 }
 
 bool WorkerPool::terminated() const {
-  return has_come(SIGTERM);
+  take_pending_signals();
+  return interrupt_seen == SIGTERM;
 }
 
 void WorkerPool::start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits) {
@@ -386,6 +433,15 @@ void WorkerPool::start(std::size_t id, const std::function<std::string()>& task,
   fcntl(output[0], F_SETFL, O_NONBLOCK);
   workers_.push_back({id, pid, report[0], output[0], static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)),
                       limits.seconds, wall_seconds()});
+}
+
+/// Ends what a worker has left in sessions of their own, and removes its group of limits.
+void WorkerPool::end_descendants(pid_t ended) const {
+  std::vector<pid_t> spared = old_children;
+  for (const auto& w : workers_)
+    if (w.pid != ended) spared.push_back(w.pid);
+  kill_orphans(spared);
+  remove_confinement(ended);
 }
 
 std::vector<WorkerPool::Finished> WorkerPool::wait() {
@@ -422,6 +478,10 @@ std::vector<WorkerPool::Finished> WorkerPool::poll_once(double longest_pause) {
   for (std::size_t i = 0; i < workers_.size();) {
     Worker& w = workers_[i];
     w.read_pipes();
+    if (w.pid == sender_seen && !w.killed_for_signal) {
+      w.killed_for_signal = true;
+      kill_child(w.pid);
+    }
     if (!w.killed_for_time && wall_seconds() > w.start + w.seconds) {
       w.killed_for_time = true;
       kill_child(w.pid);
@@ -435,6 +495,7 @@ std::vector<WorkerPool::Finished> WorkerPool::poll_once(double longest_pause) {
     int status = 0;
     rusage usage{};
     ::wait4(w.pid, &status, 0, &usage);
+    end_descendants(w.pid);
     w.close();
     finished.push_back({w.id, w.outcome(status, usage)});
     workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -446,8 +507,10 @@ void WorkerPool::kill_all() {
   for (const auto& w : workers_) kill_child(w.pid);
   for (const auto& w : workers_) {
     reap(w.pid);
+    remove_confinement(w.pid);
     w.close();
   }
+  if (!workers_.empty()) kill_orphans(old_children);
   workers_.clear();
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/types.h>
+
 #include "harness/store/cell_status.hpp"
 
 namespace scanbench::harness {
@@ -21,7 +23,9 @@ struct WorkerLimits {
 /// Runs tasks in forked children. The parent must have one thread only when start() is called. While a pool exists,
 /// SIGINT, SIGTERM and SIGHUP are blocked and seen only by wait(). Each child is a process group of its own, so that an
 /// interrupt at the terminal reaches the parent alone; it has an empty standard input and none of the parent's open
-/// files; it is killed when the parent ends. One pool may exist at a time.
+/// files; it is killed when the parent ends. What a child leaves behind is killed too, even in sessions of their own:
+/// the process that has a pool adopts orphans. An interrupt that a child sends is a fault of that child. One pool may
+/// exist at a time.
 class WorkerPool {
  public:
   WorkerPool();
@@ -48,6 +52,8 @@ class WorkerPool {
   void kill_all();
 
  private:
+  void end_descendants(pid_t ended) const;
+
   struct Worker;
   std::vector<Finished> poll_once(double longest_pause);
   std::vector<Worker> workers_;

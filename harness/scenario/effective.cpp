@@ -6,6 +6,7 @@
 #include "harness/files/hash.hpp"
 #include "harness/files/placed_error.hpp"
 #include "harness/files/text_file.hpp"
+#include "harness/scenario/foreign_slot.hpp"
 #include "harness/scenario/sections.hpp"
 #include "harness/scenario/world_file.hpp"
 #include "harness/yaml/reader.hpp"
@@ -19,6 +20,7 @@ void add_params(YamlNode& map, const ParamSet& params) {
 }
 
 YamlNode choice_node(const ModuleChoice& choice, const std::string& key) {
+  if (choice.source) return foreign_slot_node(choice);
   YamlNode map = yaml_map();
   yaml_add(map, key, yaml_text(choice.module));
   yaml_add(map, "params", to_yaml(choice.params));
@@ -102,6 +104,7 @@ std::string effective_yaml(const Scenario& scenario, const StoredInputs& stored)
   YamlNode& limits = yaml_add(root, "limits", yaml_map());
   yaml_add(limits, "seconds", yaml_number(scenario.limits.seconds));
   yaml_add(limits, "memory_mib", yaml_number(scenario.limits.memory_bytes / (1024.0 * 1024.0)));
+  if (scenario.limits.sandbox) yaml_add(limits, "sandbox", yaml_plain("true"));
   return write_yaml(root);
 }
 

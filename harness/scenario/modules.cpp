@@ -71,6 +71,11 @@ ModuleEntry find_module(std::string_view kind, std::string_view name) {
   });
 }
 
+ModuleEntry entry_of(const ModuleChoice& choice) {
+  if (choice.source) return {choice.source->module.info, choice.source->module.params};
+  return find_module(choice.kind, choice.module);
+}
+
 void try_module(std::string_view kind, std::string_view name, const ParamSet& params) {
   with_kind(kind, [&](auto tag) { Registry<typename decltype(tag)::type>::make(name, params); });
 }

@@ -11,6 +11,7 @@
 
 #include "core/params.hpp"
 #include "core/recording.hpp"
+#include "harness/foreign/source.hpp"
 #include "sim/line_copies.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/simulate.hpp"
@@ -20,11 +21,12 @@ namespace scanbench::harness {
 /// 2^53: the largest seed that every tool reads back exactly.
 inline constexpr std::uint64_t kLargestSeed = 9007199254740992U;
 
-/// A registered module with all of its parameters.
+/// A module with all of its parameters.
 struct ModuleChoice {
   std::string kind;  ///< a slot of the chain (chain.hpp), or metrics, figure, trajectory
   std::string module;
   ParamSet params;
+  std::optional<ForeignSource> source = {};  ///< absent: the module is registered in this program
 };
 
 struct PipelineSpec {
@@ -81,6 +83,7 @@ struct Limits {
   double seconds = 600.0;  ///< per cell, wall time
   double memory_bytes =
       4.0 * 1024 * 1024 * 1024;  ///< per cell; a recording that needs more is refused before it starts
+  bool sandbox = false;          ///< programs run under bubblewrap
 };
 
 struct Scenario {

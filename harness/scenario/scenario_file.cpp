@@ -47,7 +47,9 @@ class ScenarioReader {
       read_simulated();
     if (scenario_.seeds.empty()) scenario_.seeds = {1};
     const bool scans = !std::holds_alternative<LinesInput>(scenario_.input);
-    if (const YamlNode* node = map_.find("pipelines")) scenario_.pipelines = read_pipelines(*node, scans);
+    ModuleSources sources{.file = scenario_.path, .is_recorded = is_recorded_, .sandbox = scenario_.limits.sandbox};
+    sources.libraries = read_plugins(map_, sources);
+    if (const YamlNode* node = map_.find("pipelines")) scenario_.pipelines = read_pipelines(*node, scans, sources);
     if (const YamlNode* node = map_.find("metrics")) scenario_.metrics = read_choices(*node, "metrics");
     if (const YamlNode* node = map_.find("figures")) {
       scenario_.figures = read_choices(*node, "figure");
@@ -77,7 +79,7 @@ class ScenarioReader {
 
   void read_limits() {
     const auto params = make_params<LimitParams>(read_optional<LimitParams>(map_, "limits"));
-    scenario_.limits = {params.seconds, params.memory_mib * 1024.0 * 1024.0};
+    scenario_.limits = {params.seconds, params.memory_mib * 1024.0 * 1024.0, params.sandbox};
   }
 
   void read_simulated() {

@@ -13,10 +13,14 @@ namespace scanbench::harness {
 struct LimitParams {
   double seconds = 600.0;
   double memory_mib = 4096.0;
+  bool sandbox = false;
   static auto fields() {
     return std::tuple{field("seconds", &LimitParams::seconds, above(0), "s", "wall time of a cell"),
                       field("memory_mib", &LimitParams::memory_mib, at_least(16), "MiB",
-                            "memory of a cell; a recording that needs more is refused before it starts")};
+                            "memory of a cell; a recording that needs more is refused before it starts"),
+                      field("sandbox", &LimitParams::sandbox,
+                            "programs run under bubblewrap: without network, the file system read-only but for the "
+                            "cell's folder")};
   }
 };
 

@@ -52,7 +52,13 @@ ModuleChoice read_module(const YamlNode& node, const std::string& kind, const st
   return choice;
 }
 
-PipelineSpec read_pipeline(const YamlNode& node, bool scans) {
+/// The node that has the parameters of a slot, else the slot itself.
+const YamlNode& params_node(const YamlNode& slot) {
+  const YamlNode* params = slot.find("params");
+  return params != nullptr && params->kind == YamlKind::map ? *params : slot;
+}
+
+PipelineSpec read_pipeline(const YamlNode& node, bool scans, const ModuleSources& sources) {
   YamlMap map(node, "a pipeline");
   PipelineSpec pipeline;
   pipeline.name = map.text("name", "a name for tables and figures");
@@ -64,11 +70,17 @@ PipelineSpec read_pipeline(const YamlNode& node, bool scans) {
     if (slot_node == nullptr) continue;
     marks.push_back(slot_node->mark);
     if (slot_node->kind != YamlKind::map)
-      throw PlacedError(slot_node->mark, fmt::format("{} of {} is {}; allowed: {{module: NAME}} or {{module: NAME, "
-                                                     "params: {{key: value}}}}",
-                                                     slot.kind, pipeline.name, describe_node(*slot_node)));
+      throw PlacedError(
+          slot_node->mark,
+          fmt::format("{} of {} is {}; allowed: {{module: NAME}} or {{module: NAME, params: {{key: value}}}}, "
+                      "or {{program: [WORD, ...]}}",
+                      slot.kind, pipeline.name, describe_node(*slot_node)));
+    const std::string kind(slot.kind);
+    const std::string what = fmt::format("{} of {}", slot.kind, pipeline.name);
+    const bool foreign = is_foreign_slot(*slot_node, kind, sources);
     pipeline.slots.push_back(
-        read_module(*slot_node, std::string(slot.kind), "module", fmt::format("{} of {}", slot.kind, pipeline.name)));
+        foreign ? at_param(params_node(*slot_node), [&] { return read_foreign_slot(*slot_node, kind, what, sources); })
+                : read_module(*slot_node, kind, "module", what));
   }
   map.done();
   if (const auto fault = chain_fault(pipeline, scans))
@@ -118,11 +130,11 @@ std::vector<std::uint64_t> read_seeds(YamlMap& map) {
   return seeds;
 }
 
-std::vector<PipelineSpec> read_pipelines(const YamlNode& node, bool scans) {
+std::vector<PipelineSpec> read_pipelines(const YamlNode& node, bool scans, const ModuleSources& sources) {
   std::vector<PipelineSpec> pipelines;
   std::set<std::string> names;
   for (const auto& item : read_list(node, "pipelines", "a list of {name, extract, ...}")) {
-    pipelines.push_back(read_pipeline(item, scans));
+    pipelines.push_back(read_pipeline(item, scans, sources));
     if (!names.insert(pipelines.back().name).second)
       throw PlacedError(item.mark,
                         fmt::format("a second pipeline is called {}; allowed: different names", pipelines.back().name));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "harness/scenario/foreign_slot.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/yaml/reader.hpp"
 
@@ -18,7 +19,7 @@ void read_schema(YamlMap& map);
 std::vector<std::uint64_t> read_seeds(YamlMap& map);
 
 /// A list of at least one pipeline, each a valid chain (chain.hpp). Throws PlacedError.
-std::vector<PipelineSpec> read_pipelines(const YamlNode& node, bool scans);
+std::vector<PipelineSpec> read_pipelines(const YamlNode& node, bool scans, const ModuleSources& sources);
 
 /// A list of names or {name, params}; kind is `metrics` or `figure`. Throws PlacedError.
 std::vector<ModuleChoice> read_choices(const YamlNode& node, const std::string& kind);

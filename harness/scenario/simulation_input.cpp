@@ -12,7 +12,7 @@ namespace scanbench::harness {
 sim::SimulationInput simulation_input(const Scenario& scenario, std::uint64_t seed) {
   const auto* simulated = std::get_if<SimulatedInput>(&scenario.input);
   SCANBENCH_ASSERT(simulated != nullptr);
-  const auto& [kind, name, params] = simulated->trajectory;
+  const auto& [kind, name, params, source] = simulated->trajectory;
   return {.world = simulated->world,
           .sensor = simulated->sensor,
           .trajectory = Registry<sim::TrajectoryKind>::make(name, params)->generate(simulated->sensor.scan_period_s),

@@ -31,6 +31,7 @@ class SuiteReader {
     read_schema(map_);
     suite_.about = map_.text_or("about", "");
     seeds_ = read_seeds(map_);
+    read_libraries();
     pipelines_ = map_.find("pipelines");
     if (const YamlNode* node = map_.find("metrics")) metrics_ = read_choices(*node, "metrics");
     figures_node_ = map_.find("figures");
@@ -66,6 +67,19 @@ class SuiteReader {
   }
 
  private:
+  /// The libraries of the suite, and those of overrides.
+  void read_libraries() {
+    const YamlNode* node = map_.find("plugins");
+    const auto sets = sets_of_section(sets_, "plugins");
+    sources_.libraries = in_file(suite_.path.string(), sets, [&] {
+      YamlNode root = yaml_map();
+      if (node != nullptr) yaml_add(root, "plugins", *node);
+      apply_sets(root, sets);
+      YamlMap map(root, "the suite");
+      return read_plugins(map, sources_);
+    });
+  }
+
   /// Loads a scenario and replaces its parts by those of the suite.
   Scenario load(const std::filesystem::path& path, const std::vector<std::string>& sets) const {
     Scenario scenario = load_scenario(path, pipelines_ != nullptr ? sets_outside_section(sets, "pipelines") : sets);
@@ -106,7 +120,7 @@ class SuiteReader {
       root.mark = pipelines_->mark;
       YamlNode& pipelines = yaml_add(root, "pipelines", *pipelines_);
       apply_sets(root, sets);
-      return read_pipelines(pipelines, scans);
+      return read_pipelines(pipelines, scans, sources_);
     });
   }
 
@@ -137,6 +151,7 @@ class SuiteReader {
   YamlMap map_;
   const std::vector<std::string>& sets_;
   Suite& suite_;
+  ModuleSources sources_{.file = suite_.path, .sandbox = std::ranges::count(sets_, "limits.sandbox=true") > 0};
   std::vector<BenchmarkLevel> levels_;
   std::vector<std::uint64_t> seeds_;
   const YamlNode* pipelines_ = nullptr;

@@ -8,6 +8,7 @@
 //   metrics: [...]                                      # optional: replaces the scenarios' own
 //   figures: [...]                                      # optional: replaces the scenarios' own
 //   published: ../published/paper.csv                   # optional: replaces the scenarios' own
+//   plugins: [libmy_lines.so]                          # optional: shared libraries of modules
 //   factors: {noise: {1cm: {sensor.sigma_m: 0.01}}}     # optional: every scenario at every combination of levels
 //   gates: {f1: 0.005}                                  # optional: what may fail a comparison (gate_spec.hpp)
 //   benchmark: {baseline: iepf, example: rooms-1cm}     # optional: one page that ranks the pipelines

@@ -174,6 +174,7 @@ void write_manifest(const fs::path& run, const Manifest& manifest) {
             {"start", manifest.start},
             {"end", manifest.end},
             {"scenarios", manifest.scenarios},
+            {"isolation", manifest.isolation},
             {"cells", cells}};
   write_json(run, json,
              manifest.state == "running" ? Hashes() : artefacts(run, {manifest.verified, fs::file_time_type::max()}));
@@ -182,8 +183,14 @@ void write_manifest(const fs::path& run, const Manifest& manifest) {
 Manifest load_manifest(const fs::path& run) {
   const Json json = manifest_json(run);
   try {
-    Manifest manifest{
-        json.at("state"), json.at("start"), json.at("end"), json.at("argv"), json.at("scenarios"), {}, {}};
+    Manifest manifest{json.at("state"),
+                      json.at("start"),
+                      json.at("end"),
+                      json.at("argv"),
+                      json.at("scenarios"),
+                      {},
+                      {},
+                      json.value("isolation", std::vector<std::string>{})};
     for (const auto& scenario : manifest.scenarios) check_name("scenario", scenario);
     for (const auto& cell : json.at("cells")) {
       manifest.cells.push_back({cell.at("scenario"), cell.at("pipeline"), cell.at("seed")});

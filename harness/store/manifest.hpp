@@ -25,6 +25,8 @@ struct Manifest {
   /// By path: SHA-256 of files that were read during this run, had it, and were not written since. They are not read
   /// again for the list of files.
   std::map<std::string, std::string> verified{};
+  /// What keeps cells from each other and from the machine: limits and sandboxes that were active.
+  std::vector<std::string> isolation{};
 };
 
 std::string utc_now();

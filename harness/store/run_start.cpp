@@ -2,15 +2,40 @@
 #include "harness/store/run_start.hpp"
 
 #include "harness/files/atomic_file.hpp"
+#include "harness/foreign/confine.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
+
+namespace {
+
+/// The limits of cells that are active in this run.
+std::vector<std::string> isolation_of(const std::vector<Scenario>& scenarios) {
+  std::vector<std::string> active{"process groups", "death with parent", "adopted orphans", "RLIMIT_AS", "RLIMIT_CPU"};
+  bool foreign = false, sandbox = false;
+  for (const auto& scenario : scenarios)
+    for (const auto& pipeline : scenario.pipelines)
+      for (const auto& slot : pipeline.slots) {
+        if (!slot.source) continue;
+        foreign = true;
+        sandbox = sandbox || scenario.limits.sandbox;
+      }
+  if (!foreign) {
+    active.emplace_back("RLIMIT_CORE");
+    return active;
+  }
+  for (std::string& name : active_confinement(sandbox)) active.push_back(std::move(name));
+  return active;
+}
+
+}  // namespace
 
 Manifest start_run(const RunTarget& target, const RunStart& start) {
   const fs::path& run = target.path();
   make_folders(run);
   Manifest manifest{"running", utc_now(), "", start.argv, {}, start.cells};
   for (const auto& scenario : start.scenarios) manifest.scenarios.push_back(scenario.name);
+  if (!start.cells.empty()) manifest.isolation = isolation_of(start.scenarios);
   write_manifest(run, manifest);  // with it the folder is ours
   write_suite_rules(run, start.rules);
   write_run_scenarios(run, start.scenarios, start.effective_yaml);

@@ -13,6 +13,10 @@ std::filesystem::path program() {
   return SCANBENCH_PROGRAM;
 }
 
+std::filesystem::path plugin(const std::string& name) {
+  return std::filesystem::path(SCANBENCH_PLUGINS) / ("lib" + name + ".so");
+}
+
 std::filesystem::path data_dir() {
   const char* data = std::getenv("SCANBENCH_DATA");
   return data != nullptr ? std::filesystem::path(data) : source_dir() / "../shared/data";

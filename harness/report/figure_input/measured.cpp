@@ -39,8 +39,7 @@ render::MeasuredPipeline measured_pipeline(const std::filesystem::path& run, con
   render::MeasuredPipeline measured{.pipeline = pipeline.name, .slots = {}, .units = {}, .metrics = {}};
   for (const auto& slot : pipeline.slots) {
     measured.slots[slot.kind + " " + slot.module] = slot.params;
-    for (const auto& spec : find_module(slot.kind, slot.module).params)
-      measured.units[slot.kind + "." + spec.name] = spec.unit;
+    for (const auto& spec : entry_of(slot).params) measured.units[slot.kind + "." + spec.name] = spec.unit;
   }
   for (std::size_t s = 0; s < scenario.seeds.size(); ++s) {
     const auto cell = cell_path(run, {scenario.name, pipeline.name, scenario.seeds[s]});

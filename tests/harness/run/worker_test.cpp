@@ -222,12 +222,46 @@ TEST(Worker, HoldsTheMemoryLimit) {
   EXPECT_EQ(outcome.status, CellStatus::out_of_memory) << outcome.message;
 }
 
-TEST(Worker, TreatsAKillByAnotherProcessAsOutOfMemory) {
-  EXPECT_EQ(outcome_of([]() -> std::string {
-              ::raise(SIGKILL);
-              return "";
-            }).status,
-            CellStatus::out_of_memory);
+TEST(Worker, AKillThatTheSystemDidNotCauseIsACrash) {
+  const WorkerOutcome outcome = outcome_of([]() -> std::string {
+    ::raise(SIGKILL);
+    return "";
+  });
+  EXPECT_EQ(outcome.status, CellStatus::crashed);
+  EXPECT_THAT(outcome.message, HasSubstr("signal 9"));
+}
+
+TEST(Worker, AnInterruptFromATaskIsAFaultOfTheTask) {
+  WorkerPool pool;
+  pool.start(0,
+             []() -> std::string {
+               ::kill(::getppid(), SIGTERM);
+               ::sleep(100);
+               return "";
+             },
+             {});
+  const auto finished = pool.wait();
+  EXPECT_FALSE(pool.interrupted());
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].outcome.status, CellStatus::crashed);
+  EXPECT_THAT(finished[0].outcome.message, HasSubstr("sent a signal to this program"));
+}
+
+TEST(Worker, AProcessInASessionOfItsOwnEndsWithItsTask) {
+  Fifo fifo;
+  const WorkerOutcome outcome = outcome_of([&]() -> std::string {
+    if (::fork() == 0) {
+      ::setsid();
+      if (::fork() != 0) ::_exit(0);
+      fifo.hold();
+      ::sleep(100);
+      ::_exit(0);
+    }
+    ::usleep(100000);
+    return "";
+  });
+  EXPECT_EQ(outcome.status, CellStatus::ok);
+  EXPECT_TRUE(fifo.is_released());
 }
 
 TEST(Worker, RunsSeveralAtOnce) {

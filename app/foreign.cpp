@@ -1,0 +1,76 @@
+// Reads options about foreign modules.
+#include "app/foreign.hpp"
+
+#include <filesystem>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "harness/foreign/fault.hpp"
+#include "harness/foreign/inspect.hpp"
+
+namespace scanbench::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A path as a scalar of YAML in single quotes.
+std::string quoted(const std::string& path) {
+  std::string text;
+  for (const char c : path) text += c == '\'' ? std::string("''") : std::string(1, c);
+  return "'" + text + "'";
+}
+
+void require_file(const std::string& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) throw ConfigError(file + ": no such file");
+}
+
+}  // namespace
+
+void add_foreign_options(CLI::App& verb, ForeignOptions& options, bool programs) {
+  verb.add_option("--plugin", options.plugins, "a shared library of modules (docs/plugins.md)")
+      ->allow_extra_args(false)
+      ->take_all();
+  if (programs)
+    verb.add_option("--program", options.program, "a program that is a module, and its arguments")->expected(1, 100);
+}
+
+std::vector<std::string> with_foreign(std::vector<std::string> sets, const ForeignOptions& options, bool sandbox) {
+  std::string list;
+  for (const std::string& plugin : options.plugins) list += (list.empty() ? "" : ", ") + quoted(plugin);
+  if (!list.empty()) sets.push_back("plugins=[" + list + "]");
+  if (sandbox) sets.emplace_back("limits.sandbox=true");
+  return sets;
+}
+
+std::vector<harness::ForeignSource> foreign_sources(const ForeignOptions& options) {
+  std::vector<harness::ForeignSource> sources;
+  try {
+    for (const std::string& plugin : options.plugins) {
+      require_file(plugin);
+      for (auto& source : harness::inspect_library(plugin)) sources.push_back(std::move(source));
+    }
+    if (!options.program.empty()) {
+      harness::ForeignSource source;
+      source.program = options.program;
+      harness::inspect_program(source, false);
+      sources.push_back(std::move(source));
+    }
+  } catch (const harness::ForeignFault& fault) {
+    throw ConfigError(fault.what());
+  }
+  return sources;
+}
+
+std::vector<harness::CatalogEntry> foreign_entries(const ForeignOptions& options) {
+  std::vector<harness::CatalogEntry> entries;
+  for (const auto& source : foreign_sources(options)) {
+    const harness::ForeignModule& module = source.module;
+    entries.push_back({module.kind, module.info, module.params, {}});
+    if (!module.version.empty()) entries.back().notes.push_back("version " + module.version);
+    entries.back().notes.push_back("from " + source.text());
+  }
+  return entries;
+}
+
+}  // namespace scanbench::app

@@ -1,0 +1,267 @@
+/* A client of scanbench: line extractors in C. One file, C99 and POSIX.
+ *
+ *   static void extract(const sb_scan* scan, const double* params, sb_result* result) { ... sb_add_line(...) ... }
+ *
+ *   int main(void) {
+ *     static const sb_param params[] = {{"min_points", "integer", 2, 2, INFINITY, 0, "", "fewest returns of a line"}};
+ *     static const sb_module module = {"my_lines", "1.0", "one line through all returns", "none", params, 1, extract};
+ *     return sb_serve(&module);
+ *   }
+ *
+ * Parameters are numbers, integers and booleans; their values arrive in the order of the list. */
+#ifndef SCANBENCH_CLIENT_H
+#define SCANBENCH_CLIENT_H
+
+#include <errno.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct {
+  const char* name;
+  const char* type; /* "number", "integer", "boolean" */
+  double value;     /* the default */
+  double min, max;  /* -INFINITY, INFINITY: none */
+  int open_min;     /* min itself is not allowed */
+  const char* unit;
+  const char* doc;
+} sb_param;
+
+/* The sensor's data sheet. Beam i points to angle_min_rad + i * angle_step_rad, sensor frame. */
+typedef struct {
+  int beams;
+  double angle_min_rad, angle_step_rad, range_min_m, range_max_m, sigma_m, sigma_relative;
+} sb_sensor;
+
+/* One range in metres per beam: +inf nothing in range, -inf too close, NaN faulty. */
+typedef struct {
+  const sb_sensor* sensor;
+  const double* ranges;
+  double stamp_s;
+} sb_scan;
+
+/* A line in the sensor frame; free space is on the left of a -> b. */
+typedef struct {
+  double ax, ay, bx, by;
+  double rho, alpha; /* x cos(alpha) + y sin(alpha) = rho, rho >= 0 */
+  double rms_m;
+  double covariance[3]; /* var(offset), cov, var(angle) at the midpoint; {NAN, NAN, NAN}: not estimated */
+} sb_line;
+
+typedef struct {
+  double* rows; /* ten numbers per line */
+  double* covariances;
+  double* labels; /* per beam the index of its line, -1: none */
+  int lines, room;
+} sb_result;
+
+typedef struct {
+  const char *name, *version, *summary, *reference;
+  const sb_param* params;
+  int param_count;
+  void (*extract)(const sb_scan* scan, const double* params, sb_result* result);
+} sb_module;
+
+static void sb_fail(const char* what) {
+  fprintf(stderr, "scanbench.h: %s\n", what);
+  exit(1);
+}
+
+static void* sb_memory(void* old, size_t bytes) {
+  void* memory = realloc(old, bytes > 0 ? bytes : 1);
+  if (memory == NULL) sb_fail("out of memory");
+  return memory;
+}
+
+/* Adds a line that explains the given beams, in ascending order. Lines come in the order of their first beams. */
+static void sb_add_line(sb_result* result, const sb_line* line, const int* beams, int count) {
+  if (result->lines == result->room) {
+    result->room = 2 * result->room + 8;
+    result->rows = (double*)sb_memory(result->rows, (size_t)result->room * 10 * sizeof(double));
+    result->covariances = (double*)sb_memory(result->covariances, (size_t)result->room * 3 * sizeof(double));
+  }
+  const double row[10] = {line->ax,    line->ay,   line->bx,        line->by,      line->rho,
+                          line->alpha, count > 0 ? beams[0] : -1.0, count > 0 ? beams[count - 1] : -1.0,
+                          (double)count, line->rms_m};
+  memcpy(result->rows + 10 * result->lines, row, sizeof row);
+  memcpy(result->covariances + 3 * result->lines, line->covariance, sizeof line->covariance);
+  for (int i = 0; i < count; ++i) result->labels[beams[i]] = result->lines;
+  ++result->lines;
+}
+
+/* JSON: the end of a value, the value of a key of an object; NULL if there is none. */
+static const char* sb_skip(const char* at) {
+  int depth = 0;
+  while (*at != '\0') {
+    if (*at == '"') {
+      for (++at; *at != '"'; ++at) {
+        if (*at == '\0') return at;
+        if (*at == '\\' && at[1] != '\0') ++at;
+      }
+    } else if (*at == '{' || *at == '[') {
+      ++depth;
+    } else if (*at == '}' || *at == ']') {
+      if (depth == 0) return at;
+      --depth;
+    } else if (*at == ',' && depth == 0) {
+      return at;
+    }
+    ++at;
+  }
+  return at;
+}
+
+static const char* sb_find(const char* object, const char* key) {
+  const size_t length = strlen(key);
+  if (object == NULL || *object != '{') return NULL;
+  const char* at = object + 1;
+  while (*at != '\0' && *at != '}') {
+    while (*at == ' ' || *at == ',') ++at;
+    const int is_it = *at == '"' && strncmp(at + 1, key, length) == 0 && at[1 + length] == '"';
+    if (is_it) {
+      at += length + 2;
+      while (*at == ' ' || *at == ':') ++at;
+      return at;
+    }
+    at = sb_skip(at);
+    if (*at == ']') return NULL;
+  }
+  return NULL;
+}
+
+static double sb_number(const char* object, const char* key, double fallback) {
+  const char* at = sb_find(object, key);
+  if (at == NULL) return fallback;
+  if (strncmp(at, "true", 4) == 0) return 1.0;
+  if (strncmp(at, "false", 5) == 0) return 0.0;
+  return strtod(at, NULL);
+}
+
+/* 0 at the end of the socket, which is the end of the work. */
+static int sb_read(int fd, void* to, size_t bytes) {
+  char* at = (char*)to;
+  while (bytes > 0) {
+    const ssize_t n = read(fd, at, bytes);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return 0;
+    at += n;
+    bytes -= (size_t)n;
+  }
+  return 1;
+}
+
+static void sb_write(int fd, const void* from, size_t bytes) {
+  const char* at = (const char*)from;
+  while (bytes > 0) {
+    const ssize_t n = write(fd, at, bytes);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) exit(1);
+    at += n;
+    bytes -= (size_t)n;
+  }
+}
+
+static void sb_send(int fd, const char* header, uint64_t numbers) {
+  char head[16] = {'S', 'B', 'F', '1'};
+  const uint32_t length = (uint32_t)strlen(header);
+  memcpy(head + 4, &length, 4);
+  memcpy(head + 8, &numbers, 8);
+  sb_write(fd, head, sizeof head);
+  sb_write(fd, header, length);
+}
+
+static void sb_hello(int fd, const sb_module* module, long id) {
+  char text[16384];
+  size_t at = (size_t)snprintf(text, sizeof text,
+                               "{\"protocol\":1,\"kind\":\"extract\",\"name\":\"%s\",\"version\":\"%s\",\"summary\":\"%s\","
+                               "\"reference\":\"%s\",\"id\":%ld,\"params\":[",
+                               module->name, module->version, module->summary, module->reference, id);
+  for (int i = 0; i < module->param_count && at < sizeof text; ++i) {
+    const sb_param* p = &module->params[i];
+    const int truth = strcmp(p->type, "boolean") == 0;
+    at += (size_t)snprintf(text + at, sizeof text - at, "%s{\"name\":\"%s\",\"type\":\"%s\",\"unit\":\"%s\",\"doc\":\"%s\",\"open_min\":%s",
+                           i > 0 ? "," : "", p->name, p->type, p->unit, p->doc, p->open_min ? "true" : "false");
+    if (at < sizeof text && truth)
+      at += (size_t)snprintf(text + at, sizeof text - at, ",\"default\":%s", p->value != 0.0 ? "true" : "false");
+    if (at < sizeof text && !truth) at += (size_t)snprintf(text + at, sizeof text - at, ",\"default\":%.17g", p->value);
+    if (at < sizeof text && isfinite(p->min)) at += (size_t)snprintf(text + at, sizeof text - at, ",\"min\":%.17g", p->min);
+    if (at < sizeof text && isfinite(p->max)) at += (size_t)snprintf(text + at, sizeof text - at, ",\"max\":%.17g", p->max);
+    if (at < sizeof text) at += (size_t)snprintf(text + at, sizeof text - at, "}");
+  }
+  if (at + 3 > sizeof text) sb_fail("the description is too long");
+  memcpy(text + at, "]}", 3);
+  sb_send(fd, text, 0);
+}
+
+/* Answers the calls of scanbench until it closes the socket. The exit code of the program. */
+static int sb_serve(const sb_module* module) {
+  const char* number = getenv("SCANBENCH_FD");
+  if (number == NULL) sb_fail("this program is a module for scanbench, which starts it");
+  const int fd = atoi(number);
+  char* header = NULL;
+  double* numbers = NULL;
+  double* params = (double*)sb_memory(NULL, (size_t)module->param_count * sizeof(double));
+  for (int i = 0; i < module->param_count; ++i) params[i] = module->params[i].value;
+  sb_sensor sensor = {0};
+  sb_result result = {0};
+  char head[16];
+  while (sb_read(fd, head, sizeof head)) {
+    uint32_t length = 0;
+    uint64_t count = 0;
+    memcpy(&length, head + 4, 4);
+    memcpy(&count, head + 8, 8);
+    if (memcmp(head, "SBF1", 4) != 0) sb_fail("this is no frame of the protocol");
+    header = (char*)sb_memory(header, (size_t)length + 1);
+    numbers = (double*)sb_memory(numbers, (size_t)count * sizeof(double));
+    if (!sb_read(fd, header, length) || !sb_read(fd, numbers, (size_t)count * sizeof(double))) break;
+    header[length] = '\0';
+    const char* call = sb_find(header, "call");
+    const char* sheet = sb_find(header, "sensor");
+    const long id = (long)sb_number(header, "id", 0);
+    if (call == NULL) sb_fail("a call has no name");
+    if (strncmp(call, "\"hello\"", 7) == 0) {
+      sb_hello(fd, module, id);
+      continue;
+    }
+    char answer[256];
+    if (strncmp(call, "\"make\"", 6) == 0) {
+      const char* values = sb_find(header, "params");
+      for (int i = 0; i < module->param_count; ++i)
+        params[i] = sb_number(values, module->params[i].name, module->params[i].value);
+      snprintf(answer, sizeof answer, "{\"id\":%ld}", id);
+      sb_send(fd, answer, 0);
+      continue;
+    }
+    if (sheet != NULL) {
+      sensor.beams = (int)sb_number(sheet, "beams", 0);
+      sensor.angle_min_rad = sb_number(sheet, "angle_min_rad", 0);
+      sensor.angle_step_rad = sb_number(sheet, "angle_step_rad", 0);
+      sensor.range_min_m = sb_number(sheet, "range_min_m", 0);
+      sensor.range_max_m = sb_number(sheet, "range_max_m", 0);
+      sensor.sigma_m = sb_number(sheet, "sigma_m", 0);
+      sensor.sigma_relative = sb_number(sheet, "sigma_relative", 0);
+    }
+    /* The numbers of `extract` are the ranges and the time. */
+    const int beams = sensor.beams;
+    if (strncmp(call, "\"extract\"", 9) != 0 || count != (uint64_t)beams + 1) sb_fail("an unknown call");
+    const sb_scan scan = {&sensor, numbers, numbers[beams]};
+    result.labels = (double*)sb_memory(result.labels, (size_t)beams * sizeof(double));
+    for (int i = 0; i < beams; ++i) result.labels[i] = -1.0;
+    result.lines = 0;
+    module->extract(&scan, params, &result);
+    snprintf(answer, sizeof answer,
+             "{\"id\":%ld,\"arrays\":[[\"lines\",%d],[\"covariances\",%d],[\"labels\",%d]]}", id, 10 * result.lines,
+             3 * result.lines, beams);
+    fflush(stdout);
+    sb_send(fd, answer, 13 * (uint64_t)result.lines + (uint64_t)beams);
+    sb_write(fd, result.rows, (size_t)result.lines * 10 * sizeof(double));
+    sb_write(fd, result.covariances, (size_t)result.lines * 3 * sizeof(double));
+    sb_write(fd, result.labels, (size_t)beams * sizeof(double));
+  }
+  return 0;
+}
+
+#endif

@@ -1,0 +1,66 @@
+// A running program that is a module, and the socket to it.
+#pragma once
+
+#include <sys/types.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/foreign/frame.hpp"
+#include "harness/foreign/source.hpp"
+
+namespace scanbench::harness {
+
+/// Where the program's standard output and standard error go.
+enum class ProgramOutput {
+  inherited,  ///< those of this process: of a worker the output of its cell
+  captured,   ///< the end of it is added to the messages of faults
+};
+
+/// The program has one end of a socket pair as the descriptor that the environment variable SCANBENCH_FD names, an
+/// empty standard input, and no other descriptor of this process. It is killed when this process ends.
+class Program {
+ public:
+  /// Throws ForeignFault if the program cannot be started.
+  Program(const ForeignSource& source, const ForeignSetting& setting, ProgramOutput output);
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program();  ///< closes the socket, which ends a good program, and kills one that goes on
+
+  /// Sends a frame and waits for the answer. `header` is a JSON object without its closing brace; the key `id` is
+  /// added, which the answer must repeat. Throws ForeignFault for a program that ends, breaks the protocol or answers
+  /// with
+  /// {"error": ...} or not within `seconds`.
+  Answer call(std::string header, std::span<const std::span<const double>> parts, double seconds);
+
+ private:
+  void start(const std::vector<std::string>& argv, ProgramOutput output);
+  Answer exchange(const std::string& header, std::span<const std::span<const double>> parts);
+  void refuse_unrequested() const;
+  void send_all(const std::string& header, std::span<const std::span<const double>> parts);
+  void receive(char* to, std::size_t bytes);
+  void wait_for(short events);
+  void drain_output();
+  std::string ending();
+  bool has_ended(double seconds);
+
+  std::string text_;
+  bool in_sandbox_ = false;
+  pid_t pid_ = -1;
+  int socket_ = -1;
+  int output_ = -1;
+  bool own_group_ = false;
+  bool reaped_ = false;
+  int wait_status_ = 0;
+  long id_ = 0;
+  double allowed_ = 0.0;   ///< seconds of the present call
+  double deadline_ = 0.0;  ///< of the present call
+  std::string output_text_;
+};
+
+/// CPU time that programs have used during the calls of this process [s]. A stopwatch adds it to that of the caller.
+double called_programs_cpu_seconds();
+
+}  // namespace scanbench::harness

@@ -1,0 +1,26 @@
+// Processes that tasks leave behind, and signals that they send to this process.
+#pragma once
+
+#include <sys/types.h>
+
+#include <vector>
+
+namespace scanbench::harness {
+
+/// Processes that have lost their parent become children of this process instead of the system's first one.
+void adopt_orphans();
+
+/// The children of this process, which must have one thread.
+std::vector<pid_t> children();
+
+/// Kills and reaps all children but those in `spared`, and the children that this gives to this process, for at most a
+/// second: nothing that a task started outlives it, not even in a session of its own.
+void kill_orphans(const std::vector<pid_t>& spared);
+
+/// The child of this process that `pid` descends from, or is; 0 if it is no descendant or does not exist any more.
+pid_t branch_of(pid_t pid);
+
+/// How many processes the kernel has killed since the machine started because memory ran out; 0 if it does not say.
+double out_of_memory_kills();
+
+}  // namespace scanbench::harness

@@ -1,0 +1,287 @@
+// Reads and writes slots of foreign modules.
+#include "harness/scenario/foreign_slot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "core/names.hpp"
+#include "core/number_text.hpp"
+#include "harness/files/hash.hpp"
+#include "harness/files/placed_error.hpp"
+#include "harness/files/text_file.hpp"
+#include "harness/foreign/fault.hpp"
+#include "harness/foreign/inspect.hpp"
+#include "harness/yaml/writer.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kProgramForm = "a list: the program and its arguments, like [python3, my_lines.py]";
+
+/// Runs `work`; faults of the module get the place of the node.
+template <class Work>
+auto at_node(const YamlNode& node, Work&& work) {
+  try {
+    return work();
+  } catch (const ForeignFault& fault) {
+    throw PlacedError(node.mark, fault.what());
+  }
+}
+
+/// The file that a word means, relative to the file it is written in; nullopt if there is no such regular file.
+std::optional<fs::path> file_of(const YamlNode& node, const std::string& word, const fs::path& file) {
+  const fs::path base = node.mark.line == 0 ? fs::path() : file.parent_path();
+  const fs::path path = fs::absolute(base / word).lexically_normal();
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  return path;
+}
+
+HashedFile hashed(const fs::path& path) {
+  return {path, sha256_of_file(path)};
+}
+
+std::vector<std::string> read_words(const YamlNode& node, std::string_view name, const char* allowed) {
+  if (node.kind == YamlKind::scalar) return {read_word(node, name, allowed)};
+  std::vector<std::string> words;
+  for (const YamlNode& item : read_list(node, name, allowed)) words.push_back(read_word(item, "a word", allowed));
+  if (words.empty()) throw PlacedError(node.mark, fmt::format("{} is empty; allowed: {}", name, allowed));
+  return words;
+}
+
+/// Arguments that are files become absolute paths, because a run folder keeps them.
+void read_program(const YamlNode& node, const ModuleSources& sources, ForeignSource& source) {
+  source.program = read_words(node, "program", kProgramForm);
+  if (sources.is_recorded) return;
+  for (std::size_t i = 0; i < source.program.size(); ++i) {
+    std::string& word = source.program[i];
+    const bool in_path = i == 0 && word.find('/') == std::string::npos;  // as the shell does
+    if (in_path) continue;
+    if (const auto path = file_of(node, word, sources.file)) {
+      source.files.push_back(hashed(*path));
+      word = path->string();
+    } else if (i == 0) {
+      throw PlacedError(node.mark, "no such file: " + word);
+    }
+  }
+}
+
+void read_more_files(YamlMap& map, const ModuleSources& sources, ForeignSource& source) {
+  const YamlNode* node = map.find("files");
+  if (node == nullptr) return;
+  constexpr const char* kForm = "a list of files that the program reads";
+  for (const std::string& word : read_words(*node, "files", kForm)) {
+    const auto path = sources.is_recorded ? fs::path(word) : file_of(*node, word, sources.file);
+    if (!path) throw PlacedError(node->mark, "no such file: " + word);
+    source.more_files.push_back(path->string());
+    if (!sources.is_recorded) source.files.push_back(hashed(*path));
+  }
+}
+
+/// One hash of all files.
+std::string hash_of(const ForeignSource& source) {
+  if (source.files.size() == 1) return source.files.front().sha256;
+  Sha256 hash;
+  for (const HashedFile& file : source.files) hash.part("file", file.sha256);
+  return hash.hex();
+}
+
+std::string identity_text(const std::string& name, const std::string& version, const std::string& sha256) {
+  return fmt::format("{} {} with SHA-256 {}", name, version.empty() ? "without version" : version,
+                     sha256.substr(0, 12));
+}
+
+/// Checks or takes over what effective.yaml says about the module.
+void read_identity(const YamlNode& node, bool is_recorded, ForeignSource& source) {
+  YamlMap map(node, "identity");
+  const std::string name = map.text("name", "the module's name");
+  const std::string version = map.text_or("version", "");
+  const std::string sha256 = map.text("sha256", "the hash of its files");
+  const std::string summary = map.text_or("summary", "");
+  const std::string reference = map.text_or("reference", "");
+  map.done();
+  if (is_recorded) {
+    source.module.info = {name, summary, reference};
+    source.module.version = version;
+    source.files = {{"", sha256}};
+    return;
+  }
+  const ForeignModule& module = source.module;
+  if (name != module.info.name || version != module.version || sha256 != hash_of(source))
+    throw PlacedError(node.mark,
+                      fmt::format("the module is now {}, and the identity in this file is {}; remove the key "
+                                  "to accept the present one",
+                                  identity_text(module.info.name, module.version, hash_of(source)),
+                                  identity_text(name, version, sha256)));
+}
+
+/// A parameter of a recorded file in the type that its text suggests, because there is no specification.
+ParamValue plain_value(const YamlNode& node) {
+  ParamSpec spec;
+  spec.name = "a parameter";
+  const auto is_list_of = [&](YamlKind kind) {
+    return node.kind == YamlKind::sequence &&
+           std::ranges::all_of(node.items, [kind](const YamlNode& item) { return item.kind == kind; });
+  };
+  spec.type = ParamType::text;
+  if (node.kind == YamlKind::map) spec.type = ParamType::named_points;
+  if (is_list_of(YamlKind::scalar)) spec.type = ParamType::number_list;
+  if (is_list_of(YamlKind::sequence) && !node.items.empty()) spec.type = ParamType::number_rows;
+  if (node.kind == YamlKind::scalar && !node.quoted) {
+    if (node.text == "true" || node.text == "false") spec.type = ParamType::boolean;
+    if (const auto number = parse_number(node.text))
+      spec.type =
+          node.text.find_first_not_of("+-0123456789") == std::string::npos ? ParamType::integer : ParamType::number;
+  }
+  return read_param(node, spec);
+}
+
+void read_params(YamlMap& map, bool is_recorded, ModuleChoice& choice) {
+  const YamlNode* node = map.find("params");
+  if (is_recorded) {
+    if (node != nullptr)
+      for (const auto& entry : node->entries) choice.params.emplace(entry.key, plain_value(entry.value));
+    return;
+  }
+  const std::vector<ParamSpec>& specs = choice.source->module.params;
+  if (node != nullptr) {
+    YamlMap params(*node, "params of " + choice.module);
+    choice.params = params.params(specs);
+    params.done();
+  }
+  choice.params = resolve(specs, choice.params);
+}
+
+/// The module of a library. Throws PlacedError if it has none of this name and kind.
+ForeignSource module_in(const std::vector<ForeignSource>& modules, const YamlNode& node, const std::string& kind,
+                        const std::string& name) {
+  std::vector<std::string> known;
+  for (const ForeignSource& source : modules) {
+    if (source.module.kind == kind && source.module.info.name == name) return source;
+    known.push_back(source.module.kind + " " + source.module.info.name);
+  }
+  throw PlacedError(node.mark, fmt::format("the library has no {} {}; it has: {}", kind, quoted_excerpt(name),
+                                           fmt::join(known, ", ")));
+}
+
+ForeignSource read_library_slot(YamlMap& map, const YamlNode& node, const std::string& kind,
+                                const ModuleSources& sources) {
+  const std::string name = map.text("module", "a name");
+  const YamlNode* plugin = map.find("plugin");
+  if (plugin == nullptr) return module_in(sources.libraries, node, kind, name);
+  const std::string word = map.text("plugin", "a shared library");
+  ForeignSource source;
+  if (sources.is_recorded) {
+    source.library = word;
+    return source;
+  }
+  const auto path = file_of(*plugin, word, sources.file);
+  if (!path) throw PlacedError(plugin->mark, "no such file: " + word);
+  return module_in(at_node(*plugin, [&] { return inspect_library(*path); }), node, kind, name);
+}
+
+ForeignSource read_program_slot(YamlMap& map, const YamlNode& node, const std::string& kind,
+                                const ModuleSources& sources) {
+  ForeignSource source;
+  read_program(node, sources, source);
+  read_more_files(map, sources, source);
+  ParamSpec seconds;
+  seconds.name = "scan_seconds";
+  seconds.bounds = above(0);
+  seconds.unit = "s";
+  if (const YamlNode* limit = map.find(seconds.name))
+    source.scan_seconds = std::get<double>(read_param(*limit, seconds));
+  if (sources.is_recorded) return source;
+  at_node(node, [&] { inspect_program(source, sources.sandbox); });
+  if (source.module.kind != kind)
+    throw PlacedError(node.mark, fmt::format("the program `{}` is a module of the kind {}; allowed here: {}",
+                                             source.text(), source.module.kind, kind));
+  return source;
+}
+
+}  // namespace
+
+std::vector<ForeignSource> read_plugins(YamlMap& map, const ModuleSources& sources) {
+  std::vector<ForeignSource> modules;
+  const YamlNode* node = map.find("plugins");
+  if (node == nullptr || sources.is_recorded) return modules;
+  for (const std::string& word : read_words(*node, "plugins", "a list of shared libraries")) {
+    const auto path = file_of(*node, word, sources.file);
+    if (!path) throw PlacedError(node->mark, "no such file: " + word);
+    for (ForeignSource& source : at_node(*node, [&] { return inspect_library(*path); })) {
+      const auto is_same = [&](const ForeignSource& other) {
+        return other.module.kind == source.module.kind && other.module.info.name == source.module.info.name;
+      };
+      if (std::ranges::any_of(modules, is_same))
+        throw PlacedError(node->mark,
+                          fmt::format("two libraries have a {} {}", source.module.kind, source.module.info.name));
+      modules.push_back(std::move(source));
+    }
+  }
+  return modules;
+}
+
+bool is_foreign_slot(const YamlNode& node, const std::string& kind, const ModuleSources& sources) {
+  if (node.find("program") != nullptr || node.find("plugin") != nullptr) return true;
+  const YamlNode* name = node.find("module");
+  return name != nullptr && std::ranges::any_of(sources.libraries, [&](const ForeignSource& source) {
+           return source.module.kind == kind && source.module.info.name == name->text;
+         });
+}
+
+ModuleChoice read_foreign_slot(const YamlNode& node, const std::string& kind, const std::string& what,
+                               const ModuleSources& sources) {
+  YamlMap map(node, what);
+  ModuleChoice choice;
+  choice.kind = kind;
+  const YamlNode* program = map.find("program");
+  choice.source = program != nullptr ? read_program_slot(map, *program, kind, sources)
+                                     : read_library_slot(map, node, kind, sources);
+  choice.source->module.kind = kind;
+  const YamlNode* identity = map.find("identity");
+  if (identity != nullptr) read_identity(*identity, sources.is_recorded, *choice.source);
+  choice.module = choice.source->module.info.name;
+  read_params(map, sources.is_recorded, choice);
+  map.done();
+  return choice;
+}
+
+YamlNode foreign_slot_node(const ModuleChoice& choice) {
+  const ForeignSource& source = *choice.source;
+  YamlNode map = yaml_map();
+  if (source.program.empty()) {
+    yaml_add(map, "module", yaml_text(choice.module));
+    yaml_add(map, "plugin", yaml_text(source.library.string()));
+  } else {
+    YamlNode& words = yaml_add(map, "program", yaml_sequence());
+    for (const auto& word : source.program) words.items.push_back(yaml_text(word));
+    if (!source.more_files.empty()) {
+      YamlNode& files = yaml_add(map, "files", yaml_sequence());
+      for (const auto& file : source.more_files) files.items.push_back(yaml_text(file));
+    }
+    yaml_add(map, "scan_seconds", yaml_number(source.scan_seconds));
+  }
+  YamlNode& identity = yaml_add(map, "identity", yaml_map());
+  yaml_add(identity, "name", yaml_text(source.module.info.name));
+  yaml_add(identity, "version", yaml_text(source.module.version));
+  yaml_add(identity, "sha256", yaml_text(hash_of(source)));
+  yaml_add(identity, "summary", yaml_text(source.module.info.summary));
+  yaml_add(identity, "reference", yaml_text(source.module.info.reference));
+  yaml_add(map, "params", to_yaml(choice.params));
+  return map;
+}
+
+ForeignSource without_folders(ForeignSource source) {
+  const auto name_of = [](const std::string& path) { return fs::path(path).filename().string(); };
+  for (std::string& word : source.program)
+    if (word.starts_with('/')) word = name_of(word);
+  for (std::string& file : source.more_files) file = name_of(file);
+  source.library = source.library.filename();
+  return source;
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,129 @@
+// Programs as modules, as a user meets them: check, describe, run, resume, and faults that stay in their cells.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/app/program.hpp"
+
+namespace scanbench::app_test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class ForeignPrograms : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::system("python3 -c pass >/dev/null 2>&1") != 0) GTEST_SKIP() << "there is no python3";
+  }
+  static std::string example(const std::string& name) { return places::source_dir() / "examples/programs" / name; }
+  std::string scenario(const std::string& extract, const std::string& more = "") const {
+    return folder_.write(
+        "room.yaml",
+        room_with("  - {name: iepf, extract: {module: iepf, params: {threshold_m: 0.10}}}",
+                  "  - {name: good, extract: {module: iepf}}\n" + more + "  - {name: mine, extract: " + extract + "}"));
+  }
+  /// A program in Python whose extract() has this body.
+  std::string program(const std::string& name, const std::string& body) const {
+    return folder_.write(name, "import os, signal, sys, time\nsys.path.insert(0, '" +
+                                   (places::source_dir() / "clients").string() +
+                                   "')\nimport scanbench\nclass M:\n    kind, name, version = 'extract', 'm', '1'\n"
+                                   "    def __init__(self, params): pass\n    def extract(self, scan):\n        " +
+                                   body + "\nscanbench.serve(M)\n");
+  }
+  Folder folder_;
+};
+
+TEST_F(ForeignPrograms, AreDescribed) {
+  const auto outcome = run({"describe", "--program", "python3", example("split_lines.py")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("split_lines (extract)"), HasSubstr("version 1.0"), HasSubstr("threshold_m"),
+                                 HasSubstr("largest distance of a point from the chord")));
+}
+
+TEST_F(ForeignPrograms, OfTheExamplesConform) {
+  for (const std::string name : {"my_lines.py", "split_lines.py", "point_matcher.py"}) {
+    const auto outcome = run({"conform", "--program", "python3", example(name)});
+    EXPECT_EQ(outcome.code, 0) << name << ": " << outcome.out << outcome.err;
+  }
+  EXPECT_EQ(run({"conform"}).code, 2);
+}
+
+TEST_F(ForeignPrograms, BadParametersHaveTheirPlace) {
+  const std::string program = "{program: [python3, '" + example("split_lines.py") + "'], params: ";
+  auto outcome = run({"check", scenario(program + "{threshold_m: -1}}")});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("room.yaml:12:"), HasSubstr("threshold_m is -1; allowed: a number > 0 m")));
+  outcome = run({"check", scenario(program + "{treshold_m: 1}}")});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("room.yaml:12:"), HasSubstr("did you mean 'threshold_m'?")));
+  outcome = run({"check", scenario("{program: [python3, '" + example("point_matcher.py") + "']}")});
+  EXPECT_THAT(outcome.err, HasSubstr("is a module of the kind match; allowed here: extract"));
+  outcome = run({"check", scenario("{program: [pyhton3, x.py]}")});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("cannot be started: pyhton3: No such file"));
+}
+
+TEST_F(ForeignPrograms, RunAgainFromTheEffectiveScenarioGiveTheSameBytes) {
+  const auto file = scenario("{program: [python3, '" + example("split_lines.py") + "']}");
+  ASSERT_EQ(run({"run", file, "--out", folder_ / "a", "--quiet"}).code, 0);
+  const auto again = run({"run", folder_ / "a/effective.yaml", "--out", folder_ / "b", "--quiet"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(differences(results(folder_ / "a"), results(folder_ / "b")), testing::IsEmpty());
+}
+
+TEST_F(ForeignPrograms, AnEditedProgramIsRunAgainAndAnUnchangedOneIsNot) {
+  const auto source = program("m.py", "return []");
+  const auto file = scenario("{program: [python3, m.py]}");
+  const Args command{"run", file, "--out", folder_ / "a", "--resume", "--json", "--no-figures"};
+  ASSERT_EQ(run(command).code, 0);
+  EXPECT_THAT(run(command).out, testing::Not(HasSubstr("\"reused\": false")));
+  program("m.py", "return list()");
+  EXPECT_THAT(run(command).out, AllOf(HasSubstr("\"reused\": false"), HasSubstr("\"reused\": true")));
+  const auto refused = run({"run", folder_ / "a/effective.yaml", "--out", folder_ / "b", "--quiet"});
+  EXPECT_EQ(refused.code, 0) << refused.err;
+  program("m.py", "return tuple()");
+  const auto changed = run({"check", folder_ / "a/effective.yaml"});
+  EXPECT_EQ(changed.code, 2);
+  EXPECT_THAT(changed.err, AllOf(HasSubstr("effective.yaml:"), HasSubstr("the module is now m 1 with SHA-256")));
+}
+
+TEST_F(ForeignPrograms, ReportsOfARunDoNotNeedTheProgram) {
+  program("m.py", "return []");
+  ASSERT_EQ(run({"run", scenario("{program: [python3, m.py]}"), "--out", folder_ / "a", "--quiet"}).code, 0);
+  fs::remove(folder_ / "m.py");
+  const auto outcome = run({"report", folder_ / "a"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+TEST_F(ForeignPrograms, InTheSandboxCanWriteOnlyToTheFolderOfTheirCell) {
+  if (std::system("bwrap --unshare-all --ro-bind / / true >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "bubblewrap is not installed or not allowed";
+  const auto outside = folder_ / "outside";
+  program("writes.py", "open('inside', 'w').close()\n        open('" + outside.string() + "', 'w').close()");
+  const auto file = scenario("{program: [python3, writes.py]}");
+  const auto outcome = run({"run", file, "--out", folder_ / "a", "--sandbox", "--json", "--no-figures"});
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Read-only file system: '" + outside.string() + "'"));
+  EXPECT_FALSE(fs::exists(outside));
+  EXPECT_THAT(read(folder_ / "a/manifest.json"), HasSubstr("\"bubblewrap\""));
+  ASSERT_EQ(run({"run", file, "--out", folder_ / "b", "--quiet", "--no-figures"}).code, 3);
+  EXPECT_TRUE(fs::exists(outside)) << "without the sandbox nothing keeps the program from writing";
+}
+
+TEST_F(ForeignPrograms, AFaultSpoilsOnlyItsOwnCell) {
+  program("raises.py", "raise ValueError('no such wall')");
+  program("nan.py", "line = scan.fitted_line(scan.valid_beams()); line.rho = float('nan'); return [line]");
+  const auto file =
+      scenario("{program: [python3, raises.py]}", "  - {name: nan, extract: {program: [python3, nan.py]}}\n");
+  const auto outcome = run({"run", file, "--out", folder_ / "a", "--json", "--jobs", "2"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("extract, frame 0: "), HasSubstr("ValueError: no such wall"),
+                                 HasSubstr("extract, frame 0: line 0 is not finite")));
+  ASSERT_EQ(run({"run", file, "--out", folder_ / "b", "--only", "good", "--quiet"}).code, 0);
+  EXPECT_EQ(read(folder_ / "a/cells/room/good/1/lines.csv"), read(folder_ / "b/cells/room/good/1/lines.csv"));
+}
+
+}  // namespace
+}  // namespace scanbench::app_test

@@ -1,0 +1,139 @@
+// A module that does what a module must not do.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/modules.hpp"
+#include "core/registry.hpp"
+
+namespace scanbench {
+namespace {
+
+constexpr int kStorm = 500;  // processes: a storm that a machine survives
+
+enum class How {
+  nothing,
+  segfault,
+  abort,
+  exit,
+  loop,
+  memory,
+  fork_storm,
+  output,
+  close_descriptors,
+  kill_parent,
+  kill_itself,
+  daemon
+};
+
+[[noreturn]] void storm() {
+  for (int i = 0; i < kStorm; ++i) {
+    const pid_t pid = ::fork();
+    if (pid == 0) {
+      ::sleep(100);
+      ::_exit(0);
+    }
+    if (pid < 0) throw std::runtime_error("no process after " + std::to_string(i));
+  }
+  throw std::runtime_error("nothing stopped the storm");
+}
+
+/// Leaves a process in a session of its own, which writes its number to standard output.
+void leave_daemon() {
+  if (::fork() != 0) {
+    ::usleep(200000);
+    ::abort();
+  }
+  ::setsid();
+  if (::fork() != 0) ::_exit(0);
+  std::fprintf(stderr, "daemon %d\n", ::getpid());
+  for (int fd = 0; fd < 10; ++fd) ::close(fd);
+  ::sleep(100);
+  ::_exit(0);
+}
+
+void misbehave(How how) {
+  switch (how) {
+    case How::nothing:
+      return;
+    case How::segfault: {
+      volatile int* nowhere = nullptr;
+      *nowhere = 1;
+      return;
+    }
+    case How::abort:
+      ::abort();
+    case How::exit:
+      std::exit(0);
+    case How::loop:
+      for (volatile unsigned i = 0;;) i = i + 1;
+    case How::memory:
+      for (std::vector<std::vector<char>> all;;) all.emplace_back(64U << 20, 'x');
+    case How::fork_storm:
+      storm();
+    case How::output: {
+      const std::string block(1U << 20, 'x');
+      for (int i = 0; i < 2048; ++i)
+        if (::write(STDOUT_FILENO, block.data(), block.size()) < 0) break;
+      throw std::runtime_error("written");
+    }
+    case How::close_descriptors:
+      for (int fd = 0; fd < 100; ++fd) ::close(fd);
+      return;
+    case How::kill_parent:
+      ::kill(::getppid(), SIGTERM);
+      ::kill(::getppid(), SIGINT);
+      ::sleep(100);
+      return;
+    case How::kill_itself:
+      ::kill(::getpid(), SIGKILL);
+      return;
+    case How::daemon:
+      leave_daemon();
+  }
+}
+
+class Hostile final : public LineExtractor {
+ public:
+  struct Params {
+    How how = How::nothing;
+    static auto fields() {
+      return std::tuple{choice("how", &Params::how,
+                               {{How::nothing, "nothing"},
+                                {How::segfault, "segfault"},
+                                {How::abort, "abort"},
+                                {How::exit, "exit"},
+                                {How::loop, "loop"},
+                                {How::memory, "memory"},
+                                {How::fork_storm, "fork_storm"},
+                                {How::output, "output"},
+                                {How::close_descriptors, "close_descriptors"},
+                                {How::kill_parent, "kill_parent"},
+                                {How::kill_itself, "kill_itself"},
+                                {How::daemon, "daemon"}},
+                               "what it does")};
+    }
+  };
+  explicit Hostile(Params params) : params_(params) {}
+
+  ScanLines extract(const Scan& scan, Trace&) const override {
+    misbehave(params_.how);
+    return {{}, std::vector<int>(static_cast<std::size_t>(scan.beams()), -1)};
+  }
+
+ private:
+  Params params_;
+};
+
+const bool registered = Registry<LineExtractor>::add<Hostile>(
+    {.name = "hostile", .summary = "does what a module must not do", .reference = "none"});
+
+}  // namespace
+}  // namespace scanbench
