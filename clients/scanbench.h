@@ -18,6 +18,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 typedef struct {
@@ -153,24 +154,28 @@ static int sb_read(int fd, void* to, size_t bytes) {
   return 1;
 }
 
-static void sb_write(int fd, const void* from, size_t bytes) {
-  const char* at = (const char*)from;
-  while (bytes > 0) {
-    const ssize_t n = write(fd, at, bytes);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) exit(1);
-    at += n;
-    bytes -= (size_t)n;
-  }
-}
-
-static void sb_send(int fd, const char* header, uint64_t numbers) {
+/* Sends a frame, in one piece if the system takes it, which wakes scanbench once. */
+static void sb_send(int fd, const char* header, const double* const* arrays, const size_t* lengths, int count) {
   char head[16] = {'S', 'B', 'F', '1'};
+  struct iovec parts[8] = {{head, sizeof head}, {(void*)header, strlen(header)}};
   const uint32_t length = (uint32_t)strlen(header);
+  uint64_t numbers = 0;
+  for (int i = 0; i < count; ++i) {
+    parts[2 + i].iov_base = (void*)arrays[i];
+    parts[2 + i].iov_len = lengths[i] * sizeof(double);
+    numbers += lengths[i];
+  }
   memcpy(head + 4, &length, 4);
   memcpy(head + 8, &numbers, 8);
-  sb_write(fd, head, sizeof head);
-  sb_write(fd, header, length);
+  for (int next = 0; next < 2 + count;) {
+    ssize_t n = writev(fd, parts + next, 2 + count - next);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) exit(1);
+    while (next < 2 + count && (size_t)n >= parts[next].iov_len) n -= (ssize_t)parts[next++].iov_len;
+    if (next == 2 + count) return;
+    parts[next].iov_base = (char*)parts[next].iov_base + n;
+    parts[next].iov_len -= (size_t)n;
+  }
 }
 
 static void sb_hello(int fd, const sb_module* module, long id) {
@@ -193,7 +198,7 @@ static void sb_hello(int fd, const sb_module* module, long id) {
   }
   if (at + 3 > sizeof text) sb_fail("the description is too long");
   memcpy(text + at, "]}", 3);
-  sb_send(fd, text, 0);
+  sb_send(fd, text, NULL, NULL, 0);
 }
 
 /* Answers the calls of scanbench until it closes the socket. The exit code of the program. */
@@ -232,7 +237,7 @@ static int sb_serve(const sb_module* module) {
       for (int i = 0; i < module->param_count; ++i)
         params[i] = sb_number(values, module->params[i].name, module->params[i].value);
       snprintf(answer, sizeof answer, "{\"id\":%ld}", id);
-      sb_send(fd, answer, 0);
+      sb_send(fd, answer, NULL, NULL, 0);
       continue;
     }
     if (sheet != NULL) {
@@ -256,10 +261,9 @@ static int sb_serve(const sb_module* module) {
              "{\"id\":%ld,\"arrays\":[[\"lines\",%d],[\"covariances\",%d],[\"labels\",%d]]}", id, 10 * result.lines,
              3 * result.lines, beams);
     fflush(stdout);
-    sb_send(fd, answer, 13 * (uint64_t)result.lines + (uint64_t)beams);
-    sb_write(fd, result.rows, (size_t)result.lines * 10 * sizeof(double));
-    sb_write(fd, result.covariances, (size_t)result.lines * 3 * sizeof(double));
-    sb_write(fd, result.labels, (size_t)beams * sizeof(double));
+    const double* const arrays[3] = {result.rows, result.covariances, result.labels};
+    const size_t lengths[3] = {10 * (size_t)result.lines, 3 * (size_t)result.lines, (size_t)beams};
+    sb_send(fd, answer, arrays, lengths, 3);
   }
   return 0;
 }

@@ -191,6 +191,7 @@ int keep_only(int report, int output) {
     if (sigismember(&held, signal) == 1) std::signal(signal, SIG_DFL);
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of write(), with a message
   sigprocmask(SIG_SETMASK, &old_mask, nullptr);
+  adopt_orphans();  // what loses its parent here stays below this task as long as it runs, and ends with it
   report = keep_only(report, output);
   set_limits(limits);
   const std::string text = perform(task);

@@ -4,7 +4,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -45,15 +44,19 @@ enum class How {
   throw std::runtime_error("nothing stopped the storm");
 }
 
-/// Leaves a process in a session of its own, which writes its number to standard output.
+/// Leaves a process in a session of its own, which has written its number to standard error, and aborts.
 void leave_daemon() {
+  int told[2];
+  if (::pipe(told) != 0) return;
   if (::fork() != 0) {
-    ::usleep(200000);
-    ::abort();
+    char byte = 0;
+    if (::read(told[0], &byte, 1) == 1) ::abort();
+    return;
   }
   ::setsid();
   if (::fork() != 0) ::_exit(0);
-  std::fprintf(stderr, "daemon %d\n", ::getpid());
+  const std::string text = "daemon " + std::to_string(::getpid()) + "\n";
+  if (::write(STDERR_FILENO, text.data(), text.size()) < 0 || ::write(told[1], "x", 1) != 1) ::_exit(1);
   for (int fd = 0; fd < 10; ++fd) ::close(fd);
   ::sleep(100);
   ::_exit(0);
