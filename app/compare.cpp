@@ -9,6 +9,7 @@
 
 #include "app/inputs.hpp"
 #include "app/progress.hpp"
+#include "core/error.hpp"
 #include "harness/analysis/comparison.hpp"
 #include "harness/analysis/gates.hpp"
 #include "harness/analysis/run_results.hpp"
@@ -37,14 +38,24 @@ void print_comparison(const harness::Comparison& comparison, bool all) {
     fmt::print("\n{}", harness::to_terminal(table, use_color(), terminal_width()));
 }
 
+/// Before anything is compared: throws ConfigError if the folder of an output file is not there.
+void check_folder(const std::string& option, const std::string& file) {
+  const auto folder = std::filesystem::path(file).parent_path();
+  if (!file.empty() && !folder.empty() && !std::filesystem::is_directory(folder))
+    throw ConfigError(fmt::format("{}: {}: there is no folder {}", option, file, folder.string()));
+}
+
 int compare(const Options& options) {
+  check_folder("--csv", options.csv);
+  check_folder("--json", options.json);
+  check_folder("--markdown", options.markdown);
+  check_folder("--junit", options.junit);
   check_run_exists(options.before);
   check_run_exists(options.after);
   const harness::RunResults before = harness::load_run_results(options.before);
   const harness::RunResults after = harness::load_run_results(options.after);
   const harness::Gates gates(harness::load_gates(options.after));
   const harness::Comparison comparison = harness::compare(before, after, gates);
-  print_comparison(comparison, options.all);
   const auto write = [](const std::string& file, const std::string& bytes) {
     if (!file.empty()) harness::write_file_atomically(file, bytes);
   };
@@ -52,6 +63,7 @@ int compare(const Options& options) {
   if (!options.json.empty()) write(options.json, harness::comparison_json(comparison));
   if (!options.markdown.empty()) write(options.markdown, harness::comparison_markdown(comparison));
   if (!options.junit.empty()) write(options.junit, harness::comparison_junit(comparison));
+  print_comparison(comparison, options.all);
   return comparison.exit_code();
 }
 

@@ -66,8 +66,11 @@ std::string missing_argument(const CLI::App& app) {
 std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
     if (const std::string option = unknown_option(app, argc, argv); !option.empty()) return option;
-  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+    // A misspelt option that is required is both unknown and missing: the name that is wrong helps more.
+    if (const std::string option = unknown_option(app, argc, argv); !option.empty()) return option;
     if (const std::string argument = missing_argument(app); !argument.empty()) return argument;
+  }
   const std::string first = argc > 1 ? argv[1] : "";
   if (dynamic_cast<const CLI::RequiredError*>(&error) == nullptr || !app.get_subcommands().empty() ||
       (!first.empty() && first.front() == '-'))

@@ -17,6 +17,7 @@
 #include "harness/analysis/run_results.hpp"
 #include "harness/nightly/baseline.hpp"
 #include "harness/nightly/night.hpp"
+#include "harness/nightly/night_page.hpp"
 #include "harness/nightly/store.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/store/run_scenarios.hpp"
@@ -35,9 +36,14 @@ struct Options {
 };
 
 int nightly(const Options& options, const std::vector<std::string>& argv) {
+  if (options.files.size() > 1 && options.suite.empty())
+    throw ConfigError(fmt::format("nightly: {} files have no common name; --suite must name the suite that they make",
+                                  options.files.size()));
   std::string suite;
   harness::RunOptions run_options;
   auto scenarios = load_inputs(options.files, options.sets, &suite, &run_options.rules);
+  if (!options.suite.empty()) suite = options.suite;
+  harness::check_name("suite", suite);
   give_seeds(scenarios, options.seeds);
   run_options.out = options.out.empty() ? fs::path("out/nightly") / suite : fs::path(options.out);
   run_options.jobs = options.jobs;
@@ -54,7 +60,7 @@ int nightly(const Options& options, const std::vector<std::string>& argv) {
   harness::check_plan(plan);
   const FinishedRun finished =
       run_and_report(scenarios, run_options, {.quiet = options.quiet, .figures = !options.no_figures});
-  say(unfinished_text(finished.result));
+  say(unfinished_text(finished.result, "the same command continues"));
   if (finished.result.interrupted) return kInterrupted;
   if (finished.result.old_run_kept) {  // the folder has the earlier night: it must not count as this one
     fmt::print("INCOMPLETE: cells are missing, so this night is neither stored nor judged\n");
@@ -64,9 +70,7 @@ int nightly(const Options& options, const std::vector<std::string>& argv) {
   plan.reused = static_cast<std::size_t>(
       std::ranges::count_if(finished.result.cells, [](const harness::CellResult& cell) { return cell.reused; }));
   const harness::NightOutcome outcome = harness::close_night(plan, store);
-  if (!options.quiet)
-    fmt::print("{} of {} cells were not run again, because nothing in them changed\n", plan.reused,
-               finished.result.cells.size());
+  if (!options.quiet) fmt::print("{}\n", harness::reuse_text(finished.result.cells.size(), plan.reused));
   fmt::print("{}\n", harness::plain_line(outcome.sentence, 2000));
   if (!options.quiet) fmt::print("{}\n", outcome.page.string());
   if (finished.result.exit_code() == kIncomplete) return outcome.exit_code | kIncomplete;
@@ -106,9 +110,12 @@ void add_nightly(Context& context) {
   night->add_option("FILE", options->files, "a suite, or scenario files")->required();
   night->add_option("--store", options->store, "the file that keeps the results of all nights (SQLite)")->required();
   night->add_option("-o,--out", options->out, "the run folder, used again every night (default: out/nightly/<suite>)");
+  night->add_option("--suite", options->suite,
+                    "the suite's name, under which its nights and baselines are kept (default: that of the file; "
+                    "several files need one)");
   night->add_option("--baselines", options->baselines, "folder of the accepted baselines")->capture_default_str();
   night->add_option("--baseline", options->baseline,
-                    "number of the baseline to compare with, such as 0003 (default: the newest; without baselines the "
+                    "number of the baseline to compare with, such as 3 (default: the newest; without baselines the "
                     "last good night)");
   night->add_option("-j,--jobs", options->jobs, "number of cells that run at the same time")
       ->check(whole_number("number of cells", 1, 1024))

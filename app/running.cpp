@@ -99,10 +99,10 @@ FinishedRun make_and_report(const MakeRun& make, harness::RunOptions options, co
   return finished;
 }
 
-std::string unfinished_text(const harness::RunResult& result) {
+std::string unfinished_text(const harness::RunResult& result, const std::string& how) {
   if (result.interrupted)
-    return fmt::format("scanbench: interrupted; the finished cells of a new run stay in {} (--resume continues)\n",
-                       result.out.string());
+    return fmt::format("scanbench: interrupted; the finished cells of a new run stay in {} ({})\n", result.out.string(),
+                       how);
   return result.exit_code() == kIncomplete ? missing_text(result) : "";
 }
 

@@ -43,6 +43,7 @@ void note_absent_figures(const harness::ReportInput& report);
 std::string failed_text(const std::vector<harness::CellResult>& cells);
 
 /// What is said on standard error after a run that was interrupted or is incomplete; empty if there is nothing to say.
-std::string unfinished_text(const harness::RunResult& result);
+/// `how`: what makes an interrupted one go on.
+std::string unfinished_text(const harness::RunResult& result, const std::string& how = "--resume continues");
 
 }  // namespace scanbench::app

@@ -82,6 +82,8 @@ function(scanbench_executable name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   scanbench_flags(${name})
+  # The linker's build id is a hash of everything, so of the commit too, which the version of the code leaves out.
+  target_link_options(${name} PRIVATE LINKER:--build-id=none)
   list(TRANSFORM arg_ROOMS PREPEND scanbench_ OUTPUT_VARIABLE rooms)
   target_link_libraries(${name} PRIVATE ${rooms})
   set_target_properties(${name} PROPERTIES LINK_LIBRARY_OVERRIDE
@@ -97,7 +99,13 @@ function(scanbench_kernels target folder)
   scanbench_flags(${target}_v3)
   target_compile_definitions(${target}_v3 PRIVATE SCANBENCH_ISA=v3)
   target_compile_options(${target}_v3 PRIVATE -mavx2)
-  target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_v3>)
+  # An object library does not hand on the objects of another one, so its users add them.
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL OBJECT_LIBRARY)
+    target_sources(${target} INTERFACE $<TARGET_OBJECTS:${target}_v3>)
+  else()
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_v3>)
+  endif()
   # Precompiled headers contain inline functions, of which the linker would keep only one build.
   set_source_files_properties(${sources} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 endfunction()

@@ -39,7 +39,8 @@ set(text "#pragma once
 
 namespace scanbench::version {
 inline constexpr const char* kVersion = \"${VERSION}\";
-inline constexpr const char* kCommit = \"${commit}\";
+// Volatile: the executable then has it in one piece, which the version of the code leaves out.
+inline const char* const volatile kCommit = \"${commit}\";
 inline constexpr const char* kCompiler = \"${COMPILER}\";
 inline constexpr const char* kBuildType = \"${BUILD_TYPE}\";
 inline constexpr const char* kFlags = \"${FLAGS}\";

@@ -10,67 +10,18 @@
 #include <utility>
 
 #include "core/special_values.hpp"
+#include "harness/analysis/block_bootstrap.hpp"
+#include "harness/analysis/cell_pair.hpp"
+#include "harness/analysis/scan_pairs.hpp"
 
 namespace scanbench::harness {
 namespace {
 
 using metrics::Direction;
 using metrics::MetricDescription;
-using metrics::MetricRow;
 
 constexpr double kFalseFindings = 0.05;
 constexpr std::size_t kLeastTimes = 9;  // a rank test of fewer repeats finds next to nothing
-
-bool same_bits(double a, double b) {
-  return a == b || (std::isnan(a) && std::isnan(b));
-}
-
-/// What one cell has of one metric in both runs.
-struct CellPair {
-  double before = kNaN;
-  double after = kNaN;
-  bool same = true;  ///< every subject, to the bit
-};
-
-/// The values of a metric in two cells. `a` and `b` are the rows of that metric, by subject.
-CellPair pair_of(const std::map<std::string, double>& a, const std::map<std::string, double>& b) {
-  CellPair pair;
-  pair.same = a.size() == b.size() && std::ranges::equal(a, b, [](const auto& x, const auto& y) {
-                return x.first == y.first && same_bits(x.second, y.second);
-              });
-  const auto value = [](const std::map<std::string, double>& rows, const std::string& subject) {
-    const auto found = rows.find(subject);
-    return found == rows.end() ? kNaN : found->second;
-  };
-  if (a.contains("all") || b.contains("all")) {
-    pair.before = value(a, "all");
-    pair.after = value(b, "all");
-    return pair;
-  }
-  double sum_a = 0.0;
-  double sum_b = 0.0;
-  double common = 0.0;
-  for (const auto& [subject, before] : a) {
-    const double after = value(b, subject);
-    if (!std::isfinite(before) || !std::isfinite(after)) continue;
-    sum_a += before;
-    sum_b += after;
-    common += 1.0;
-  }
-  if (common > 0) {
-    pair.before = sum_a / common;
-    pair.after = sum_b / common;
-  }
-  return pair;
-}
-
-using RowsByMetric = std::map<std::string, std::map<std::string, double>>;
-
-RowsByMetric by_metric(const std::vector<MetricRow>& rows) {
-  RowsByMetric grouped;
-  for (const auto& row : rows) grouped[row.metric].emplace(row.subject, row.value);
-  return grouped;
-}
 
 /// The change of a value as a change of its cost: above 0 is worse.
 double cost_change(const MetricDescription& metric, double before, double after) {
@@ -82,7 +33,7 @@ class ChangeJudge {
  public:
   explicit ChangeJudge(bool same_processor) : same_processor_(same_processor) {}
 
-  /// Means, interval and p-value.
+  /// Means, interval and p-value, from the seeds.
   void measure(MetricChange& change) const {
     std::vector<double> before, after, differences, costs;
     for (const auto& pair : change.pairs) {
@@ -104,6 +55,20 @@ class ChangeJudge {
     } else if (differences.size() >= 2 && change.finding != Finding::same) {
       change.p = paired_p_value(costs);
     }
+  }
+
+  /// The interval and the p-value of a recorded log, from its scans.
+  static void measure_scans(MetricChange& change, const ScanPairs& scans) {
+    change.by_value = scans.obstacle;
+    if (!scans.obstacle.empty()) return;
+    const BlockInterval interval =
+        block_interval(scans.pairs, scans.mean, [&](double value) { return metrics::cost(change.metric, value); });
+    change.difference = interval.difference;
+    change.worsening = interval.worsening;
+    change.effect = interval.effect;
+    change.p = interval.p;
+    change.scans = scans.counts;
+    change.scans->block = interval.block;
   }
 
   /// After q has been corrected for all gates.
@@ -165,6 +130,12 @@ class ChangeJudge {
   bool same_processor_;
 };
 
+/// Paths of files inside the run, which depend on how many scenarios it has, without the leading "../".
+std::string without_parents(std::string value) {
+  while (value.starts_with("../")) value.erase(0, 3);
+  return value;
+}
+
 /// "abcdef: pipelines.iepf.extract.params.threshold_m: 0.1 -> 0.2"
 void compare_settings(const RunResults& a, const RunResults& b, std::vector<std::string>& differing) {
   constexpr std::size_t kShown = 12;
@@ -183,7 +154,7 @@ void compare_settings(const RunResults& a, const RunResults& b, std::vector<std:
       };
       const std::string before = value_in(earlier->second);
       const std::string after = value_in(settings);
-      if (before == after) continue;
+      if (without_parents(before) == without_parents(after)) continue;
       if (differing.size() < kShown)
         differing.push_back(fmt::format("{}: {}: {} -> {}", scenario, path, before, after));
       else
@@ -271,8 +242,8 @@ class Comparer {
   }
 
   void compare_rows(const CellResults& a, const CellResults& b) {
-    const RowsByMetric rows_a = by_metric(a.rows);
-    const RowsByMetric rows_b = by_metric(b.rows);
+    const auto rows_a = by_metric(a.rows);
+    const auto rows_b = by_metric(b.rows);
     std::set<std::string> names;
     for (const auto& [metric, rows] : rows_a) names.insert(metric);
     for (const auto& [metric, rows] : rows_b) names.insert(metric);
@@ -287,6 +258,7 @@ class Comparer {
       const CellPair pair = pair_of(in_a->second, in_b->second);
       MetricChange& change = change_of(b.key, metric);
       change.pairs.push_back({b.key.seed, pair.before, pair.after});
+      if (pair.subjects.uncommon() > change.subjects.uncommon()) change.subjects = pair.subjects;
       if (!pair.same) change.finding = Finding::changed;
     }
   }
@@ -303,10 +275,21 @@ class Comparer {
     return place->second;
   }
 
+  void measure_scans(MetricChange& change, ScanPairer& pairer) const {
+    const std::uint64_t seed = change.pairs.front().seed;
+    const bool same_scans = !differing_scans_.contains(change.scenario + "/" + std::to_string(seed));
+    if (const auto scans = pairer.pairs_of({change.scenario, change.pipeline, seed}, change.metric.metric, same_scans))
+      ChangeJudge::measure_scans(change, *scans);
+  }
+
   void judge_all() {
     std::vector<double> p_values;
+    ScanPairer pairer(before_, after_);
     for (auto& change : result_.changes) {
       judge_.measure(change);
+      if (change.pairs.size() == 1 && change.difference.count == 1 && !change.metric.timing &&
+          change.finding != Finding::same)
+        measure_scans(change, pairer);
       result_.gates += change.gate;
       p_values.push_back(change.gate ? change.p : kNaN);
     }

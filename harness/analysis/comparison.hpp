@@ -5,14 +5,18 @@
 // algorithm that nobody touched differs by exactly zero.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "harness/analysis/cell_pair.hpp"
 #include "harness/analysis/gates.hpp"
 #include "harness/analysis/run_results.hpp"
+#include "harness/analysis/scan_pairs.hpp"
 #include "harness/analysis/statistics.hpp"
 
 namespace scanbench::harness {
@@ -44,13 +48,17 @@ struct MetricChange {
   bool gate = false;                  ///< may fail the comparison
   std::vector<SeedPair> pairs;        ///< seeds that are ok in both runs
   std::size_t lost = 0;               ///< pairs whose value is no longer defined or finite
+  std::optional<PairedScans> scans;   ///< of a recorded log whose scans are paired
+  std::string by_value{};             ///< why the scans of a recorded log are not paired; else empty
+  SubjectCounts subjects{};           ///< largest differences between the sets of subjects in both means
   double before = 0.0;                ///< means over the pairs that are defined in both
   double after = 0.0;
-  MeanInterval difference{};  ///< after - before: mean and 95 % interval; low = high = mean for a single pair
-  MeanInterval worsening{};   ///< of the costs (metrics::cost), above 0: worse; empty without a better direction
-  double effect = 0.0;        ///< the mean difference over the standard deviation of the differences; NaN: none
-  double p = 1.0;             ///< of no change; NaN where nothing was tested
-  double q = 1.0;             ///< the same, corrected for the number of gates (Benjamini and Hochberg)
+  /// after - before: mean and 95 % interval; low = high = mean for a single pair. The count is that of seeds or scans.
+  MeanInterval difference{};
+  MeanInterval worsening{};  ///< of the costs (metrics::cost), above 0: worse; empty without a better direction
+  double effect = 0.0;       ///< the mean difference over the standard deviation of the differences; NaN: none
+  double p = 1.0;            ///< of no change; NaN where nothing was tested
+  double q = 1.0;            ///< the same, corrected for the number of gates (Benjamini and Hochberg)
   Finding finding = Finding::same;
 
   /// The pair that became worse by most; nullptr if no pair is defined.
@@ -90,8 +98,10 @@ struct Comparison {
 ///
 /// A gate is worse if the 95 % interval of its mean difference excludes zero, the mean difference is above the
 /// tolerance, and, among all gates of this comparison that a test can judge, at most 5 % of such findings are false
-/// (q <= 0.05). A single pair (a recorded log has one) is exact: its difference is compared with the tolerance alone.
-/// A gate whose value is lost on some seed is worse too.
+/// (q <= 0.05). A single pair is exact: its difference is compared with the tolerance alone. A recorded log has one; if
+/// the folders of both runs are known and the metric is a mean over its scans, these are paired instead
+/// (block_bootstrap.hpp). A gate whose value is lost on some seed is worse too.
+/// Throws ConfigError for damaged files of a log.
 Comparison compare(const RunResults& before, const RunResults& after, const Gates& gates);
 
 }  // namespace scanbench::harness

@@ -16,6 +16,8 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/store/cell_files.hpp"
+#include "harness/store/json_file.hpp"
+#include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
 
 namespace scanbench::harness {
@@ -178,21 +180,30 @@ class Ranker {
 
 }  // namespace
 
-std::map<CellKey, double> load_cell_seconds(const std::filesystem::path& run, const std::vector<CellResults>& cells) {
+std::map<CellKey, double> load_scan_seconds(const std::filesystem::path& run, const std::vector<CellResults>& cells) {
   std::map<CellKey, double> seconds;
+  std::map<std::pair<std::string, std::uint64_t>, double> frames;
   for (const auto& cell : cells) {
     const std::filesystem::path file = cell_path(run, cell.key) / kTimingFile;
-    if (!cell.ok() || !std::filesystem::exists(file)) continue;
+    const std::filesystem::path scans = recording_path(run, cell.key.scenario, cell.key.seed) / kScanFile;
+    if (!cell.ok() || !std::filesystem::exists(file) || !std::filesystem::exists(scans)) continue;
+    const auto [count, is_new] = frames.try_emplace({cell.key.scenario, cell.key.seed});
+    if (is_new)
+      count->second = with_json_of(scans, [](const auto& json) { return json.at("frames").template get<double>(); });
     const CsvTable table(read_file(file), file, {"stage", "frame", "seconds"});
     double sum = 0.0;
     for (std::size_t row = 0; row < table.rows(); ++row) sum += table.number(row, "seconds");
-    seconds[cell.key] = sum;
+    if (count->second > 0) seconds[cell.key] = sum / count->second;
   }
   return seconds;
 }
 
-std::vector<MethodRanking> rank_methods(const std::vector<CellResults>& cells,
-                                        const std::map<CellKey, double>& seconds) {
+std::vector<MethodRanking> rank_methods(const std::vector<CellResults>& cells, const std::map<CellKey, double>& seconds,
+                                        const std::map<std::string, std::string>& conditions) {
+  const auto condition_of = [&](const std::string& scenario) {
+    const auto known = conditions.find(scenario);
+    return known == conditions.end() ? std::string() : known->second;
+  };
   std::vector<std::pair<std::string, std::vector<std::string>>> scenarios;  // in order, with their pipelines
   for (const auto& cell : cells) {
     if (!cell.requested) continue;
@@ -204,8 +215,10 @@ std::vector<MethodRanking> rank_methods(const std::vector<CellResults>& cells,
   for (const auto& of_scenario : scenarios) {
     const std::string& scenario = of_scenario.first;
     const std::vector<std::string>& pipelines = of_scenario.second;
-    const auto group =
-        std::ranges::find_if(groups, [&](const auto& g) { return std::ranges::is_permutation(g.first, pipelines); });
+    const auto group = std::ranges::find_if(groups, [&](const auto& g) {
+      return condition_of(g.second.front()) == condition_of(scenario) &&
+             std::ranges::is_permutation(g.first, pipelines);
+    });
     if (group != groups.end())
       group->second.push_back(scenario);
     else if (pipelines.size() > 1)
@@ -214,8 +227,10 @@ std::vector<MethodRanking> rank_methods(const std::vector<CellResults>& cells,
   const auto descriptions = metric_descriptions();
   std::vector<MethodRanking> rankings;
   for (const auto& [pipelines, of_group] : groups)
-    if (auto ranking = Ranker(of_group, pipelines, cells, seconds).rank(descriptions); !ranking.methods.empty())
+    if (auto ranking = Ranker(of_group, pipelines, cells, seconds).rank(descriptions); !ranking.methods.empty()) {
+      ranking.condition = condition_of(of_group.front());
       rankings.push_back(std::move(ranking));
+    }
   return rankings;
 }
 

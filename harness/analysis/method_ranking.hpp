@@ -19,7 +19,7 @@ namespace scanbench::harness {
 struct RankedMethod {
   std::string pipeline;
   MeanInterval quality{};   ///< over seeds, of the average over the scenarios, in the metric's unit
-  double seconds = 0.0;     ///< geometric mean, over cells, of the CPU time of a recording; NaN: not known
+  double seconds = 0.0;     ///< geometric mean, over cells, of the CPU time of a scan; NaN: not known
   std::size_t defined = 0;  ///< cells that have the metric
   std::size_t cells = 0;    ///< cells of the pipeline
   /// The probability that it is better than the next in the list on a new seed of one of the scenarios, a tie counted
@@ -34,16 +34,18 @@ struct RankedMethod {
 
 struct MethodRanking {
   std::vector<std::string> scenarios;
+  std::string condition;  ///< of all these scenarios: the noise of the sensor; may be empty
   metrics::MetricDescription quality;
   std::vector<RankedMethod> methods;  ///< best first; then those that are not complete
 };
 
-/// Seconds of CPU time per cell: the sum over the stages of timing.csv. Cells without that file are absent.
-std::map<CellKey, double> load_cell_seconds(const std::filesystem::path& run, const std::vector<CellResults>& cells);
+/// Seconds of CPU time of one scan, by cell: the sum over the stages of timing.csv over the recording's number of
+/// frames. Cells without these files are absent.
+std::map<CellKey, double> load_scan_seconds(const std::filesystem::path& run, const std::vector<CellResults>& cells);
 
-/// One ranking per set of scenarios with the same pipelines, in the order of the cells. Sets with one pipeline or
-/// without a metric of the list are left out.
-std::vector<MethodRanking> rank_methods(const std::vector<CellResults>& cells,
-                                        const std::map<CellKey, double>& seconds);
+/// One ranking per set of scenarios with the same pipelines and the same condition, in the order of the cells. Sets
+/// with one pipeline or without a metric of the list are left out. `conditions`: a text by scenario.
+std::vector<MethodRanking> rank_methods(const std::vector<CellResults>& cells, const std::map<CellKey, double>& seconds,
+                                        const std::map<std::string, std::string>& conditions = {});
 
 }  // namespace scanbench::harness

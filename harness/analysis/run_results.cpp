@@ -33,6 +33,7 @@ CellResults load_cell(const fs::path& run, const CellKey& key) {
 RunResults load_run_results(const fs::path& run) {
   RunResults results;
   results.name = run.string();
+  results.folder = run;
   const Manifest manifest = load_manifest(run);
   results.provenance = load_provenance(run);
   results.settings = load_run_settings(run);

@@ -13,6 +13,9 @@
 
 namespace scanbench::harness {
 
+/// The subject of a baseline's mean over subjects (walls). The row's count is the number of those that have a value.
+inline constexpr const char* kMeanOfSubjects = "mean over walls";
+
 struct CellResults {
   CellKey key;
   bool requested = true;  ///< false: left out by --only, so that it may be missing
@@ -26,6 +29,8 @@ struct CellResults {
 
 struct RunResults {
   std::string name;  ///< of the folder, the night or the baseline, for messages
+  /// Where its cells and recordings are; empty: only its values are known.
+  std::filesystem::path folder{};
   Provenance provenance;
   /// By scenario, every effective setting by its path: "pipelines.iepf.extract.params.threshold_m" -> "0.1".
   std::map<std::string, std::map<std::string, std::string>> settings;

@@ -20,13 +20,6 @@ std::string with_unit(double value, const MetricChange& change) {
   return number(value) + (change.metric.unit.empty() ? "" : " " + change.metric.unit);
 }
 
-/// How far a change is beyond what is tolerated. A lost value is beyond all measure.
-double severity(const MetricChange& change) {
-  if (change.lost > 0) return kInf;
-  const double scale = std::max(change.metric.tolerance, 1e-9 * (std::fabs(change.before) + 1e-300));
-  return std::fabs(change.worsening.mean) / scale;
-}
-
 std::string counted(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
@@ -78,6 +71,12 @@ std::string other_gates(const Comparison& comparison) {
 
 }  // namespace
 
+double severity(const MetricChange& change) {
+  if (change.lost > 0) return kInf;
+  const double scale = std::max(change.metric.tolerance, 1e-9 * (std::fabs(change.before) + 1e-300));
+  return std::fabs(change.worsening.mean) / scale;
+}
+
 std::vector<const MetricChange*> changes_with(const Comparison& comparison, Finding finding, bool gates_only) {
   std::vector<const MetricChange*> found;
   for (const auto& change : comparison.changes)
@@ -108,6 +107,14 @@ std::string verdict_sentence(const Comparison& comparison) {
   return text;
 }
 
+std::string sample_text(const MetricChange& change) {
+  if (!change.scans) return counted(change.pairs.size(), "seed", "seeds");
+  std::string text = fmt::format("{} {} in blocks of {}", change.scans->count, change.scans->of, change.scans->block);
+  if (change.scans->lost > 0) text += fmt::format(", {} without a value now", change.scans->lost);
+  if (change.scans->gained > 0) text += fmt::format(", {} without one before", change.scans->gained);
+  return text;
+}
+
 std::string change_sentence(const MetricChange& change) {
   const std::string what = fmt::format("{} of {} in {}", change.metric.metric, change.pipeline, change.scenario);
   if (change.lost > 0)
@@ -126,8 +133,9 @@ std::string change_sentence(const MetricChange& change) {
     } else if (low > high) {
       std::swap(low, high);
     }
-    detail += fmt::format(", 95 % interval {} to {} over {} seeds", number(low), number(high), change.difference.count);
+    detail += fmt::format(", 95 % interval {} to {} over {}", number(low), number(high), sample_text(change));
   }
+  if (!change.by_value.empty()) detail += ", without an interval: " + change.by_value;
   return text + fmt::format(" ({}; tolerance {})", detail, number(change.metric.tolerance));
 }
 

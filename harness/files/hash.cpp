@@ -1,7 +1,10 @@
 // SHA-256 through OpenSSL's EVP interface.
 #include "harness/files/hash.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include <openssl/evp.h>
@@ -54,9 +57,15 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   return hash.hex();
 }
 
-const std::string& code_version() {
-  static const std::string version = sha256_of_file("/proc/self/exe");
-  return version;
+std::string sha256_of_file_without(const std::filesystem::path& path, std::string_view text) {
+  InputFile file(path);
+  std::string bytes;  // whole, because an occurrence may cross the end of a block
+  std::vector<char> block(1 << 16);
+  while (const std::size_t n = file.read(block)) bytes.append(block.data(), n);
+  for (std::size_t at = text.empty() ? std::string::npos : bytes.find(text); at != std::string::npos;
+       at = bytes.find(text, at + text.size()))
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), text.size(), '\0');
+  return sha256_hex(bytes);
 }
 
 }  // namespace scanbench::harness

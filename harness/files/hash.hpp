@@ -33,7 +33,7 @@ std::string sha256_hex(std::string_view bytes);
 /// The hash of a regular file, read block by block. Throws ConfigError if the file cannot be read.
 std::string sha256_of_file(const std::filesystem::path& path);
 
-/// Hash of the running executable's bytes, computed once: the version of the code that made a result.
-const std::string& code_version();
+/// The same with every occurrence of `text` replaced by as many zero bytes.
+std::string sha256_of_file_without(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace scanbench::harness

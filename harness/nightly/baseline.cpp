@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -72,18 +73,22 @@ std::string hash_of(const Group& group) {
 
 Json metric_json(const Group& group, const MetricRow& example) {
   Json listed = Json::array();
+  Json walls = Json::array();
   std::vector<double> values;
   for (const auto* cell : group.cells) {
     const auto row = std::ranges::find(cell->rows, example.metric, &MetricRow::metric);
     values.push_back(row == cell->rows.end() ? kNaN : row->value);
     listed.push_back(number(values.back()));
+    walls.push_back(row == cell->rows.end() ? 0 : row->count);
   }
   const MeanInterval mean = mean_interval(values);
-  return {{"unit", example.unit},
-          {"median", number(median(values))},
-          {"ci_low", number(mean.low)},
-          {"ci_high", number(mean.high)},
-          {"values", std::move(listed)}};
+  Json json{{"unit", example.unit},
+            {"median", number(median(values))},
+            {"ci_low", number(mean.low)},
+            {"ci_high", number(mean.high)},
+            {"values", std::move(listed)}};
+  if (example.subject == kMeanOfSubjects) json["walls"] = std::move(walls);
+  return json;
 }
 
 Json group_json(const Group& group) {
@@ -112,7 +117,9 @@ void read_group(const Json& json, RunResults& results) {
     for (const auto& [name, metric] : json.at("metrics").items()) {
       MetricRow row;
       row.metric = name;
-      row.subject = "all";
+      const auto walls = metric.find("walls");  // absent for a value of the whole
+      row.subject = walls == metric.end() ? "all" : kMeanOfSubjects;
+      if (walls != metric.end()) row.count = walls->at(i).get<std::int64_t>();
       row.unit = metric.at("unit");
       row.value = number_of(metric.at("values").at(i));
       cell.rows.push_back(std::move(row));
@@ -121,7 +128,7 @@ void read_group(const Json& json, RunResults& results) {
   }
 }
 
-/// One value per metric: of the subject "all", else the mean of those that are defined.
+/// One value per metric: of the subject "all", else the mean of those that are defined, with their number.
 std::vector<MetricRow> gate_rows(const std::vector<MetricRow>& rows, const Gates& gates) {
   std::map<std::string, std::vector<const MetricRow*>> by_metric;
   for (const auto& row : rows)
@@ -135,14 +142,17 @@ std::vector<MetricRow> gate_rows(const std::vector<MetricRow>& rows, const Gates
     } else {
       double sum = 0.0;
       double count = 0.0;
+      std::int64_t walls = 0;
       for (const auto* subject : subjects) {
         if (!std::isfinite(subject->value)) continue;
         sum += subject->value;
         count += 1.0;
+        walls += subject->subject == "mean" ? 0 : 1;
       }
       row.value = count > 0 ? sum / count : kNaN;
+      row.count = walls;
+      row.subject = kMeanOfSubjects;
     }
-    row.subject = "all";
     reduced.push_back(std::move(row));
   }
   return reduced;

@@ -16,7 +16,7 @@ struct Baseline {
   std::filesystem::path file;
   std::string accepted;  ///< UTC, ISO 8601
   std::string reason;
-  RunResults results;  ///< one row per gate and cell, subject "all"
+  RunResults results;  ///< one row per gate and cell, subject "all" or kMeanOfSubjects
 };
 
 /// What a baseline keeps of a run: of every gate, one value per cell (comparison.hpp says which). A run is compared

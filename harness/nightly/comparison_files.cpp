@@ -46,6 +46,13 @@ Json change_json(const MetricChange& change) {
   Json pairs = Json::array();
   for (const auto& pair : change.pairs)
     pairs.push_back({{"seed", pair.seed}, {"before", number(pair.before)}, {"after", number(pair.after)}});
+  Json scans;  // null unless the scans of a recorded log are paired
+  if (change.scans)
+    scans = {{"of", change.scans->of},
+             {"count", change.scans->count},
+             {"block", change.scans->block},
+             {"undefined_now", change.scans->lost},
+             {"undefined_before", change.scans->gained}};
   return {{"scenario", change.scenario},
           {"pipeline", change.pipeline},
           {"metric", change.metric.metric},
@@ -62,6 +69,8 @@ Json change_json(const MetricChange& change) {
           {"p", number(change.p)},
           {"q", number(change.q)},
           {"undefined_now", change.lost},
+          {"scans", std::move(scans)},
+          {"by_value", change.by_value},
           {"pairs", std::move(pairs)}};
 }
 

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "harness/analysis/verdict.hpp"
@@ -13,6 +15,7 @@ namespace scanbench::harness {
 namespace {
 
 constexpr std::size_t kLargestTable = 200;  ///< rows; more are counted
+constexpr std::size_t kListedNew = 5;       ///< rows of new cells, of which a changed suite has many
 
 std::string shown(double value) {
   return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("–");
@@ -23,8 +26,30 @@ std::string signed_number(double value) {
 }
 
 std::string interval(const MetricChange& change) {
-  if (change.difference.count < 2) return "–";
-  return fmt::format("{:+.3g} … {:+.3g}", change.difference.low, change.difference.high);
+  if (change.difference.count < 2) return "";
+  return fmt::format("({:+.3g} … {:+.3g})", change.difference.low, change.difference.high);
+}
+
+/// "6 of 7 walls", of which the value is the mean, where a wall has no value in one of the runs, on the seed with most
+/// of them.
+std::string wall_note(const SubjectCounts& walls) {
+  if (walls.uncommon() == 0) return "";
+  if (walls.both > 0) return fmt::format("{} of {} walls", walls.both, std::max(walls.before, walls.after));
+  return fmt::format("{} walls, before {}", walls.after, walls.before);  // against a baseline
+}
+
+/// What the interval comes from: the number of seeds, or the scans of a recorded log.
+TableCell sample_cell(const MetricChange& change) {
+  if (change.scans)
+    return {.text = fmt::format("{} {}", change.scans->count, change.scans->of),
+            .spread = fmt::format("in blocks of {}", change.scans->block),
+            .hint = "per-scan pairs: " + sample_text(change)};
+  TableCell cell{.text = fmt::format("{} seed{}", change.pairs.size(), change.pairs.size() == 1 ? "" : "s"),
+                 .spread = wall_note(change.subjects)};
+  if (change.by_value.empty()) return cell;
+  cell.text = "value only";
+  cell.spread = change.by_value;
+  return cell;
 }
 
 /// The folder of a pipeline's cells, as a link from a page in the run folder.
@@ -42,9 +67,28 @@ TableCell worst_seed(const MetricChange& change, const std::string& run) {
   return cell;
 }
 
-void add_cells(Table& table, const std::string& what, const std::vector<CellKey>& cells) {
-  for (const auto& key : cells)
-    table.rows.push_back({{what, key.scenario, key.pipeline, std::to_string(key.seed), ""}, {}, false});
+/// One row per pipeline of a scenario, at most `most` of them: the others are counted in one more row.
+void add_cells(Table& table, const std::string& what, const std::vector<CellKey>& cells, std::size_t most) {
+  std::vector<std::pair<CellKey, std::size_t>> groups;  // first cell, number of cells
+  std::map<std::pair<std::string, std::string>, std::size_t> places;
+  for (const auto& key : cells) {
+    const auto [place, is_new] = places.try_emplace({key.scenario, key.pipeline}, groups.size());
+    if (is_new) groups.emplace_back(key, 0);
+    ++groups[place->second].second;
+  }
+  std::size_t listed = 0;
+  for (std::size_t i = 0; i < groups.size() && i < most; ++i) {
+    const auto& [key, count] = groups[i];
+    const std::string seeds =
+        count == 1 ? std::to_string(key.seed) : fmt::format("{} seeds, first {}", count, key.seed);
+    table.rows.push_back({{what, key.scenario, key.pipeline, seeds, ""}, {}, false});
+    listed += count;
+  }
+  if (groups.size() > most)
+    table.rows.push_back({{what, fmt::format("{} more pipelines", groups.size() - most), "",
+                           fmt::format("{} cells", cells.size() - listed), ""},
+                          {},
+                          false});
 }
 
 void add_changes(Table& table, const std::string& what, const std::vector<StatusChange>& changes) {
@@ -68,30 +112,28 @@ Table change_table(const std::string& id, const std::string& title, const std::v
   Table table{id,
               title,
               "",
-              {"scenario", "pipeline", "metric", "finding"},
+              {"scenario", "pipeline", "metric"},
               {{"", "before"},
                {"", "now"},
                {"", "difference"},
-               {"", "95 % interval"},
                {"", "tolerance"},
                {"", "effect"},
                {"", "q"},
-               {"", "seeds"},
+               {"", "over"},
                {"", "worst seed"}},
               {}};
   for (const MetricChange* change : changes) {
     const std::string unit = change->metric.unit.empty() ? "" : " [" + change->metric.unit + "]";
-    std::string finding(to_string(change->finding));
-    if (change->lost > 0) finding += fmt::format(" (undefined on {})", change->lost);
-    table.rows.push_back({{change->scenario, change->pipeline, change->metric.metric + unit, finding},
+    TableCell now{.text = shown(change->after), .link = cells_link(*change)};
+    if (change->lost > 0) now.spread = fmt::format("undefined on {}", change->lost);
+    table.rows.push_back({{change->scenario, change->pipeline, change->metric.metric + unit},
                           {{shown(change->before)},
-                           {.text = shown(change->after), .link = cells_link(*change)},
-                           {signed_number(change->difference.mean)},
-                           {interval(*change)},
+                           std::move(now),
+                           {.text = signed_number(change->difference.mean), .spread = interval(*change)},
                            {shown(change->metric.tolerance)},
                            {std::isfinite(change->effect) ? fmt::format("{:+.2f}", change->effect) : "–"},
                            {std::isfinite(change->q) ? fmt::format("{:.2g}", change->q) : "–"},
-                           {std::to_string(change->pairs.size())},
+                           sample_cell(*change),
                            worst_seed(*change, run)},
                           false});
   }
@@ -102,10 +144,10 @@ Table change_table(const std::string& id, const std::string& title, const std::v
 std::optional<Table> completeness_table(const Comparison& comparison) {
   Table table{"completeness", "Cells", "", {"what", "scenario", "pipeline", "seed", "status"}, {}, {}};
   add_changes(table, "no longer ok", comparison.broken);
-  add_cells(table, "missing", comparison.missing);
-  add_cells(table, "not ok in both", comparison.failing);
+  add_cells(table, "missing", comparison.missing, kLargestTable);
+  add_cells(table, "not ok in both", comparison.failing, kLargestTable);
   add_changes(table, "ok again", comparison.mended);
-  add_cells(table, "new, not compared", comparison.added);
+  add_cells(table, "new, not compared", comparison.added, kListedNew);
   for (const auto& metric : comparison.absent)
     table.rows.push_back({{"metric without values", metric, "", "", ""}, {}, false});
   if (table.rows.empty()) return std::nullopt;
@@ -122,12 +164,13 @@ std::vector<Table> comparison_tables(const Comparison& comparison, bool all) {
     tables.push_back(std::move(table));
   };
   add("worse", "What became worse", Finding::worse, false,
-      "Differences are now − before, over equal seeds. The effect is the mean difference over its standard deviation; "
+      "Differences are now − before, with their 95 % intervals, over equal seeds or, of a recorded log, over its "
+      "scans. The effect is the mean difference over its standard deviation; "
       "q "
       "is the share of false alarms among all gates that are as certain (Benjamini–Hochberg). Only gates fail.");
   if (auto cells = completeness_table(comparison)) tables.push_back(std::move(*cells));
   add("uncertain", "Changed by more than the tolerance, but not on enough seeds to be certain", Finding::uncertain,
-      true, "More seeds would tell.");
+      true, "More seeds, or a longer log, would tell.");
   add("better", "What became better", Finding::better, false, "");
   if (!all) return tables;
   add("changed", "Changed, of metrics without a better direction", Finding::changed, false, "");

@@ -10,9 +10,10 @@
 
 namespace scanbench::harness {
 
-/// A row per change: scenario, pipeline, metric; before, after, difference with its interval, tolerance, effect, q, the
-/// seed that became worse by most. On a page in the folder `run`, values lead to the folder of their cells, and the
-/// seed has the command that shows its worst scan.
+/// A row per change: scenario, pipeline, metric; before, after, difference with its interval, tolerance, effect, q,
+/// what it is a mean over (seeds, scans of a log; walls, where some have no value in one of the runs), the seed that
+/// became worse by most. On a page in the folder `run`, values lead to the folder of their cells, and the seed has the
+/// command that shows its worst scan.
 Table change_table(const std::string& id, const std::string& title, const std::vector<const MetricChange*>& changes,
                    const std::string& run);
 

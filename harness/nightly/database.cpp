@@ -32,6 +32,17 @@ void Database::execute(const std::string& sql) {
   if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) refuse_last();
 }
 
+// SQLite does not wait for locks in this statement.
+void Database::use_write_ahead_log() {
+  constexpr int kPauseMilliseconds = 20;
+  for (int waited = 0;; waited += kPauseMilliseconds) {
+    const int code = sqlite3_exec(handle_.get(), "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
+    if (code == SQLITE_OK) return;
+    if (code != SQLITE_BUSY || waited >= kWaitMilliseconds) refuse_last();
+    sqlite3_sleep(kPauseMilliseconds);
+  }
+}
+
 std::int64_t Database::last_id() const {
   return sqlite3_last_insert_rowid(handle_.get());
 }

@@ -50,6 +50,8 @@ class Database {
   Database(const std::filesystem::path& file, Access access);
 
   void execute(const std::string& sql);
+  /// Lets others read while one writes. Waits while another program opens the file, as long as statements do.
+  void use_write_ahead_log();
   std::int64_t last_id() const;
   [[noreturn]] void refuse(const std::string& reason) const;
   [[noreturn]] void refuse_last() const;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -19,12 +20,14 @@
 #include "harness/nightly/comparison_files.hpp"
 #include "harness/nightly/night_page.hpp"
 #include "harness/report/figures.hpp"
+#include "harness/report/recording_note.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/report/shown_scan.hpp"
 #include "harness/store/json_file.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_lock.hpp"
+#include "harness/store/run_scenarios.hpp"
 #include "harness/store/summary.hpp"
 
 namespace scanbench::harness {
@@ -52,12 +55,31 @@ std::string text_of(const Baseline& baseline) {
 std::optional<fs::path> chosen_baseline(const NightPlan& plan) {
   const auto files = baseline_files(plan.baselines, plan.suite);
   if (plan.baseline.empty()) return files.empty() ? std::nullopt : std::optional(files.back());
+  const auto number_of = [](const std::string& text) -> std::optional<unsigned long> {
+    const bool is_number =
+        !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+    return is_number ? std::optional(std::stoul(text)) : std::nullopt;
+  };
   for (const auto& file : files)
-    if (file.stem() == plan.baseline) return file;
+    if (const auto number = number_of(file.stem().string()); number && number == number_of(plan.baseline)) return file;
   std::string known;
   for (const auto& file : files) known += (known.empty() ? "" : ", ") + file.stem().string();
   throw ConfigError(fmt::format("{} has no baseline '{}' of {}; known: {}", plan.baselines.string(), plan.baseline,
                                 plan.suite, known.empty() ? "none" : known));
+}
+
+/// Where the run folder of the last good night is kept.
+fs::path last_good_folder(const fs::path& run) {
+  const fs::path whole = fs::absolute(run).lexically_normal();
+  return whole.parent_path() / (whole.filename().string() + ".last_good");
+}
+
+/// The results of an earlier night, with its folder if that is kept.
+RunResults night_results(const Store& store, const Night& night, const fs::path& run) {
+  RunResults results = store.load(night.id);
+  const fs::path kept = last_good_folder(run);
+  if (fs::exists(kept / kManifestFile) && load_provenance(kept).start == night.start) results.folder = kept;
+  return results;
 }
 
 std::optional<Reference> reference_of(const NightPlan& plan, const Store& store, std::int64_t tonight) {
@@ -69,7 +91,7 @@ std::optional<Reference> reference_of(const NightPlan& plan, const Store& store,
   for (std::size_t i = nights.size(); i-- > 0;) {
     const Night& night = nights[i];
     if (night.id == tonight || night.verdict != "PASS") continue;
-    return Reference{"the last good night, " + night.start, store.load(night.id), false};
+    return Reference{"the last good night, " + night.start, night_results(store, night, plan.run), false};
   }
   return std::nullopt;
 }
@@ -109,7 +131,7 @@ std::vector<PicturePair> pictures_of(const fs::path& run, const fs::path& last_g
     seen.push_back(place);
     ScanChoice choice{.scenario = change->scenario, .pipeline = change->pipeline, .seed = worst->seed};
     PicturePair pair;
-    pair.title = fmt::format("{}/{}/{}: the worst scan", change->scenario, change->pipeline, worst->seed);
+    pair.title = fmt::format("{}/{}/{}: the scan with the lowest F1", change->scenario, change->pipeline, worst->seed);
     std::size_t frame = 0;
     pair.now = picture_of(run, choice, "now", &frame);
     if (!pair.now) continue;
@@ -141,12 +163,6 @@ std::vector<PicturePair> figures_of(const fs::path& run, const fs::path& last_go
     if (pair.now && !is_equal) figures.push_back(std::move(pair));
   }
   return figures;
-}
-
-/// Where the run folder of the last good night is kept.
-fs::path last_good_folder(const fs::path& run) {
-  const fs::path whole = fs::absolute(run).lexically_normal();
-  return whole.parent_path() / (whole.filename().string() + ".last_good");
 }
 
 /// Keeps a good night: cells and recordings as links to the same files, because nobody writes into a file that is
@@ -186,7 +202,10 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
   input.now = load_run_results(plan.run);
   input.facts = manifest_facts(plan.run);
   if (fs::exists(plan.run / kReportPage)) input.report = kReportPage.name();
-  input.rankings = rank_methods(input.now.cells, load_cell_seconds(plan.run, input.now.cells));
+  if (!load_benchmark(plan.run)) input.scenarios_page = input.report;
+  std::map<std::string, std::string> conditions;
+  for (const auto& scenario : load_run_scenarios(plan.run)) conditions[scenario.name] = condition_text(scenario);
+  input.rankings = rank_methods(input.now.cells, load_scan_seconds(plan.run, input.now.cells), conditions);
   input.worst = worst_scans(plan.run, input.now, kWorstScans);
   input.files = {kSummaryFile.name(), kManifestFile.name()};
   write_file_atomically(plan.run / kNightFile, nlohmann::ordered_json{{"suite", plan.suite}}.dump() + "\n");

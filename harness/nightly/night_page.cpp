@@ -10,6 +10,7 @@
 #include "harness/analysis/verdict.hpp"
 #include "harness/files/base64.hpp"
 #include "harness/nightly/comparison_tables.hpp"
+#include "harness/nightly/status_matrix.hpp"
 #include "harness/page/html_page.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/page/scan_sketch.hpp"
@@ -31,10 +32,7 @@ std::string verdict_banner(const NightInput& input) {
   if (input.drift)
     out += fmt::format("<p>Against the oldest baseline, {}: {}</p>\n", escaped(input.drift_reference),
                        escaped(verdict_sentence(*input.drift)));
-  out +=
-      fmt::format("<p class=\"faint\">{} cells, of which {} were not run again, because nothing in them changed.</p>\n",
-                  input.now.cells.size(), input.reused);
-  return out;
+  return out + fmt::format("<p class=\"faint\">{}</p>\n", reuse_text(input.now.cells.size(), input.reused));
 }
 
 std::string list_of(const std::vector<std::string>& items) {
@@ -59,65 +57,49 @@ std::string picture_pairs(const std::vector<PicturePair>& pairs) {
   return out;
 }
 
-/// Spark lines of the changes that the page lists.
+std::string better_text(const metrics::MetricDescription& metric) {
+  switch (metric.direction) {
+    case metrics::Direction::higher_is_better:
+      return "↑ higher";
+    case metrics::Direction::lower_is_better:
+      return "↓ lower";
+    case metrics::Direction::target:
+      return fmt::format("near {:.4g}", metric.target);
+    case metrics::Direction::neither:
+      break;
+  }
+  return "–";
+}
+
+/// Spark lines of the changes that the page lists, with the values at their lower and upper edge.
 std::string trends(const NightInput& input) {
+  const auto descriptions = metric_descriptions();
   std::string out;
   for (const auto& [name, points] : input.trends) {
     if (points.size() < 2) continue;
     std::vector<double> values;
     for (const auto& point : points) values.push_back(point.value);
-    out += fmt::format("<tr><th class=\"head\">{}</th><td>{}</td><td>{:.4g}</td><td>{:.4g}</td><td>{}</td></tr>\n",
-                       escaped(name), sparkline(values, name + " over the last nights"), values.front(), values.back(),
-                       points.size());
+    const auto [low, high] = std::ranges::minmax(values);
+    const auto known = descriptions.find(name.substr(name.rfind('/') + 1));
+    const metrics::MetricDescription metric =
+        known == descriptions.end() ? metrics::MetricDescription{} : known->second;
+    out += fmt::format(
+        "<tr><th class=\"head\">{}</th><td>{}</td><td>{}</td><td>{:.4g} … {:.4g}</td><td>{:.4g}</td><td>{:.4g}</td>"
+        "<td>{}</td><td>{} since {}</td></tr>\n",
+        escaped(name), better_text(metric), sparkline(values, name + " over the last nights"), low, high,
+        values.front(), values.back(), escaped(metric.unit), points.size(),
+        escaped(points.front().start.substr(0, 10)));
   }
   if (out.empty()) return "";
-  return "<div class=\"scroll\"><table><thead><tr><th class=\"head\">scenario/pipeline/metric</th><th>trend</th>"
-         "<th>first</th><th>now</th><th>nights</th></tr></thead><tbody>\n" +
+  return "<div class=\"scroll\"><table><thead><tr><th class=\"head\">scenario/pipeline/metric</th><th>better</th>"
+         "<th>trend</th><th>from low to high</th><th>first</th><th>now</th><th>unit</th><th>nights</th></tr></thead>"
+         "<tbody>\n" +
          out + "</tbody></table></div>\n";
 }
 
-/// One word per pipeline and scenario: the worst that happened there.
-/// It leads to the scenario in the report.
-std::string matrix(const Comparison& comparison, const std::string& report) {
-  std::vector<std::string> scenarios, pipelines;
-  const auto add_name = [](std::vector<std::string>& names, const std::string& name) {
-    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-  };
-  for (const auto& change : comparison.changes) {
-    add_name(scenarios, change.scenario);
-    add_name(pipelines, change.pipeline);
-  }
-  for (const auto& broken : comparison.broken) {
-    add_name(scenarios, broken.cell.scenario);
-    add_name(pipelines, broken.cell.pipeline);
-  }
-  Table table{"matrix", "", "A number counts gates.", {"pipeline"}, {}, {}};
-  for (const auto& scenario : scenarios) table.columns.push_back({"", scenario});
-  for (const auto& pipeline : pipelines) {
-    Table::Row row{{pipeline}, {}, false};
-    for (const auto& scenario : scenarios) {
-      std::size_t worse = 0, better = 0, same = 0, all = 0;
-      for (const auto& change : comparison.changes) {
-        if (!change.gate || change.scenario != scenario || change.pipeline != pipeline) continue;
-        ++all;
-        worse += change.finding == Finding::worse ? 1 : 0;
-        better += change.finding == Finding::better ? 1 : 0;
-        same += change.finding == Finding::same ? 1 : 0;
-      }
-      const auto broken = std::ranges::count_if(comparison.broken, [&](const StatusChange& change) {
-        return change.cell.scenario == scenario && change.cell.pipeline == pipeline;
-      });
-      std::string text = all == 0 ? "–" : same == all ? "equal" : "within";
-      if (better > 0) text = fmt::format("▲ {} better", better);
-      if (worse > 0) text = fmt::format("▼ {} worse", worse);
-      if (broken > 0) text = fmt::format("✗ {} broken", broken);
-      TableCell cell{.text = std::move(text), .best = false};
-      if (all > 0 && !report.empty()) cell.link = report + "#" + scenario;
-      row.cells.push_back(std::move(cell));
-    }
-    table.rows.push_back(std::move(row));
-  }
-  return table.rows.empty() ? "" : to_html(table);
+/// Twelve digits; "(changed)" for a program whose code was not that of the commit.
+std::string commit_text(const std::string& commit) {
+  return commit.substr(0, 12) + (commit.find("-dirty-") == std::string::npos ? "" : " (changed)");
 }
 
 std::string history(const NightInput& input) {
@@ -125,9 +107,9 @@ std::string history(const NightInput& input) {
   Table table{"nights", "", "", {"start (UTC)", "commit", "verdict"}, {}, {}};
   for (std::size_t i = input.nights.size(); i-- > 0 && table.rows.size() < kShown;) {
     const Night& night = input.nights[i];
-    table.rows.push_back({{night.start, night.commit.substr(0, 12), night.sentence}, {}, false});
+    table.rows.push_back({{night.start, commit_text(night.commit), night.sentence}, {}, false});
   }
-  return table.rows.size() < 2 ? "" : to_html(table);
+  return table.rows.size() < 2 ? "" : "<div class=\"nights\">\n" + to_html(table) + "</div>\n";
 }
 
 std::string definitions(const NightInput& input) {
@@ -135,6 +117,7 @@ std::string definitions(const NightInput& input) {
   std::set<std::string> used;
   if (input.comparison)
     for (const auto& change : input.comparison->changes) used.insert(change.metric.metric);
+  for (const auto& ranking : input.rankings) used.insert(ranking.quality.metric);
   std::string out;
   for (const auto& metric : used) {
     const auto found = descriptions.find(metric);
@@ -202,10 +185,11 @@ std::vector<PagePart> parts_of(const NightInput& input) {
     add("differs-section", "What differs", list_of(comparison->differing));
     add("better-section", "What became better", table_of(*comparison, "better"));
     add("cells-section", "Completeness", table_of(*comparison, "completeness"));
-    add("matrix-section", "Pipelines × scenarios", matrix(*comparison, input.report));
+    add("matrix-section", "Pipelines × scenarios",
+        html_status_matrices(input.now, *comparison, input.rankings, input.scenarios_page));
     add("figures-section", "Figures of what became worse", picture_pairs(input.figures));
   }
-  add("rankings-section", "Rankings, and accuracy against time", html_rankings(input.rankings, input.report));
+  add("rankings-section", "Rankings, and accuracy against time", html_rankings(input.rankings, input.scenarios_page));
   add("worst-section", "The worst scans of each pipeline", worst_list(input));
   add("trends-section", "Trends", trends(input));
   add("nights-section", "Nights", history(input));
@@ -215,6 +199,11 @@ std::vector<PagePart> parts_of(const NightInput& input) {
 }
 
 }  // namespace
+
+std::string reuse_text(std::size_t cells, std::size_t reused) {
+  if (reused == 0) return fmt::format("{} cells, all run in this night.", cells);
+  return fmt::format("{} of {} cells were not run again, because nothing in them changed.", reused, cells);
+}
 
 std::string night_page(const NightInput& input) {
   return html_page("scanbench, night of " + input.suite,

@@ -1,6 +1,7 @@
 // The page of a night: what a maintainer opens in the morning. It answers "is anything worse?" first.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -48,8 +49,12 @@ struct NightInput {
   std::vector<std::pair<std::string, std::string>> facts;  ///< how to get the numbers again
   std::size_t reused = 0;                                  ///< cells that were not run again, because nothing changed
   std::string report;              ///< the run's own report beside this page: a relative link; empty: there is none
+  std::string scenarios_page;      ///< the same if it has an anchor per scenario, as that of a benchmark has not
   std::vector<std::string> files;  ///< other files beside this page that hold its numbers
 };
+
+/// How many cells the night took from an earlier one, as a sentence.
+std::string reuse_text(std::size_t cells, std::size_t reused);
 
 /// Self-contained HTML: no request, light and dark, readable without JavaScript.
 std::string night_page(const NightInput& input);

@@ -83,18 +83,20 @@ std::string place_of(const fs::path& folder) {
 
 Store::Store(const fs::path& file) : database_(file, Database::Access::write) {
   database_.execute("PRAGMA foreign_keys = ON; PRAGMA synchronous = NORMAL");
-  Statement tables(database_, "SELECT count(*) FROM sqlite_master");
-  tables.step();
-  const bool is_empty = tables.integer(0) == 0;
-  tables.reset();
-  if (is_empty) create();
+  if (is_empty()) create();
   check_schema();
 }
 
+bool Store::is_empty() const {
+  Statement tables(database_, "SELECT count(*) FROM sqlite_master");
+  tables.step();
+  return tables.integer(0) == 0;
+}
+
 void Store::create() {
-  database_.execute("PRAGMA journal_mode = WAL");
+  database_.use_write_ahead_log();
   Transaction transaction(database_);
-  database_.execute(kTables);
+  if (is_empty()) database_.execute(kTables);  // another night may have made them since
   transaction.commit();
 }
 

@@ -60,6 +60,7 @@ class Store {
                                 const std::string& metric, std::size_t count) const;
 
  private:
+  bool is_empty() const;
   void create();
   std::int64_t insert(const std::string& suite, const std::string& place, const RunResults& results);
   void check_schema() const;

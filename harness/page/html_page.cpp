@@ -46,7 +46,7 @@ input.filter { font: inherit; padding: .05rem .5rem; border: 1px solid var(--rul
 .chart { width: 100%; max-width: 34rem; font-size: 12px; fill: var(--ink); } .chart .axis path { stroke: var(--faint); fill: none; }
 .chart .axis text { fill: var(--faint); } .chart .front { stroke: var(--accent); fill: none; stroke-width: 1.5; stroke-dasharray: 5 3; }
 .chart .on { fill: var(--accent); stroke: var(--accent); } .chart .off { fill: none; stroke: var(--faint); stroke-width: 1.5; }
-.ranking { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 1.2rem; align-items: start; }
+.ranking { display: flex; flex-wrap: wrap; gap: 1.2rem; align-items: flex-start; } .ranking section { max-width: 100%; } .ranking .chart { flex: 1 1 20rem; }
 .glance { display: flex; flex-wrap: wrap; gap: 0 2rem; align-items: flex-start; } .glance .chart { flex: 0 0 26rem; max-width: 100%; } .glance section { max-width: 100%; } .glance .caption { max-width: 30rem; }
 .scans { display: grid; grid-template-columns: repeat(auto-fill, minmax(12rem, 1fr)); gap: .8rem; }
 .scans figure { margin: 0; } .scan { width: 100%; fill: none; stroke: var(--faint); stroke-width: 3; border: 1px solid var(--rule); }
@@ -58,6 +58,13 @@ input.filter { font: inherit; padding: .05rem .5rem; border: 1px solid var(--rul
 .spark { vertical-align: middle; color: var(--accent); } figure img { cursor: zoom-in; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr)); gap: 1.2rem; }
 dialog { max-width: 96vw; max-height: 96vh; padding: .5rem; border: 0; background: #fff; } dialog img { max-width: 92vw; max-height: 88vh; }
+.matrices { display: flex; flex-wrap: wrap; gap: .6rem 2rem; align-items: flex-start; } .matrices section { max-width: 100%; } .matrices td { text-align: left; }
+.matrices thead th { white-space: normal; overflow-wrap: anywhere; max-width: 9rem; text-align: left; vertical-align: bottom; } .matrices td a { text-decoration: none; }
+td.worse, .chip.worse, td.missing, .chip.missing { background: #d55e0030; box-shadow: inset .25rem 0 #d55e00; } td.better, .chip.better { background: #0072b22b; box-shadow: inset .25rem 0 #0072b2; }
+td.failed, .chip.failed { background: #cc79a740; box-shadow: inset .25rem 0 #cc79a7; } td.uncertain, .chip.uncertain { background: #e69f0030; box-shadow: inset .25rem 0 #e69f00; }
+.chips { flex: 1 1 100%; } .chips h3 { margin: .2rem 0; } .chips div { display: grid; grid-template-columns: repeat(auto-fill, minmax(10.5rem, 1fr)); gap: .25rem .4rem; }
+.chip { padding: .1rem .3rem .1rem .55rem; background: var(--tint); font-size: .82rem; line-height: 1.3; text-decoration: none; overflow-wrap: anywhere; } .chip b, .chip small { display: block; color: var(--ink); } .chip small { color: var(--faint); }
+.nights tbody th.head:last-child { white-space: normal; min-width: 16rem; font-weight: 400; } .nights th.head { vertical-align: top; }
 @media print { nav, .tools { display: none; } body { max-width: none; } .scroll { overflow: visible; } }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; font-size: .86rem; } dt { color: var(--faint); } dd { margin: 0; overflow-wrap: anywhere; }
 )css";

@@ -12,7 +12,8 @@ struct TableCell {
   bool published = false;  ///< from a paper, not computed here
   std::string spread{};    ///< "± 0.12": after the text, below it in HTML; may be empty
   std::string link{};      ///< HTML: what the text leads to, a relative address; may be empty
-  std::string hint{};      ///< HTML: shown when the pointer rests on the text, for example a command
+  std::string state{};  ///< HTML: worse, better, uncertain, failed or missing: a colour beside the words; may be empty
+  std::string hint{};   ///< HTML: shown when the pointer rests on the text, for example a command
 };
 
 struct TableColumn {

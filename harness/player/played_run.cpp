@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include "harness/player/scan_choice.hpp"
 #include "harness/report/line_verdicts.hpp"
 #include "harness/report/recording_note.hpp"
+#include "harness/report/scan_error.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/recording_folder.hpp"
@@ -36,8 +38,9 @@ constexpr double kMostSteps = 32000.0;  // a coordinate is a 16-bit number
 struct PlayedPipeline {
   std::string name;
   std::vector<ScanLines> lines;
-  std::vector<render::ScanVerdict> verdicts;        ///< empty without truth
-  std::vector<double> f1, unexplained, residual_m;  ///< per scan; NaN: undefined
+  std::vector<render::ScanVerdict> verdicts;  ///< empty without truth
+  std::vector<double> f1, error;              ///< per scan, error: scan_error(); NaN: undefined, empty: no scans.csv
+  std::vector<double> unexplained, residual_m;
 };
 
 /// Share of the returns that support no line, and the root mean square distance of the others from their lines [m].
@@ -59,18 +62,20 @@ std::pair<double, double> explained(const Scan& scan, const ScanLines& lines) {
   return {returns > 0 ? static_cast<double>(without) / returns : NAN, with > 0 ? std::sqrt(squares / with) : NAN};
 }
 
-/// The column f1 of scans.csv, by scan; empty without the file.
-std::vector<double> f1_of(const fs::path& cell, std::size_t frames) {
+/// Fills f1 and error from scans.csv; leaves them empty without the file.
+void read_scans(const fs::path& cell, std::size_t frames, PlayedPipeline& played) {
   const fs::path file = cell / "scans.csv";
-  if (!fs::exists(file)) return {};
-  const CsvTable table(read_file(file), file, {"frame", "f1"});
-  std::vector<double> f1(frames, NAN);
+  if (!fs::exists(file)) return;
+  const CsvTable table(read_file(file), file, {"frame", "f1", "false", "missed", "split"});
+  played.f1.assign(frames, NAN);
+  played.error.assign(frames, NAN);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const int frame = table.index(row, "frame");
     if (frame < 0 || as_index(frame) >= frames) table.refuse(row, fmt::format("there is no scan {}", frame));
-    f1[as_index(frame)] = table.number(row, "f1");
+    played.f1[as_index(frame)] = table.number(row, "f1");
+    played.error[as_index(frame)] = scan_error(
+        table.number(row, "f1"), table.number(row, "false") + table.number(row, "missed") + table.number(row, "split"));
   }
-  return f1;
 }
 
 std::vector<PlayedPipeline> played_pipelines(const fs::path& run, const Scenario& scenario,
@@ -86,9 +91,11 @@ std::vector<PlayedPipeline> played_pipelines(const fs::path& run, const Scenario
     PlayedPipeline one{.name = pipeline.name,
                        .lines = {},
                        .verdicts = line_verdicts(recording, result, segment_rules(scenario.metrics)),
-                       .f1 = f1_of(cell, frames),
+                       .f1 = {},
+                       .error = {},
                        .unexplained = {},
                        .residual_m = {}};
+    read_scans(cell, frames, one);
     for (std::size_t f = 0; f < frames; ++f) {
       const auto [share, rms] = explained(recording.observed.scan(f), result.lines[f]);
       one.unexplained.push_back(share);
@@ -100,12 +107,12 @@ std::vector<PlayedPipeline> played_pipelines(const fs::path& run, const Scenario
   return played;
 }
 
-/// The largest error of any pipeline: 1 - F1 where the truth is known, else the share of returns without a line.
+/// The largest error of any pipeline: scan_error() where the truth is known, else the share of returns without a line.
 std::vector<double> errors_of(const std::vector<PlayedPipeline>& pipelines, std::size_t frames) {
   std::vector<double> errors(frames, NAN);
   for (const PlayedPipeline& p : pipelines)
     for (std::size_t f = 0; f < frames; ++f)
-      errors[f] = std::fmax(errors[f], p.f1.empty() ? p.unexplained[f] : 1.0 - p.f1[f]);
+      errors[f] = std::fmax(errors[f], p.error.empty() ? p.unexplained[f] : p.error[f]);
   return errors;
 }
 
@@ -163,7 +170,10 @@ Json packed(const PlayedPipeline& p, const std::vector<std::size_t>& chosen, dou
             {"verdicts", verdicts},
             {"missed_counts", missed_counts},
             {"missed", base64(missed)}};
-  if (!p.f1.empty()) json["f1"] = numbers(p.f1, chosen, 1e-4);
+  if (!p.f1.empty()) {
+    json["f1"] = numbers(p.f1, chosen, 1e-4);
+    json["error"] = numbers(p.error, chosen, 1e-8);
+  }
   json["unexplained"] = numbers(p.unexplained, chosen, 1e-4);
   json["residual_m"] = numbers(p.residual_m, chosen, 1e-5);
   return json;
@@ -176,7 +186,7 @@ double bytes_per_scan(const Recording& recording, const std::vector<PlayedPipeli
     for (const ScanLines& scan : p.lines) lines += static_cast<double>(scan.lines.size());
   const double frames = std::max(1.0, static_cast<double>(recording.observed.frames.size()));
   const double beams = recording.observed.sensor.geometry.beams();
-  return 4.0 / 3.0 * (2.0 * beams + 2.0 * 9.0 * lines / frames) + 40.0 * static_cast<double>(pipelines.size());
+  return 4.0 / 3.0 * (2.0 * beams + 2.0 * 9.0 * lines / frames) + 60.0 * static_cast<double>(pipelines.size());
 }
 
 double largest_range(const Recording& recording) {
@@ -207,7 +217,7 @@ Json packed(const Scenario& scenario, const Recording& recording, const std::vec
     list.back()["color"] = hex(styles[k].color);
   }
   return {{"name", scenario.name},
-          {"note", recording_note(scenario, scenario.seeds.front())},
+          {"note", recording_note(scenario, std::span(scenario.seeds).first(1))},
           {"of", recording.observed.frames.size()},
           {"frames", chosen},
           {"beams", geometry.beams()},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "core/names.hpp"
 #include "harness/page/scatter_chart.hpp"
@@ -14,6 +15,9 @@
 
 namespace scanbench::harness {
 namespace {
+
+constexpr std::size_t kListedScenarios = 3;  // more are counted
+const Display kMicroseconds{"µs", 1e6};      // of all times of a scan, so that they can be compared
 
 /// The unit in which the values of a column are shown.
 Display shown_unit(const std::string& unit, const std::vector<double>& values) {
@@ -47,16 +51,13 @@ TableCell quality_cell(const RankedMethod& method, const Display& display, bool 
 
 Table ranking_table(const MethodRanking& ranking) {
   const Display quality = quality_unit(ranking);
-  std::vector<double> seconds;
-  for (const auto& method : ranking.methods) seconds.push_back(method.seconds);
-  const Display time = shown_unit("s", seconds);
   Table table{"",
               "",
               "",
               {"pipeline"},
               {{"", heading(ranking.quality.metric, quality)},
                {"", "beats the next"},
-               {"", heading("time", time)},
+               {"", heading("time a scan", kMicroseconds)},
                {"", "front"}},
               {}};
   for (const auto& method : ranking.methods) {
@@ -64,7 +65,7 @@ Table ranking_table(const MethodRanking& ranking) {
     table.rows.push_back({{method.pipeline},
                           {quality_cell(method, quality, is_best),
                            probability_cell(method.beats_next),
-                           {value_text(method.seconds, time)},
+                           {value_text(method.seconds, kMicroseconds)},
                            {method.on_front ? "●" : ""}},
                           false});
   }
@@ -72,7 +73,23 @@ Table ranking_table(const MethodRanking& ranking) {
 }
 
 std::string list_of(const std::vector<std::string>& scenarios) {
-  return scenarios.size() <= 3 ? join(scenarios) : fmt::format("{} scenarios", scenarios.size());
+  return scenarios.size() <= kListedScenarios ? join(scenarios) : fmt::format("{} scenarios", scenarios.size());
+}
+
+/// The scenarios as links, and their condition. Many scenarios are below the heading, folded.
+std::string heading_of(const MethodRanking& ranking, const std::string& report) {
+  std::string links;
+  for (const auto& name : ranking.scenarios)
+    links +=
+        (links.empty() ? "" : ", ") + (report.empty() ? html_escaped(name)
+                                                      : fmt::format("<a href=\"{}#{}\">{}</a>", html_escaped(report),
+                                                                    html_escaped(name), html_escaped(name)));
+  const std::string condition = html_escaped(ranking.condition);
+  if (ranking.scenarios.size() <= kListedScenarios)
+    return "<h3>" + links + "</h3>\n" +
+           (condition.empty() ? "" : "<p class=\"faint\">Condition: " + condition + "</p>\n");
+  return fmt::format("<h3>{} scenarios{}{}</h3>\n<details><summary>which</summary>{}</details>\n",
+                     ranking.scenarios.size(), condition.empty() ? "" : ": ", condition, links);
 }
 
 }  // namespace
@@ -100,12 +117,27 @@ std::string ranking_sentence(const MethodRanking& ranking) {
   return text;
 }
 
+std::string budget_sentence(const MethodRanking& ranking) {
+  std::vector<const RankedMethod*> front;
+  for (const auto& method : ranking.methods)
+    if (method.on_front) front.push_back(&method);
+  if (front.size() < 2) return "";
+  std::ranges::sort(front, {}, &RankedMethod::seconds);
+  const Display quality = quality_unit(ranking);
+  std::vector<std::string> parts;
+  for (const RankedMethod* method : front) {
+    parts.push_back(fmt::format("{} from {} {} ({})", method->pipeline, value_text(method->seconds, kMicroseconds),
+                                kMicroseconds.unit, value_text(method->quality.mean, quality)));
+  }
+  return "The best for a given time a scan: " + join(parts) + ".";
+}
+
 std::string accuracy_chart(const MethodRanking& ranking) {
   const Display quality = quality_unit(ranking);
-  ScatterChart chart{"CPU time of one recording [ms]", heading(ranking.quality.metric, quality), {}};
+  ScatterChart chart{"CPU time of one scan [µs]", heading(ranking.quality.metric, quality), {}};
   for (const auto& method : ranking.methods)
     chart.points.push_back(
-        {1e3 * method.seconds, quality.scale * method.quality.mean, method.pipeline, method.on_front});
+        {1e6 * method.seconds, quality.scale * method.quality.mean, method.pipeline, method.on_front});
   return scatter_chart(chart);
 }
 
@@ -113,17 +145,12 @@ std::string html_rankings(const std::vector<MethodRanking>& rankings, const std:
   if (rankings.empty()) return "";
   std::string out =
       "<p class=\"caption\">Means over the seeds with their 95 % intervals. “Beats the next” is the probability to be "
-      "better than the next row on a new seed, with its 95 % interval. The time is the CPU time of all stages for one "
-      "recording. ● no other pipeline is both as good and as fast.</p>\n";
-  for (const auto& ranking : rankings) {
-    std::string heads;
-    for (const auto& name : ranking.scenarios)
-      heads += fmt::format("{}<a href=\"{}#{}\">{}</a>", heads.empty() ? "" : ", ", html_escaped(report),
-                           html_escaped(name), html_escaped(name));
-    out +=
-        fmt::format("<h3>{}</h3>\n<p>{}</p>\n<div class=\"ranking\">\n{}{}</div>\n", heads,
-                    html_escaped(ranking_sentence(ranking)), to_html(ranking_table(ranking)), accuracy_chart(ranking));
-  }
+      "better than the next row on a new seed, with its 95 % interval. The time is the CPU time of all stages of one "
+      "scan. ● no other pipeline is both as good and as fast.</p>\n";
+  for (const auto& ranking : rankings)
+    out += fmt::format("{}<p>{} {}</p>\n<div class=\"ranking\">\n{}{}</div>\n", heading_of(ranking, report),
+                       html_escaped(ranking_sentence(ranking)), html_escaped(budget_sentence(ranking)),
+                       to_html(ranking_table(ranking)), accuracy_chart(ranking));
   return out;
 }
 

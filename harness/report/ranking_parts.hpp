@@ -12,8 +12,11 @@ namespace scanbench::harness {
 /// none is called best.
 std::string ranking_sentence(const MethodRanking& ranking);
 
-/// One section per ranking: the sentence, the table and the chart. Names of scenarios lead to `report` + "#" + name; an
-/// empty `report` means this page.
+/// "The best for a given time a scan: sef from 8 µs (0.81), iepf from 26 µs (0.93)." Empty if one is best for any time.
+std::string budget_sentence(const MethodRanking& ranking);
+
+/// One section per ranking: the scenarios and their condition, the sentences, the table and the chart. Names of
+/// scenarios lead to `report` + "#" + name, unless `report` is empty.
 std::string html_rankings(const std::vector<MethodRanking>& rankings, const std::string& report);
 
 /// Accuracy against time as inline SVG; empty if no time is known.

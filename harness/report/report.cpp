@@ -11,6 +11,7 @@
 #include "harness/page/plain_text.hpp"
 #include "harness/report/page_parts.hpp"
 #include "harness/report/ranking_parts.hpp"
+#include "harness/report/recording_note.hpp"
 #include "harness/report/scenario_tables.hpp"
 
 namespace scanbench::harness {
@@ -20,8 +21,8 @@ constexpr std::size_t kPageWidth = 136;  // characters of a table that fit the p
 
 std::string input_text(const ReportInput& input, const Scenario& scenario) {
   if (const auto* simulated = std::get_if<SimulatedInput>(&scenario.input)) {
-    return fmt::format("World {} with {} walls, sensor {}, trajectory {}, {} seed{}.", simulated->world.name,
-                       simulated->world.walls.size(), simulated->sensor_preset, simulated->trajectory.module,
+    return fmt::format("World {} with {} walls, {}, trajectory {}, {} seed{}.", simulated->world.name,
+                       simulated->world.walls.size(), condition_text(scenario), simulated->trajectory.module,
                        scenario.seeds.size(), scenario.seeds.size() == 1 ? "" : "s");
   }
   if (const auto* lines = std::get_if<LinesInput>(&scenario.input)) {

@@ -38,6 +38,10 @@ constexpr std::array<std::string_view, 15> kOverview{
     "rpe_position", "ate_position", "missed",         "n_lines", "s_mean",         "d_mean",
     "t_total",      "t_scan",       "t_match"};
 
+/// What describes a pipeline but does not judge it: one line per point has no distances, and the fastest may find
+/// nothing.
+constexpr std::array<std::string_view, 5> kNoVerdict{"s_mean", "d_mean", "t_total", "t_scan", "t_match"};
+
 using Key = std::pair<std::string, std::string>;  // metric, subject
 
 /// Our values of one (pipeline, metric, subject) over seeds.
@@ -318,7 +322,11 @@ std::optional<Table> overview_table(const Scenario& scenario, const ComparableRo
 
 std::string overview_sentence(const Table& overview) {
   if (overview.rows.size() < 2) return "";
+  bool any_judges = false;
   for (std::size_t c = 0; c < overview.columns.size(); ++c) {
+    const std::string& head = overview.columns[c].head;
+    if (std::ranges::count(kNoVerdict, std::string_view(head).substr(0, head.find(" ["))) > 0) continue;
+    any_judges = true;
     std::vector<std::string> best;
     for (const auto& row : overview.rows)
       if (row.cells[c].best) best.push_back(fmt::format("{} ({})", row.heads.front(), row.cells[c].text));
@@ -326,6 +334,10 @@ std::string overview_sentence(const Table& overview) {
       return fmt::format("Best {} of {} pipelines: {}.", overview.columns[c].head, overview.rows.size(),
                          fmt::join(best, ", "));
   }
+  if (!any_judges)
+    return "No pipeline is called best: without a truth, neither the distances of points from their lines nor the "
+           "number "
+           "of lines nor times show which one is right.";
   return "No pipeline is called best: none of these values has a best one that every pipeline is eligible for.";
 }
 

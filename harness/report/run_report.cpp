@@ -91,7 +91,7 @@ std::map<std::string, MethodRanking> rankings_by_scenario(const ReportInput& inp
   }
   std::map<std::string, MethodRanking> rankings;
   for (const auto& [scenario, of_scenario] : cells)
-    for (auto& ranking : rank_methods(of_scenario, load_cell_seconds(input.run, of_scenario)))
+    for (auto& ranking : rank_methods(of_scenario, load_scan_seconds(input.run, of_scenario)))
       rankings.emplace(scenario, std::move(ranking));
   return rankings;
 }

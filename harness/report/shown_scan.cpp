@@ -15,6 +15,7 @@
 #include "harness/files/csv.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/report/line_verdicts.hpp"
+#include "harness/report/scan_error.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/recording_folder.hpp"
@@ -51,18 +52,15 @@ class ScanRows {
                    std::vector<std::string>{"frame", "true", "false", "missed", "split", "f1", "residual_m"});
   }
 
-  /// Lowest F1; of several the one with most false, missed and split lines; of several the first.
+  /// That with the largest scan_error(); of several the first.
   std::size_t worst_frame() const {
     if (!table_)
       throw ConfigError(file_.string() + ": no such file, so the worst scan is not known; the metric family " +
                         "`segments` writes it for recordings with a truth; or give the number of a scan: --frame N");
     std::optional<std::size_t> worst;
     for (std::size_t row = 0; row < table_->rows(); ++row) {
-      const double f1 = table_->number(row, "f1");
-      if (std::isnan(f1)) continue;
-      if (!worst || f1 < table_->number(*worst, "f1") ||
-          (f1 == table_->number(*worst, "f1") && faults(row) > faults(*worst)))
-        worst = row;
+      if (std::isnan(error(row))) continue;
+      if (!worst || error(row) > error(*worst)) worst = row;
     }
     if (!worst) throw ConfigError(file_.string() + ": no scan has an F1: none shows a true line, and none was found");
     return static_cast<std::size_t>(std::max(0, table_->index(*worst, "frame")));
@@ -78,8 +76,9 @@ class ScanRows {
   }
 
  private:
-  double faults(std::size_t row) const {
-    return table_->number(row, "false") + table_->number(row, "missed") + table_->number(row, "split");
+  double error(std::size_t row) const {
+    return scan_error(table_->number(row, "f1"),
+                      table_->number(row, "false") + table_->number(row, "missed") + table_->number(row, "split"));
   }
   std::string rounded(std::size_t row, const char* column) const {
     const double value = table_->number(row, column);

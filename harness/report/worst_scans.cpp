@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "core/recording.hpp"
@@ -14,6 +13,7 @@
 #include "harness/files/csv.hpp"
 #include "harness/page/scan_sketch.hpp"
 #include "harness/report/line_verdicts.hpp"
+#include "harness/report/scan_error.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
@@ -25,10 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_worse(const WorstScan& a, const WorstScan& b) {
-  const auto rank = [](const WorstScan& scan) {
-    return std::tuple(scan.f1, -(scan.false_lines + scan.missed + scan.split));
+  const auto error = [](const WorstScan& scan) {
+    return scan_error(scan.f1, scan.false_lines + scan.missed + scan.split);
   };
-  return rank(a) < rank(b);
+  return error(a) > error(b);
 }
 
 /// Inserts the scans of one cell into the list of its pipeline, which stays in order and short.

@@ -23,7 +23,7 @@ struct WorstScan {
 
 struct PipelineWorst {
   std::string pipeline;
-  std::vector<WorstScan> scans;  ///< lowest F1 first; of equal ones the most false, missed and split lines
+  std::vector<WorstScan> scans;  ///< worst first (scan_error.hpp)
 };
 
 /// Of every pipeline whose cells have a scans.csv (metric family `segments`), the `count` worst scans over all

@@ -7,6 +7,7 @@
 
 #include "harness/files/hash.hpp"
 #include "harness/scenario/effective.hpp"
+#include "harness/store/manifest.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -43,7 +43,12 @@ Json load_json_object(const fs::path& file, const std::string& without) {
 }
 
 void refuse_json(const fs::path& file, const Json::exception& error) {
-  throw ConfigError(file.string() + ": " + error.what());
+  constexpr int kNoSuchKey = 403;
+  std::string text = error.what();  // "[json.exception.out_of_range.403] key 'suite' not found"
+  if (const auto end = text.find("] "); end != std::string::npos) text.erase(0, end + 2);
+  if (const auto end = text.find("' not found"); error.id == kNoSuchKey && end != std::string::npos)
+    text = "the " + text.substr(0, end) + "' is missing";
+  throw ConfigError(file.string() + ": " + text);
 }
 
 }  // namespace scanbench::harness

@@ -137,6 +137,11 @@ void write_json(const fs::path& run, const Json& json, const Hashes& hashes) {
 
 }  // namespace
 
+const std::string& code_version() {
+  static const std::string hash = sha256_of_file_without("/proc/self/exe", version::kCommit);
+  return hash;
+}
+
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
@@ -157,7 +162,7 @@ void write_manifest(const fs::path& run, const Manifest& manifest) {
             {"program", "scanbench"},
             {"state", manifest.state},
             {"version", version::kVersion},
-            {"git_commit", version::kCommit},
+            {"git_commit", std::string(version::kCommit)},
             {"code_version", code_version()},
             {"compiler", version::kCompiler},
             {"build_type", version::kBuildType},

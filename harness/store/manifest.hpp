@@ -29,6 +29,11 @@ struct Manifest {
 
 std::string utc_now();
 
+/// The version of the code that made a result, computed once: the hash of the running executable without the commit
+/// that is written in it. A commit of documentation gives the same program, and its results stay valid; any other
+/// change of the executable, of the compiler or of its options too, is another version.
+const std::string& code_version();
+
 /// Writes manifest.json, with the SHA-256 of every file unless the run is still running.
 void write_manifest(const std::filesystem::path& run, const Manifest& manifest);
 /// Throws ConfigError if there is no manifest or another program wrote it.

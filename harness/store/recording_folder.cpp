@@ -23,12 +23,10 @@ using Files = std::vector<std::pair<std::string, std::string>>;
 
 const RunFile kFramesFile("recordings/*/*/frames.csv");
 const RunFile kRotationsFile("recordings/*/*/rotations.npy");
-const RunFile kRangesFile("recordings/*/*/ranges.npy");
 const RunFile kGivenLinesFile("recordings/*/*/lines.csv");
 const RunFile kReferencePosesFile("recordings/*/*/reference_poses.csv");
 const RunFile kRelationsFile("recordings/*/*/relations.csv");
 const RunFile kWallsFile("recordings/*/*/walls.csv");
-const RunFile kTrueRangesFile("recordings/*/*/true_ranges.npy");
 const RunFile kWallIdsFile("recordings/*/*/wall_ids.npy");
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

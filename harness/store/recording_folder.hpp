@@ -12,6 +12,8 @@
 namespace scanbench::harness {
 
 inline const RunFile kScanFile("recordings/*/*/scan.json");
+inline const RunFile kRangesFile("recordings/*/*/ranges.npy");
+inline const RunFile kTrueRangesFile("recordings/*/*/true_ranges.npy");
 
 /// The files of a recording: name and bytes, in the order in which they enter the content hash. Walls, true ranges and
 /// wall ids are absent without truth, lines.csv exists only if lines are given instead of scans, reference_poses.csv

@@ -139,6 +139,19 @@ TEST_F(Nightly, KilledInItsMiddleAndStartedAgainEqualsAnUnbrokenOne) {
   EXPECT_THAT(whole, testing::ContainerEq(rows("broken.sqlite")));
 }
 
+TEST_F(Nightly, InterruptedSaysThatTheSameCommandContinues) {
+  Child child(command({"nightly", "suite.yaml", "--store", "n.sqlite", "--no-figures", "--out", "night"}), {},
+              folder_.path());
+  ASSERT_TRUE(child.wait_until([&] {
+    return fs::exists(folder_ / "night/cells/room/iepf/1/status.json") ||
+           fs::exists(folder_ / ".night.new/cells/room/iepf/1/status.json");
+  }));
+  child.interrupt();
+  const Outcome outcome = child.wait();
+  EXPECT_EQ(outcome.code, 130);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("the same command continues"), Not(HasSubstr("--resume"))));
+}
+
 TEST_F(Nightly, StoreIsMadeAgainFromRunFolders) {
   ASSERT_EQ(night().code, 0);
   const Outcome made = here({"store", "again.sqlite", "out/nightly/suite"});
@@ -164,6 +177,69 @@ TEST_F(Nightly, SaysBeforeTheNightWhatCannotBeUsed) {
   EXPECT_THAT(night().err, HasSubstr("suite.yaml:3:13: the tolerance of f1 is -1; allowed: >= 0"));
   folder_.write("suite.yaml", "schema: 1\nscenarios: [room.yaml]\ngates: {n_true: 1}\n");
   EXPECT_THAT(night().err, HasSubstr("suite.yaml:3:9: no value of n_true is better than another"));
+}
+
+TEST_F(Nightly, NamesAnOptionThatIsMisspeltAndAFileThatIsNotWhatItSays) {
+  const Outcome misspelt = here({"nightly", "suite.yaml", "--sotre", "nights.sqlite"});
+  EXPECT_EQ(misspelt.code, 2);
+  EXPECT_THAT(misspelt.err, AllOf(HasSubstr("no option '--sotre'"), HasSubstr("did you mean '--store'?")));
+  folder_.write("second.yaml", room());
+  const Outcome two = here({"nightly", "room.yaml", "second.yaml", "--store", "nights.sqlite"});
+  EXPECT_EQ(two.code, 2);
+  EXPECT_THAT(two.err, HasSubstr("2 files have no common name; --suite must name the suite"));
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  ASSERT_EQ(night().code, 0);
+  folder_.write("out/nightly/suite/night.json", "{}");
+  const Outcome damaged = here({"accept", "out/nightly/suite", "--reason", "first"});
+  EXPECT_EQ(damaged.code, 2);
+  EXPECT_THAT(damaged.err, HasSubstr("night.json: the key 'suite' is missing"));
+}
+
+TEST_F(Nightly, TakesTheNumberOfABaselineWithoutItsZeros) {
+  ASSERT_EQ(night().code, 0);
+  ASSERT_EQ(here({"accept", "out/nightly/suite", "--reason", "first"}).code, 0);
+  EXPECT_EQ(night({"--baseline", "1"}).code, 0);
+  EXPECT_THAT(page(), HasSubstr("baseline 0001"));
+  EXPECT_THAT(night({"--baseline", "2"}).err, HasSubstr("no baseline '2' of suite; known: 0001"));
+}
+
+TEST_F(Nightly, SaysHowManyCellsItTookFromTheLastNightOnlyIfItTookAny) {
+  EXPECT_THAT(night().out, HasSubstr("8 cells, all run in this night."));
+  EXPECT_THAT(night().out, HasSubstr("8 of 8 cells were not run again"));
+}
+
+TEST_F(Nightly, OfTwoAtOnceOnANewStoreBothAreKept) {
+  Child first(command({"nightly", "suite.yaml", "--no-figures", "--store", "both.sqlite", "--out", "one"}), {},
+              folder_.path());
+  EXPECT_EQ(night({"--store", "both.sqlite", "--out", "two"}).code, 0);
+  EXPECT_EQ(first.wait().code, 0);
+  EXPECT_EQ(harness::Store(folder_ / "both.sqlite").nights("suite").size(), 2U);
+}
+
+TEST_F(Nightly, ComparesALogByItsScansWithTheLastGoodNightAndByValueWithABaseline) {
+  std::string log;
+  for (int scan = 0; scan < 40; ++scan) {
+    log += std::to_string(scan);
+    for (int beam = 0; beam < 60; ++beam) log += "," + std::to_string(2.0 + 0.02 * ((beam * 7 + scan * 3) % 11));
+    log += "\n";
+  }
+  folder_.write("log.csv", log);
+  folder_.write("log.yaml",
+                "schema: 1\nabout: a log\nrecording: {log: log.csv, format: csv, columns: [t_s, ranges], beams: 60, "
+                "first_angle_deg: -60, step_deg: 2}\nseed: 1\npipelines:\n  - {name: iepf, extract: {module: iepf, "
+                "params: {threshold_m: 0.1}}}\nmetrics: [siadat1997]\n");
+  folder_.write("suite.yaml", "schema: 1\nscenarios: [log.yaml]\ngates: {d_mean: 0.0001}\n");
+  ASSERT_EQ(night().code, 0);
+  const Outcome worse = night({"--set", "pipelines.iepf.extract.params.threshold_m=0.6"});
+  EXPECT_EQ(worse.code, 1) << worse.out << worse.err;
+  EXPECT_THAT(worse.out, HasSubstr("over 40 scans in blocks of"));
+  EXPECT_THAT(page(), AllOf(HasSubstr("per-scan pairs: 40 scans in blocks of"), HasSubstr("40 scans")));
+  ASSERT_EQ(night().code, 0);
+  ASSERT_EQ(here({"accept", "out/nightly/suite", "--reason", "first"}).code, 0);
+  const Outcome by_value = night({"--set", "pipelines.iepf.extract.params.threshold_m=0.6"});
+  EXPECT_EQ(by_value.code, 1) << by_value.out;
+  EXPECT_THAT(by_value.out, HasSubstr("without an interval: baseline 0001 keeps no single scans"));
+  EXPECT_THAT(page(), HasSubstr("value only"));
 }
 
 TEST_F(Nightly, IsIncompleteWhereAScenarioIsGone) {

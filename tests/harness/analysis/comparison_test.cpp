@@ -173,6 +173,16 @@ TEST(Comparison, SaysWhatDiffers) {
                           HasSubstr("scans of room/1")));
 }
 
+TEST(Comparison, DoesNotNameThePlaceOfACopyInTheRunAsADifference) {
+  RunResults a = f1_run({0.9});
+  RunResults b = a;
+  a.settings["room"] = {{"published", "inputs/room/published.csv"}};
+  b.settings["room"] = {{"published", "../inputs/room/published.csv"}};  // of a run with several scenarios
+  EXPECT_THAT(compare(a, b, Gates()).differing, IsEmpty());
+  b.settings["room"] = {{"published", "other.csv"}};
+  EXPECT_EQ(compare(a, b, Gates()).differing.size(), 1U);
+}
+
 // Nights with other noise than the night before, so that every value differs and nothing has changed.
 RunResults night(std::uint64_t number, double worse_by = 0.0) {
   return made_up_run({"a", "b", "c", "d"}, {"f1", "precision", "recall"}, 20,

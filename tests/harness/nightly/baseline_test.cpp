@@ -8,6 +8,7 @@
 #include "core/special_values.hpp"
 #include "harness/analysis/comparison.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/nightly/comparison_tables.hpp"
 #include "tests/harness/analysis/made_up_runs.hpp"
 #include "tests/support/inputs.hpp"
 #include "tests/support/runs.hpp"
@@ -47,8 +48,48 @@ TEST(Baseline, KeepsOneValuePerGateAndCell) {
   rows.back().metric = "precision";
   const RunResults reduced = gate_values(run, f1_gate());
   ASSERT_EQ(reduced.cells[0].rows.size(), 1U);
-  EXPECT_EQ(reduced.cells[0].rows[0].subject, "all");
+  EXPECT_EQ(reduced.cells[0].rows[0].subject, kMeanOfSubjects);
   EXPECT_EQ(reduced.cells[0].rows[0].value, 0.625);
+  EXPECT_EQ(reduced.cells[0].rows[0].count, 2);
+}
+
+/// A run with f1 of these walls on one seed.
+RunResults run_of_walls(const std::vector<double>& walls) {
+  RunResults run = f1_run({0.5});
+  const auto row = run.cells[0].rows[0];
+  run.cells[0].rows.clear();
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    run.cells[0].rows.push_back(row);
+    run.cells[0].rows.back().subject = "wall " + std::to_string(i);
+    run.cells[0].rows.back().value = walls[i];
+  }
+  return run;
+}
+
+TEST(Baseline, CountsTheWallsOfAMeanSoThatAnotherNumberIsSaid) {
+  const TemporaryFolder folder;
+  const RunResults run = run_of_walls({0.5, 0.6, 0.7});
+  const Baseline read = load_baseline(accept_baseline(folder.path(), "suite", run, f1_gate(), "first"));
+  EXPECT_EQ(compare(read.results, gate_values(run, f1_gate()), f1_gate()).changes.at(0).finding, Finding::same);
+  const RunResults fewer = run_of_walls({0.5, kNaN, 0.7});
+  const Comparison against = compare(read.results, gate_values(fewer, f1_gate()), f1_gate());
+  EXPECT_EQ(against.changes.at(0).subjects.before, 3U);
+  EXPECT_EQ(against.changes.at(0).subjects.after, 2U);
+  const auto note_of = [](const Comparison& comparison) {
+    return change_table("t", "", {&comparison.changes.at(0)}, "run").rows.at(0).cells.at(6).spread;
+  };
+  EXPECT_THAT(note_of(against), HasSubstr("2 walls, before 3"));
+  // Two runs are compared on the walls that both have.
+  const Comparison of_runs = compare(run, fewer, f1_gate());
+  EXPECT_EQ(of_runs.changes.at(0).difference.mean, 0.0);
+  EXPECT_THAT(note_of(of_runs), HasSubstr("2 of 3 walls"));
+}
+
+TEST(Baseline, ThatWasAcceptedBeforeWallsWereCountedStillCompares) {
+  RunResults old = gate_values(run_of_walls({0.5, 0.6}), f1_gate());
+  old.cells[0].rows[0].subject = "all";
+  const Comparison c = compare(old, gate_values(run_of_walls({0.5, 0.6}), f1_gate()), f1_gate());
+  EXPECT_EQ(c.changes.at(0).finding, Finding::same);
 }
 
 TEST(Baseline, MovesOnPurposeOnly) {

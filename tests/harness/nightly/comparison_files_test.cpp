@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/special_values.hpp"
+#include "harness/nightly/comparison_tables.hpp"
 #include "tests/harness/analysis/made_up_runs.hpp"
 
 namespace scanbench::harness {
@@ -49,6 +50,20 @@ TEST(ComparisonFiles, JunitCountsAFailurePerGateAndCell) {
   const std::string missing = comparison_junit(compare(f1_run({0.9, 0.8}), f1_run({0.9}), f1_gate()));
   EXPECT_THAT(missing, HasSubstr("errors=\"1\""));
   EXPECT_THAT(missing, HasSubstr("<error message=\"the cell is missing\"/>"));
+}
+
+TEST(ComparisonTables, CountNewCellsAndListTheFirst) {
+  const auto zero = [](const auto&, const auto&, std::uint64_t) { return 0.5; };
+  const std::vector<std::string> many{"iepf", "b", "c", "d", "e", "f", "g", "h"};
+  const Comparison c = compare(f1_run({0.5, 0.5}), testing::made_up_run(many, {"f1"}, 4, zero), f1_gate());
+  ASSERT_EQ(c.added.size(), 2U + 7U * 4U);
+  const auto table = completeness_table(c);
+  ASSERT_TRUE(table.has_value());
+  ASSERT_EQ(table->rows.size(), 6U);
+  EXPECT_EQ(table->rows[0].heads[2], "iepf");
+  EXPECT_EQ(table->rows[0].heads[3], "2 seeds, first 3");
+  EXPECT_EQ(table->rows[5].heads[1], "3 more pipelines");
+  EXPECT_EQ(table->rows[5].heads[3], "12 cells");
 }
 
 TEST(ComparisonFiles, TextOfModulesCannotLeaveItsPlace) {

@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/special_values.hpp"
@@ -95,6 +99,27 @@ TEST(Store, ReplacesARunThatItHasAlready) {
   EXPECT_EQ(store.load(again).cells.size(), 1U);
   store.add("suite", "run", night_of("2026-01-01T00:00:00Z", {0.3}));  // two nights within one second
   EXPECT_EQ(store.nights("suite").size(), 2U);
+}
+
+TEST(Store, IsMadeByManyProgramsAtOnce) {
+  for (int round = 0; round < 10; ++round) {
+    const TemporaryFolder folder;
+    std::atomic<int> good = 0;
+    std::vector<std::thread> nights;
+    for (int k = 0; k < 6; ++k)
+      nights.emplace_back([&, k] {
+        try {
+          Store store(folder.path() / "nights.sqlite");
+          store.add("suite", "run" + std::to_string(k), night_of("2026-01-01T00:00:00Z", {0.1}));
+          ++good;
+        } catch (const ConfigError& error) {
+          ADD_FAILURE() << error.what();
+        }
+      });
+    for (auto& night : nights) night.join();
+    EXPECT_EQ(good, 6);
+    EXPECT_EQ(Store(folder.path() / "nights.sqlite").nights("suite").size(), 6U);
+  }
 }
 
 TEST(Store, IsReadWhileItIsWritten) {

@@ -206,5 +206,17 @@ TEST(Display, ShowsSmallTimesInMicroseconds) {
   EXPECT_EQ(display_for("ms", 12.0).unit, "ms");
 }
 
+TEST(Overview, DoesNotCallAnExtractorBestForItsDistancesOrItsTime) {
+  const Scenario scenario = scenario_of({"a", "b"}, {"siadat1997", "timing"});
+  const auto sentence = [&](const std::vector<SummaryRow>& rows) {
+    const auto table =
+        overview_table(scenario, comparable_rows(scenario, rows, {cell("a", 1, "ok"), cell("b", 1, "ok")}));
+    return table ? overview_sentence(*table) : std::string();
+  };
+  EXPECT_THAT(
+      sentence({row("a", "d_mean", 0.01), row("b", "d_mean", 0.02), row("a", "t_scan", 3), row("b", "t_scan", 1)}),
+      HasSubstr("No pipeline is called best: without a truth"));
+}
+
 }  // namespace
 }  // namespace scanbench::harness
