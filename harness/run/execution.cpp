@@ -310,6 +310,7 @@ void Execution::put_in_place() {
   }
   std::vector<Finished> ended = std::exchange(finished_, {});
   std::vector<std::string> faults;
+  faults.reserve(ended.size());
   for (auto& cell : ended)
     faults.push_back(active_group_of(cell.cell).fault.empty() ? place(cell.staged) : active_group_of(cell.cell).fault);
   try {
@@ -320,7 +321,7 @@ void Execution::put_in_place() {
   }
   for (std::size_t i = 0; i < ended.size(); ++i) {
     if (faults[i].empty())
-      end_cell(ended[i].cell, std::move(ended[i].result), std::move(ended[i].summary));
+      end_cell(ended[i].cell, std::move(ended[i].result), ended[i].summary);
     else
       mark_missing(ended[i].cell, faults[i]);
     if (group_of(ended[i].cell).unfinished == 0) group_of(ended[i].cell).active.reset();
@@ -338,10 +339,10 @@ void Execution::mark_missing(std::size_t cell, const std::string& reason) {
   end_cell(cell, std::move(result), "");
 }
 
-void Execution::end_cell(std::size_t cell, CellResult result, std::string summary) {
+void Execution::end_cell(std::size_t cell, CellResult result, const std::string& summary) {
   Group& group = group_of(cell);
   if (--group.unfinished == 0 && group.active) group.active->recording.reset();
-  events_.ended(cell, std::move(result), std::move(summary));
+  events_.ended(cell, std::move(result), summary);
 }
 
 }  // namespace scanbench::harness

@@ -27,7 +27,7 @@ using MakeRecording = std::function<Recording(const Scenario&, std::uint64_t see
 /// What the owner of an execution hears of.
 struct ExecutionEvents {
   /// A cell has ended: its folder is in place and these are its lines of summary.csv, or it is missing.
-  std::function<void(std::size_t cell, CellResult result, std::string summary)> ended;
+  std::function<void(std::size_t cell, CellResult result, const std::string& summary)> ended;
   std::function<void(const std::string& what)> began_recording;
   std::function<void()> pause;  ///< between two cells
 };
@@ -88,7 +88,7 @@ class Execution {
   std::optional<StagedFolder> stage(std::size_t cell);
   void put_in_place();
   void put_in_place_if_due();
-  void end_cell(std::size_t cell, CellResult result, std::string summary);
+  void end_cell(std::size_t cell, CellResult result, const std::string& summary);
   void mark_missing(std::size_t cell, const std::string& reason);
 
   Group& group_of(std::size_t cell) { return groups_[plan_.cells[cell].group]; }

@@ -36,7 +36,7 @@ class Run {
         plan_(plan_run(scenarios, options)),
         execution_(plan_, options.jobs, services.recording,
                    {.ended = [this](std::size_t cell, CellResult result,
-                                    std::string summary) { end_cell(cell, std::move(result), summary); },
+                                    const std::string& summary) { end_cell(cell, std::move(result), summary); },
                     .began_recording = [this](const std::string& what) { tell_progress(what, nullptr); },
                     .pause = [this] { write_summary_now_and_then(); }}),
         cells_(plan_.cells.size()),

@@ -30,7 +30,7 @@ class Shard {
         plan_(plan_run(scenarios, {.out = sweep_.folder, .jobs = options.jobs, .journal = sweep_.journal})),
         execution_(plan_, options.jobs, options.recording ? options.recording : simulated_or_read(),
                    {.ended = [this](std::size_t cell, CellResult result,
-                                    std::string summary) { end_cell(cell, std::move(result), summary); },
+                                    const std::string& summary) { end_cell(cell, std::move(result), summary); },
                     .began_recording = [this](const std::string& what) { tell_progress(what, nullptr); },
                     .pause = [] {}}) {
     require_same_cells();
@@ -119,7 +119,7 @@ class Shard {
       result_.cells.push_back(std::move(result));
     }
     if (cells.empty()) return;
-    commit_shard(staged, options_.shard, std::move(cells), summary_->text());
+    commit_shard(staged, options_.shard, cells, summary_->text());
     result_.committed = staged.target();
   }
 

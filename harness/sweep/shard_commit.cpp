@@ -130,11 +130,12 @@ StagedFolder stage_shard(const fs::path& sweep, int number) {
   return {target, shards_path(sweep) / ("." + std::to_string(number) + ".tmp-" + unique)};
 }
 
-void commit_shard(StagedFolder& staged, int number, std::vector<CommittedCell> cells, const std::string& summary) {
+void commit_shard(StagedFolder& staged, int number, const std::vector<CommittedCell>& cells,
+                  const std::string& summary) {
   const fs::path& folder = staged.path();
   CsvWriter cell_table(kCellColumns), recording_table(kRecordingColumns);
   std::set<std::pair<std::string, std::uint64_t>> recordings;
-  for (auto& cell : cells) {
+  for (const auto& cell : cells) {
     const FolderHashes hashes = hash_folder(cell_path(folder, cell.key));
     cell_table.text(cell.key.scenario)
         .text(cell.key.pipeline)

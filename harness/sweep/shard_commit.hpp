@@ -56,7 +56,8 @@ StagedFolder stage_shard(const std::filesystem::path& sweep, int number);
 
 /// Writes the tables of the commit into the staged folder, which has the cells, their recordings and the summary, and
 /// puts it in place. `cells` need key, address, status and summary. Throws SystemError.
-void commit_shard(StagedFolder& staged, int number, std::vector<CommittedCell> cells, const std::string& summary);
+void commit_shard(StagedFolder& staged, int number, const std::vector<CommittedCell>& cells,
+                  const std::string& summary);
 
 /// The committed shards of a sweep, in the order of their names.
 struct ShardCommits {
