@@ -21,6 +21,7 @@
 #include "app/run.hpp"
 #include "app/shell_help.hpp"
 #include "app/show.hpp"
+#include "app/sweep.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "harness/page/plain_text.hpp"
@@ -96,6 +97,7 @@ int run_program(int argc, char** argv) {
   app::Action action;
   app::Context context{app, action, {argv, argv + argc}, argv[0]};
   app::add_run(context);
+  app::add_sweep(context);
   app::add_inspection(context);
   app::add_recordings(context);
   app::add_results(context);

@@ -12,9 +12,10 @@
 #include "app/option_checks.hpp"
 #include "app/progress.hpp"
 #include "app/running.hpp"
+#include "app/sweep.hpp"
+#include "core/error.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/report/run_report.hpp"
-#include "harness/report/scenario_tables.hpp"
 #include "harness/run/run_options.hpp"
 #include "harness/store/cell_status.hpp"
 
@@ -23,17 +24,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Options that count with --plan.
+const std::vector<std::string> kShardOptions{"plan", "shard", "jobs", "quiet", "help"};
+
 struct Options {
   std::vector<std::string> files, sets, seeds, only;
-  std::string out;
+  std::string out, plan, shard;
   int jobs = 1;
   bool resume = false, quiet = false, json = false, journal = false, no_figures = false, dry_run = false;
 };
-
-void print_tables(const harness::ReportInput& input) {
-  for (const auto& table : harness::closing_tables(input))
-    fmt::print("{}\n", harness::to_terminal(table, use_color(), terminal_width()));
-}
 
 void print_json(const harness::RunResult& result) {
   auto cells = nlohmann::ordered_json::array();
@@ -48,24 +47,10 @@ void print_json(const harness::RunResult& result) {
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-void note_absent_figures(const harness::ReportInput& report) {
-  for (const auto& figure : report.figures)
-    if (figure.name.empty()) say(fmt::format("{}: note: {}\n", figure.scenario, figure.caption));
-}
-
-/// How many cells did not end well, and why the first one did not; empty if all did.
-std::string failed_text(const harness::RunResult& result) {
-  const auto has_failed = [](const harness::CellResult& cell) {
-    return cell.done && cell.record.outcome.status != harness::CellStatus::ok;
-  };
-  const auto first = std::ranges::find_if(result.cells, has_failed);
-  if (first == result.cells.end()) return "";
-  return fmt::format("scanbench: {} of {} cells failed; {}: {}: {}\n", std::ranges::count_if(result.cells, has_failed),
-                     result.cells.size(), harness::to_string(first->key), to_string(first->record.outcome.status),
-                     harness::plain_line(first->record.outcome.message));
-}
-
 int run(const Options& options, const std::vector<std::string>& argv) {
+  if (!options.plan.empty()) return run_shard_of(options.plan, options.shard, options.jobs, options.quiet);
+  if (!options.shard.empty()) throw ConfigError("--shard needs --plan SWEEP, the folder of a sweep");
+  if (options.files.empty()) throw ConfigError("'run' needs FILE: scenario or suite files");
   std::string name;
   harness::RunOptions run_options;
   auto scenarios = load_inputs(options.files, options.sets, &name, &run_options.rules);
@@ -85,7 +70,7 @@ int run(const Options& options, const std::vector<std::string>& argv) {
       run_and_report(scenarios, run_options, {.quiet = options.quiet, .figures = !options.no_figures});
   say(unfinished_text(result));
   if (result.interrupted) return kInterrupted;
-  if (options.quiet) say(failed_text(result));
+  if (options.quiet) say(failed_text(result.cells));
   if (!figure_failure.empty()) say("scanbench: " + figure_failure + "\n");
 
   if (!options.quiet && report) note_absent_figures(*report);
@@ -104,7 +89,10 @@ void add_run(Context& context) {
   auto options = std::make_shared<Options>();
   auto* verb =
       context.app.add_subcommand("run", "Runs scenario or suite files: scans, algorithms, metrics, figures, report");
-  verb->add_option("FILE", options->files, "scenario or suite files")->required();
+  auto* files = verb->add_option("FILE", options->files, "scenario or suite files");
+  auto* plan = verb->add_option("--plan", options->plan, "run one shard of this sweep (a folder that `plan` has made)");
+  verb->add_option("--shard", options->shard,
+                   "its number; default: SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX + 1 or PARALLEL_SEQ");
   verb->add_option("-o,--out", options->out, "the run folder (default: out/<name of the first file>)");
   verb->add_option("--seed", options->seeds, "seeds, separated by commas, that replace the file's")->delimiter(',');
   verb->add_option("-j,--jobs", options->jobs, "number of cells that run at the same time")
@@ -122,6 +110,10 @@ void add_run(Context& context) {
   verb->add_flag("--no-figures", options->no_figures, "draw no figures");
   verb->add_flag("-q,--quiet", options->quiet, "print only errors");
   verb->add_flag("--json", options->json, "print the cells' outcomes as JSON");
+  for (auto* option : verb->get_options())
+    if (option == files ||
+        (!option->get_lnames().empty() && !std::ranges::count(kShardOptions, option->get_lnames().front())))
+      plan->excludes(option);
   verb->callback(
       [&context, options] { context.action = [options, argv = context.argv] { return run(*options, argv); }; });
 }

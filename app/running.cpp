@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/report/run_report.hpp"
+#include "harness/report/scenario_tables.hpp"
 #include "harness/run/runner.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/run_scenarios.hpp"
@@ -47,8 +48,34 @@ std::string missing_text(const harness::RunResult& result) {
 
 }  // namespace
 
-FinishedRun run_and_report(const std::vector<harness::Scenario>& scenarios, harness::RunOptions options,
+void print_tables(const harness::ReportInput& input) {
+  for (const auto& table : harness::closing_tables(input))
+    fmt::print("{}\n", harness::to_terminal(table, use_color(), terminal_width()));
+}
+
+void note_absent_figures(const harness::ReportInput& report) {
+  for (const auto& figure : report.figures)
+    if (figure.name.empty()) say(fmt::format("{}: note: {}\n", figure.scenario, figure.caption));
+}
+
+std::string failed_text(const std::vector<harness::CellResult>& cells) {
+  const auto has_failed = [](const harness::CellResult& cell) {
+    return cell.done && cell.record.outcome.status != harness::CellStatus::ok;
+  };
+  const auto first = std::ranges::find_if(cells, has_failed);
+  if (first == cells.end()) return "";
+  return fmt::format("scanbench: {} of {} cells failed; {}: {}: {}\n", std::ranges::count_if(cells, has_failed),
+                     cells.size(), harness::to_string(first->key), to_string(first->record.outcome.status),
+                     harness::plain_line(first->record.outcome.message));
+}
+
+FinishedRun run_and_report(const std::vector<harness::Scenario>& scenarios, const harness::RunOptions& options,
                            const Presentation& presentation) {
+  return make_and_report([&](const harness::RunOptions& ready) { return harness::run(scenarios, ready); }, options,
+                         presentation);
+}
+
+FinishedRun make_and_report(const MakeRun& make, harness::RunOptions options, const Presentation& presentation) {
   Progress progress(progress_style(presentation.quiet));
   FaultNotes faults;
   options.progress = [&](const harness::RunProgress& now) {
@@ -66,7 +93,7 @@ FinishedRun run_and_report(const std::vector<harness::Scenario>& scenarios, harn
       say(fmt::format("scanbench: {}\n", error.what()));
     }
   };
-  finished.result = harness::run(scenarios, options);
+  finished.result = make(options);
   for (const auto& line : faults.repeated()) progress.note(line);
   progress.finish();
   return finished;

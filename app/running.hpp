@@ -1,6 +1,7 @@
 // A run as a person at the terminal sees it: progress, failures as they happen, and reports at its end.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,9 +23,24 @@ struct FinishedRun {
   std::string figure_failure;                  ///< why there are no figures; empty if there are
 };
 
-/// Runs, draws and writes the report. `options.progress` and `options.finish` are replaced.
-FinishedRun run_and_report(const std::vector<harness::Scenario>& scenarios, harness::RunOptions options,
+/// Makes a run: harness::run(), or a merge of shards.
+using MakeRun = std::function<harness::RunResult(const harness::RunOptions&)>;
+
+/// Makes a run, draws and writes the report. `options.progress` and `options.finish` are replaced.
+FinishedRun make_and_report(const MakeRun& make, harness::RunOptions options, const Presentation& presentation);
+
+/// The same with the run of these scenarios.
+FinishedRun run_and_report(const std::vector<harness::Scenario>& scenarios, const harness::RunOptions& options,
                            const Presentation& presentation);
+
+/// Prints the tables that close a run.
+void print_tables(const harness::ReportInput& input);
+
+/// Why figures that the scenarios name are absent.
+void note_absent_figures(const harness::ReportInput& report);
+
+/// How many cells did not end well, and why the first one did not; empty if all did.
+std::string failed_text(const std::vector<harness::CellResult>& cells);
 
 /// What is said on standard error after a run that was interrupted or is incomplete; empty if there is nothing to say.
 /// `how`: what makes an interrupted one go on.

@@ -1,12 +1,8 @@
-// Compares casting and simulating with named alternatives and prints a Markdown table.
+// Compares casting and simulating with named alternatives and prints rows of bench/ratios.hpp.
 //
 //   sim_bench [rounds] [SUBJECT]     default: 11 rounds of all subjects; SUBJECT: only those whose name begins so
 //
-// Every round runs all methods of a world in rotated order. Times are CPU times of the thread. The factor is the time
-// of the alternative divided by the time of the method in the same round; the table has its median and its 10th to 90th
-// percentile. A scan has 451 beams over 270 deg and a range of 30 m. Each world is scanned from 200 poses.
-#include <time.h>
-
+// A scan has 451 beams over 270 deg and a range of 30 m. Each world is scanned from 200 poses.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -24,6 +20,7 @@
 #include <box2d/b2_world.h>
 #include <box2d/b2_world_callbacks.h>
 
+#include "bench/ratios.hpp"
 #include "core/geometry/angles.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/pose2.hpp"
@@ -162,73 +159,29 @@ class Box2DRays {
   b2World world_{b2Vec2(0.0F, 0.0F)};
 };
 
-struct Method {
-  std::string name;
-  std::function<std::size_t()> run;  ///< returns the number of rays
-  std::vector<double> ns_per_ray{};
-};
-
-double thread_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double time_of(const Method& method) {
-  constexpr double kShortest = 0.02;
-  std::size_t rays = 0;
-  const double begin = thread_seconds();
-  double end = begin;
-  while (end - begin < kShortest) {
-    rays += method.run();
-    end = thread_seconds();
-  }
-  return 1e9 * (end - begin) / static_cast<double>(rays);
-}
-
-double quantile(std::vector<double> values, double q) {
-  std::ranges::sort(values);
-  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1) + 0.5)];
-}
-
-// The first method is the alternative.
-void measure(const std::string& subject, std::vector<Method> methods, int rounds) {
-  for (const Method& method : methods) method.run();
-  for (int round = 0; round < rounds; ++round)
-    for (std::size_t k = 0; k < methods.size(); ++k) {
-      Method& method = methods[(k + static_cast<std::size_t>(round)) % methods.size()];
-      method.ns_per_ray.push_back(time_of(method));
-    }
-  for (const Method& method : methods) {
-    std::vector<double> factors;
-    for (std::size_t i = 0; i < method.ns_per_ray.size(); ++i)
-      factors.push_back(methods[0].ns_per_ray[i] / method.ns_per_ray[i]);
-    std::printf("| %s | %s | %.2f | %.1f | %.1f .. %.1f |\n", subject.c_str(), method.name.c_str(),
-                quantile(method.ns_per_ray, 0.5), quantile(factors, 0.5), quantile(factors, 0.1),
-                quantile(factors, 0.9));
-  }
-  std::fflush(stdout);
-}
+using bench::measure;
+using bench::Method;
 
 // `every`: the alternative casts only from every so many-th pose where it is slow.
-void measure_casting(const World& world, const std::vector<Pose2>& poses, std::size_t every, int rounds) {
+void measure_casting(const World& world, const std::vector<Pose2>& poses, std::size_t every, double limit, int rounds) {
   const SensorModel sensor = make_sensor("ladar_2d30", {});
   const auto beams = static_cast<std::size_t>(sensor.geometry.beams());
   std::vector<double> ranges(poses.size() * beams);
   std::vector<std::int32_t> ids(ranges.size());
   const Box2DRays box2d(world);
-  const auto caster = [&](const std::string& name, const RayCaster& c) {
-    return Method{name, [&] {
-                    c.cast_scans(poses, {}, sensor.geometry, sensor.range_max_m, {ranges, ids, {}});
-                    return ranges.size();
-                  }};
+  const auto caster = [&](const std::string& name, const RayCaster& c, double at_least) {
+    const auto run = [&] {
+      c.cast_scans(poses, {}, sensor.geometry, sensor.range_max_m, {ranges, ids, {}});
+      return ranges.size();
+    };
+    return Method{name, run, at_least};
   };
   std::vector<Pose2> few;
   for (std::size_t k = 0; k < poses.size(); k += every) few.push_back(poses[k]);
   const RayCaster reference(world, CasterKind::box2d);
   const RayCaster exact(world);
   const RayCaster baseline(world, CasterKind::exact, Isa::baseline);
-  measure(world.name,
+  measure("cast, " + world.name + ", a beam",
           {{"b2World::RayCast",
             [&] {
               box2d.cast(poses, every, sensor, ranges, ids);
@@ -241,8 +194,8 @@ void measure_casting(const World& world, const std::vector<Pose2>& poses, std::s
                                    {std::span(ranges).first(count), std::span(ids).first(count), {}});
               return count;
             }},
-           caster("caster: exact, any x86-64", baseline),
-           caster("caster: exact", exact)},
+           caster("caster: exact, any x86-64", baseline, 0),
+           caster("caster: exact", exact, limit)},
           rounds);
 }
 
@@ -284,9 +237,9 @@ void measure_simulation(int rounds) {
   input.world = fifteen_walls();
   input.sensor = make_sensor("ladar_2d30", {});
   input.trajectory = drive();
-  measure("recording, 15 walls, 5 cm noise",
+  measure("recording of 15 walls, 5 cm noise, a beam",
           {{"one ray at a time, Box2D's tree", [&] { return simulate_one_by_one(input); }},
-           {"simulate", [&] { return simulate(input).truth->ranges.size(); }}},
+           {"simulate", [&] { return simulate(input).truth->ranges.size(); }, 15}},
           rounds);
 }
 
@@ -296,23 +249,21 @@ struct Subject {
 };
 
 std::vector<Subject> subjects() {
-  const auto office = [](int side) {
-    return [side](int rounds) {
-      measure_casting(rooms(side), random_poses({1, 1}, {6.0 * side - 1, 5.0 * side - 1}), 1, rounds);
+  const auto office = [](int side, double limit) {
+    return [=](int rounds) {
+      measure_casting(rooms(side), random_poses({1, 1}, {6.0 * side - 1, 5.0 * side - 1}), 1, limit, rounds);
     };
   };
-  const auto cave = [](int corners, std::size_t every) {
-    return [corners, every](int rounds) {
-      measure_casting(outline(corners), random_poses({-4, -4}, {4, 4}), every, rounds);
-    };
+  const auto cave = [](int corners, std::size_t every, double limit) {
+    return [=](int rounds) { measure_casting(outline(corners), random_poses({-4, -4}, {4, 4}), every, limit, rounds); };
   };
-  return {{"walls", [](int rounds) { measure_casting(fifteen_walls(), driven_poses(), 1, rounds); }},
-          {"rooms125", office(5)},
-          {"rooms1k", office(14)},
-          {"rooms10k", office(45)},
-          {"rooms100k", office(141)},
-          {"outline1k", cave(1000, 2)},
-          {"outline100k", cave(100000, 20)},
+  return {{"walls", [](int rounds) { measure_casting(fifteen_walls(), driven_poses(), 1, 50, rounds); }},
+          {"rooms125", office(5, 0)},
+          {"rooms1k", office(14, 17)},
+          {"rooms10k", office(45, 30)},
+          {"rooms100k", office(141, 35)},
+          {"outline1k", cave(1000, 2, 0)},
+          {"outline100k", cave(100000, 20, 20)},
           {"recording", measure_simulation}};
 }
 
@@ -322,7 +273,6 @@ std::vector<Subject> subjects() {
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 11;
   const std::string wanted = argc > 2 ? argv[2] : "";
-  std::puts("| what | method | ns per beam | factor | 10 % .. 90 % |\n|---|---|---|---|---|");
   for (const auto& subject : scanbench::sim::subjects())
     if (subject.name.starts_with(wanted)) subject.measure(rounds);
 }

@@ -74,7 +74,7 @@ function(scanbench_executable name)
   cmake_parse_arguments(arg "" "FOLDER" "SOURCES;ROOMS" ${ARGN})
   if(NOT arg_ROOMS)
     # Ordered from the top layer down, so that no whole archive must be listed twice.
-    set(arg_ROOMS algorithms nightly player gallery film report page analysis run store scenario exchange yaml files sim
+    set(arg_ROOMS algorithms nightly player gallery film report page analysis sweep run store scenario exchange yaml files sim
                   metrics render core)
   endif()
   if(arg_FOLDER)
@@ -99,7 +99,13 @@ function(scanbench_kernels target folder)
   scanbench_flags(${target}_v3)
   target_compile_definitions(${target}_v3 PRIVATE SCANBENCH_ISA=v3)
   target_compile_options(${target}_v3 PRIVATE -mavx2)
-  target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_v3>)
+  # An object library does not hand on the objects of another one, so its users add them.
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL OBJECT_LIBRARY)
+    target_sources(${target} INTERFACE $<TARGET_OBJECTS:${target}_v3>)
+  else()
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_v3>)
+  endif()
   # Precompiled headers contain inline functions, of which the linker would keep only one build.
   set_source_files_properties(${sources} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 endfunction()

@@ -13,6 +13,7 @@
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/scenario/suite.hpp"
 #include "harness/scenario/world_file.hpp"
+#include "harness/yaml/writer.hpp"
 #include "sim/sensors.hpp"
 
 namespace scanbench::fuzz {
@@ -37,6 +38,21 @@ inline void run_yaml(std::string_view bytes) {
   if (effective.empty()) return;
   const std::string again = harness::effective_yaml(harness::parse_scenario(effective, "/nonexistent/fuzz.yaml"));
   if (again != effective) throw InternalError("the effective scenario is not stable");
+}
+
+/// Reads the bytes as a world. If the fast reader of rows accepts them, the YAML parser must accept them too, with the
+/// same walls.
+inline void run_world(std::string_view bytes) {
+  allow_refusal([&] {
+    const sim::World world = harness::parse_world(bytes, "fuzz.yaml");
+    try {
+      const sim::World reference = harness::parse_world_yaml(bytes, "fuzz.yaml");
+      if (harness::write_yaml(harness::to_yaml(world)) != harness::write_yaml(harness::to_yaml(reference)))
+        throw InternalError("the rows of walls have other values for the YAML parser");
+    } catch (const ConfigError& error) {
+      throw InternalError(std::string("the YAML parser refuses the rows of walls: ") + error.what());
+    }
+  });
 }
 
 /// Reads a log from the bytes after the first, which selects format and options. A log that can be read must survive

@@ -9,7 +9,7 @@
 
 #include "core/geometry/geometry.hpp"
 #include "core/sensor_model.hpp"
-#include "sim/lanes/isa.hpp"
+#include "core/isa.hpp"
 
 namespace scanbench::sim {
 

@@ -8,7 +8,7 @@
 #include "core/sensor_model.hpp"
 #include "sim/cast/caster.hpp"
 #include "sim/cast/ray.hpp"
-#include "sim/lanes/isa.hpp"
+#include "core/isa.hpp"
 #include "sim/world.hpp"
 
 namespace scanbench::sim {

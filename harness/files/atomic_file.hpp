@@ -22,6 +22,9 @@ void write_staged_file(const std::filesystem::path& path, std::string_view bytes
 /// Removes a file. A file that does not exist is no error. Throws ConfigError.
 void remove_file(const std::filesystem::path& path);
 
+/// Writes the entries of a folder to disk: the names of what was made or renamed in it. Throws SystemError.
+void flush_folder(const std::filesystem::path& path);
+
 /// Makes a folder and its parents. Throws ConfigError.
 void make_folders(const std::filesystem::path& path);
 
@@ -31,11 +34,16 @@ void exchange_folders(const std::filesystem::path& a, const std::filesystem::pat
 /// True for the names that StagedFolder and write_file_atomically give to unfinished files and folders.
 bool is_temporary_name(std::string_view name);
 
+/// 16 hexadecimal digits from the system's random numbers: a name that no other host or process chooses.
+std::string unique_name();
+
 /// A folder under construction beside its target: `.<name>.tmp-<pid>`. commit() flushes it and renames it to the
 /// target; an earlier target is removed only after the new one is in place. Without commit() the new folder is removed.
 class StagedFolder {
  public:
   explicit StagedFolder(std::filesystem::path target);
+  /// Under construction at `staging`, a temporary name in the target's folder that nothing else uses.
+  StagedFolder(std::filesystem::path target, std::filesystem::path staging);
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
   StagedFolder(StagedFolder&& other) noexcept;
@@ -47,6 +55,10 @@ class StagedFolder {
   /// Removes all files written so far, for instance by a worker that crashed.
   void clear();
   void commit();
+  /// The two parts of commit(), for several folders of one file system, which a single flush() of any of them writes to
+  /// disk. The caller flushes the folders that contain the targets. Both throw SystemError.
+  void flush() const;
+  void place();
 
  private:
   std::filesystem::path target_;

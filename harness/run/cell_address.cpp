@@ -56,18 +56,22 @@ std::string input_address(const Scenario& scenario) {
   return hash.hex();
 }
 
-std::string cell_address(const std::string& input, const std::vector<ModuleChoice>& metrics,
-                         const PipelineSpec& pipeline, std::uint64_t seed, const TraceChoice& trace) {
+std::string work_address(const std::vector<ModuleChoice>& metrics, const PipelineSpec& pipeline) {
   Scenario part;
   part.input = LinesInput{};  // no input here: it has its own address
   part.pipelines.push_back({.name = "", .slots = pipeline.slots, .published = ""});
   part.metrics = metrics;
+  return sha256_hex(effective_yaml(part));
+}
+
+std::string cell_address(const std::string& input, const std::string& work, std::uint64_t seed,
+                         const TraceChoice& trace) {
   return Sha256()
-      .part("schema", "2")
+      .part("schema", "3")
       .part("code", code_version())
       .part("input", input)
       .part("seed", std::to_string(seed))
-      .part("work", effective_yaml(part))
+      .part("work", work)
       .part("trace", trace.text())
       .hex();
 }

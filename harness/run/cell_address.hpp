@@ -14,9 +14,12 @@ namespace scanbench::harness {
 /// is the same for a scenario and for its effective.yaml read back. Throws ConfigError if the file cannot be read.
 std::string input_address(const Scenario& scenario);
 
-/// SHA-256 over everything that a cell's bytes depend on: the input, the seed, the pipeline's resolved parameters, the
-/// chosen metrics, the rows of the trace that are kept, and the running program.
-std::string cell_address(const std::string& input, const std::vector<ModuleChoice>& metrics,
-                         const PipelineSpec& pipeline, std::uint64_t seed, const TraceChoice& trace);
+/// SHA-256 of the work of a cell: the pipeline's resolved parameters and the chosen metrics.
+std::string work_address(const std::vector<ModuleChoice>& metrics, const PipelineSpec& pipeline);
+
+/// SHA-256 over everything that a cell's bytes depend on: input_address(), work_address(), the seed, the rows of the
+/// trace that are kept, and the running program.
+std::string cell_address(const std::string& input, const std::string& work, std::uint64_t seed,
+                         const TraceChoice& trace);
 
 }  // namespace scanbench::harness

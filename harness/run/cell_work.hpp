@@ -3,17 +3,24 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/recording.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/scenario/trace_choice.hpp"
 #include "harness/store/traces.hpp"
+#include "metrics/metric.hpp"
 
 namespace scanbench::harness {
 
-/// Runs the pipeline, scores it with the scenario's metrics, and writes all files of the cell but status.json. Returns
-/// the pipeline's remarks. Throws what run_pipeline() and score_cell() throw.
-std::string make_cell(const std::filesystem::path& folder, const Scenario& scenario, const PipelineSpec& pipeline,
-                      const TraceChoice& trace, const Recording& recording);
+struct CellOutput {
+  std::string remarks;  ///< of the pipeline
+  std::vector<metrics::MetricRow> rows;
+};
+
+/// Runs the pipeline, scores it with the scenario's metrics, and writes all files of the cell but status.json. Throws
+/// what run_pipeline() and score_cell() throw.
+CellOutput make_cell(const std::filesystem::path& folder, const Scenario& scenario, const PipelineSpec& pipeline,
+                     const TraceChoice& trace, const Recording& recording);
 
 }  // namespace scanbench::harness

@@ -192,7 +192,8 @@ Forecast forecast_run(const std::vector<Scenario>& scenarios, const RunOptions& 
     if (options.progress) options.progress({i, scenarios.size(), "trying " + scenarios[i].name, nullptr});
     std::set<std::string> pipelines;
     for (const PlannedCell& cell : plan.cells)
-      if (cell.scenario == &scenarios[i] && selected(options, cell.key)) pipelines.insert(cell.key.pipeline);
+      if (plan.works[cell.work].scenario == &scenarios[i] && selected(options, plan.key(cell)))
+        pipelines.insert(plan.works[cell.work].pipeline->name);
     if (pipelines.empty()) continue;
     forecast.scenarios.push_back(
         forecast_of(reduced(scenarios[i], pipelines), scenarios[i].seeds.size(), forecast.interrupted));

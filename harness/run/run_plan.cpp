@@ -65,6 +65,19 @@ void refuse_too_many_cells(const std::vector<Scenario>& scenarios) {
 
 }  // namespace
 
+CellKey RunPlan::key(const PlannedCell& cell) const {
+  return {works[cell.work].scenario->name, works[cell.work].pipeline->name, groups[cell.group].seed};
+}
+
+std::string RunPlan::address(const PlannedCell& cell) const {
+  const PlannedWork& work = works[cell.work];
+  return cell_address(work.input, work.address, groups[cell.group].seed, trace(cell));
+}
+
+const TraceChoice& RunPlan::trace(const PlannedCell& cell) const {
+  return cell.shown ? works[cell.work].shown : works[cell.work].others;
+}
+
 RunPlan plan_run(const std::vector<Scenario>& scenarios, const RunOptions& options) {
   check_scenarios(scenarios, options);
   refuse_too_many_cells(scenarios);
@@ -72,22 +85,20 @@ RunPlan plan_run(const std::vector<Scenario>& scenarios, const RunOptions& optio
   for (const auto& scenario : scenarios) {
     const std::string input = input_address(scenario);
     const auto& seeds = scenario.seeds;
-    const std::size_t first = plan.groups.size();
+    const auto first = static_cast<std::uint32_t>(plan.groups.size());
     refuse_repeated(seeds);
     for (const std::uint64_t seed : seeds) plan.groups.push_back({&scenario, seed});
     for (const auto& pipeline : scenario.pipelines) {
-      const TraceChoice drawn = traces_drawn(scenario, pipeline.name);
-      for (std::size_t i = 0; i < seeds.size(); ++i) {
-        PlannedCell cell;
-        cell.key = {scenario.name, pipeline.name, seeds[i]};
-        // Figures show the first seed.
-        cell.trace = options.journal ? TraceChoice{.all = true} : i == 0 ? drawn : TraceChoice{};
-        cell.address = cell_address(input, scenario.metrics, pipeline, seeds[i], cell.trace);
-        cell.scenario = &scenario;
-        cell.pipeline = &pipeline;
-        cell.group = first + i;
-        plan.cells.push_back(std::move(cell));
-      }
+      const auto work = static_cast<std::uint32_t>(plan.works.size());
+      const TraceChoice all{.all = true};
+      plan.works.push_back({.scenario = &scenario,
+                            .pipeline = &pipeline,
+                            .input = input,
+                            .address = work_address(scenario.metrics, pipeline),
+                            .shown = options.journal ? all : traces_drawn(scenario, pipeline.name),
+                            .others = options.journal ? all : TraceChoice{}});
+      for (std::uint32_t i = 0; i < seeds.size(); ++i)
+        plan.cells.push_back({work, first + i, i == 0});  // figures show the first seed
     }
   }
   return plan;

@@ -18,18 +18,32 @@ struct PlannedGroup {
   std::uint64_t seed = 0;
 };
 
-struct PlannedCell {
-  CellKey key;
-  std::string address;  ///< cell_address()
+/// What the cells of one pipeline of one scenario share.
+struct PlannedWork {
   const Scenario* scenario = nullptr;
   const PipelineSpec* pipeline = nullptr;
-  TraceChoice trace;      ///< the rows that are kept
-  std::size_t group = 0;  ///< index into RunPlan::groups
+  std::string input;    ///< input_address()
+  std::string address;  ///< work_address()
+  TraceChoice shown;    ///< rows that are kept for the seed that figures show
+  TraceChoice others;   ///< for all other seeds
+};
+
+/// A plan may have 10^5 cells, and the memory that holds it is copied for each child process, so a cell has indices
+/// only.
+struct PlannedCell {
+  std::uint32_t work = 0;   ///< index into RunPlan::works
+  std::uint32_t group = 0;  ///< index into RunPlan::groups
+  bool shown = false;       ///< figures show it
 };
 
 struct RunPlan {
   std::vector<PlannedGroup> groups;
+  std::vector<PlannedWork> works;
   std::vector<PlannedCell> cells;  ///< in the order of summary.csv
+
+  CellKey key(const PlannedCell& cell) const;
+  std::string address(const PlannedCell& cell) const;  ///< cell_address()
+  const TraceChoice& trace(const PlannedCell& cell) const;
 };
 
 /// All cells, whether selected or not; points into `scenarios`. Throws ConfigError for options that select nothing or

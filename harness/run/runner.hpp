@@ -1,12 +1,10 @@
 // Runs scenarios: makes every recording once, runs every pipeline on it in a child process, and writes the results.
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "core/recording.hpp"
+#include "harness/run/execution.hpp"
 #include "harness/run/run_options.hpp"
 #include "harness/scenario/effective.hpp"
 #include "harness/scenario/scenario.hpp"
@@ -16,7 +14,7 @@ namespace scanbench::harness {
 
 /// What a run gets from outside, so that tests can replace it.
 struct RunServices {
-  std::function<Recording(const Scenario&, std::uint64_t seed, int threads)> recording;
+  MakeRecording recording;
   EffectiveText effective_yaml;
 };
 
@@ -25,7 +23,11 @@ struct RunServices {
 /// or cannot be written, and scenarios from which no recording can be made; no file remains in these cases.
 RunResult run_with(const std::vector<Scenario>& scenarios, const RunOptions& options, const RunServices& services);
 
-/// The same with the recordings of make_recording().
+/// Lets `options.finish` draw figures and write reports for a run that is in its folder and whose state will be
+/// `state`. A run is complete when they exist; killed before, it is still running, as any other run that was killed.
+void finish_run(const RunResult& result, const std::string& state, const RunOptions& options);
+
+/// run_with() with the recordings of make_recording().
 RunResult run(const std::vector<Scenario>& scenarios, const RunOptions& options);
 
 }  // namespace scanbench::harness

@@ -51,10 +51,10 @@ class ScenarioAddresses {
     if (pipeline == scenario.pipelines.end()) return false;
     std::string& input = inputs_[scenario.name];
     if (input.empty()) input = input_address(scenario);
+    const std::string work = work_address(scenario.metrics, *pipeline);
     const TraceChoice traces[] = {{}, {.all = true}, traces_drawn(scenario, key.pipeline)};
-    return std::ranges::any_of(traces, [&](const TraceChoice& trace) {
-      return address == cell_address(input, scenario.metrics, *pipeline, key.seed, trace);
-    });
+    return std::ranges::any_of(
+        traces, [&](const TraceChoice& trace) { return address == cell_address(input, work, key.seed, trace); });
   }
 
  private:

@@ -11,12 +11,14 @@
 #include <exception>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <new>
 
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -49,8 +51,15 @@ struct sigaction old_child_action;
 sigset_t held;  // the interrupts that a pool handles
 sigset_t old_mask;
 
-void on_interrupt(int) {
-  interrupt_seen = 1;
+void on_interrupt(int signal) {
+  if (interrupt_seen != SIGTERM) interrupt_seen = signal;
+}
+
+/// While pipes have bytes to read, ppoll() returns before it delivers a signal, so pending signals count as well.
+bool has_come(int signal) {
+  sigset_t pending;
+  sigpending(&pending);
+  return interrupt_seen == signal || (sigismember(&held, signal) == 1 && sigismember(&pending, signal) == 1);
 }
 
 double wall_seconds() {
@@ -212,6 +221,7 @@ struct WorkerPool::Worker {
   pid_t pid;
   int report;
   int output;
+  int end;  ///< a descriptor of the process, which is readable when it has ended; -1 if the kernel has none
   double seconds;
   double start;
   bool killed_for_time = false;
@@ -220,6 +230,12 @@ struct WorkerPool::Worker {
   bool output_open = true;
   std::string report_text = {};
   std::string output_text = {};
+
+  void close() const {
+    ::close(report);
+    ::close(output);
+    if (end >= 0) ::close(end);
+  }
 
   void read_pipes() {
     if (report_open) report_open = drain(report, report_text);
@@ -285,6 +301,10 @@ struct WorkerPool::Worker {
     if (killed_for_time) {
       result.status = CellStatus::timeout;
       result.message = over_time();
+    } else if (signal == SIGTERM && has_come(SIGTERM)) {
+      // A batch system sends it to every process of a job. The cell is then unfinished and not at fault.
+      result.system_error = true;
+      result.message = "stopped with the run";
     } else if (signal == SIGXCPU) {
       result.status = CellStatus::timeout;
       result.message = "used up the limit of CPU time";
@@ -334,12 +354,11 @@ std::size_t WorkerPool::running() const {
 }
 
 bool WorkerPool::interrupted() const {
-  // While pipes have bytes to read, ppoll() returns before it delivers a signal, so pending signals are checked here.
-  sigset_t pending;
-  sigpending(&pending);
-  return interrupt_seen != 0 || std::ranges::any_of(kInterrupts, [&](int signal) {
-           return sigismember(&held, signal) == 1 && sigismember(&pending, signal) == 1;
-         });
+  return std::ranges::any_of(kInterrupts, has_come);
+}
+
+bool WorkerPool::terminated() const {
+  return has_come(SIGTERM);
 }
 
 void WorkerPool::start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits) {
@@ -365,45 +384,60 @@ void WorkerPool::start(std::size_t id, const std::function<std::string()>& task,
   setpgid(pid, pid);  // called in both processes, because either may be the first
   fcntl(report[0], F_SETFL, O_NONBLOCK);
   fcntl(output[0], F_SETFL, O_NONBLOCK);
-  workers_.push_back({id, pid, report[0], output[0], limits.seconds, wall_seconds()});
+  workers_.push_back({id, pid, report[0], output[0], static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)),
+                      limits.seconds, wall_seconds()});
 }
 
 std::vector<WorkerPool::Finished> WorkerPool::wait() {
   std::vector<Finished> finished;
-  while (finished.empty() && !workers_.empty() && !interrupted()) {
-    std::vector<pollfd> fds;
-    double pause = 0.02;  // no event reports the end of a child while a process that it started holds its pipes
-    for (const auto& w : workers_) {
-      if (w.report_open) fds.push_back({w.report, POLLIN, 0});
-      if (w.output_open) fds.push_back({w.output, POLLIN, 0});
-      // A closed report means that the child ends soon, without anything left to poll.
-      pause = std::min(pause, w.report_open && !w.killed_for_time ? w.start + w.seconds - wall_seconds() : 1e-3);
-    }
-    pause = std::max(pause, 0.0);
-    const timespec timeout{static_cast<time_t>(pause), static_cast<long>(1e9 * (pause - std::floor(pause)))};
-    ::ppoll(fds.data(), fds.size(), &timeout, &old_mask);  // the only place where signals are delivered
+  while (finished.empty() && !workers_.empty() && !interrupted())
+    finished = poll_once(std::numeric_limits<double>::infinity());
+  return finished;
+}
 
-    for (std::size_t i = 0; i < workers_.size();) {
-      Worker& w = workers_[i];
-      w.read_pipes();
-      if (!w.killed_for_time && wall_seconds() > w.start + w.seconds) {
-        w.killed_for_time = true;
-        kill_child(w.pid);
-      }
-      if (!has_ended(w.pid)) {
-        ++i;
-        continue;
-      }
-      ::kill(-w.pid, SIGKILL);  // processes that the task may have started
-      w.read_pipes();           // the rest, which is less than one read takes
-      int status = 0;
-      rusage usage{};
-      ::wait4(w.pid, &status, 0, &usage);
-      ::close(w.report);
-      ::close(w.output);
-      finished.push_back({w.id, w.outcome(status, usage)});
-      workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
+std::vector<WorkerPool::Finished> WorkerPool::wait_despite_interrupts(double seconds) {
+  std::vector<Finished> finished;
+  const double end = wall_seconds() + seconds;
+  while (finished.empty() && !workers_.empty() && wall_seconds() < end) finished = poll_once(end - wall_seconds());
+  return finished;
+}
+
+/// Waits for an event, reads the pipes, kills children whose time is over, and collects those that have ended.
+std::vector<WorkerPool::Finished> WorkerPool::poll_once(double longest_pause) {
+  std::vector<Finished> finished;
+  std::vector<pollfd> fds;
+  // Before Linux 5.3, no event reports the end of a child while a process that it started holds its pipes.
+  double pause = std::min(longest_pause, 0.02);
+  for (const auto& w : workers_) {
+    if (w.report_open) fds.push_back({w.report, POLLIN, 0});
+    if (w.output_open) fds.push_back({w.output, POLLIN, 0});
+    if (w.end >= 0) fds.push_back({w.end, POLLIN, 0});
+    // A closed report means that the child ends soon, without anything left to poll.
+    pause = std::min(pause, w.report_open && !w.killed_for_time ? w.start + w.seconds - wall_seconds() : 1e-3);
+  }
+  pause = std::max(pause, 0.0);
+  const timespec timeout{static_cast<time_t>(pause), static_cast<long>(1e9 * (pause - std::floor(pause)))};
+  ::ppoll(fds.data(), fds.size(), &timeout, &old_mask);  // the only place where signals are delivered
+
+  for (std::size_t i = 0; i < workers_.size();) {
+    Worker& w = workers_[i];
+    w.read_pipes();
+    if (!w.killed_for_time && wall_seconds() > w.start + w.seconds) {
+      w.killed_for_time = true;
+      kill_child(w.pid);
     }
+    if (!has_ended(w.pid)) {
+      ++i;
+      continue;
+    }
+    ::kill(-w.pid, SIGKILL);  // processes that the task may have started
+    w.read_pipes();           // the rest, which is less than one read takes
+    int status = 0;
+    rusage usage{};
+    ::wait4(w.pid, &status, 0, &usage);
+    w.close();
+    finished.push_back({w.id, w.outcome(status, usage)});
+    workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
   }
   return finished;
 }
@@ -412,8 +446,7 @@ void WorkerPool::kill_all() {
   for (const auto& w : workers_) kill_child(w.pid);
   for (const auto& w : workers_) {
     reap(w.pid);
-    ::close(w.report);
-    ::close(w.output);
+    w.close();
   }
   workers_.clear();
 }

@@ -41,11 +41,15 @@ class WorkerPool {
   std::size_t running() const;
   /// Blocks until a child has ended, or an interrupt: then interrupted() is true and the list may be empty.
   std::vector<Finished> wait();
+  /// Blocks until a child has ended or the time is over, whatever interrupts come.
+  std::vector<Finished> wait_despite_interrupts(double seconds);
   bool interrupted() const;
+  bool terminated() const;  ///< interrupted by SIGTERM
   void kill_all();
 
  private:
   struct Worker;
+  std::vector<Finished> poll_once(double longest_pause);
   std::vector<Worker> workers_;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "harness/exchange/line_set.hpp"
 #include "harness/exchange/log.hpp"
@@ -15,6 +16,7 @@
 #include "harness/scenario/published.hpp"
 #include "harness/scenario/sections.hpp"
 #include "harness/scenario/shared_keys.hpp"
+#include "harness/scenario/wall_rows.hpp"
 #include "harness/scenario/world_file.hpp"
 #include "harness/yaml/reader.hpp"
 #include "harness/yaml/sets.hpp"
@@ -25,8 +27,9 @@ namespace {
 
 class ScenarioReader {
  public:
-  ScenarioReader(const YamlNode& root, Scenario& scenario, bool is_recorded)
-      : root_(root), map_(root, "the scenario"), scenario_(scenario), is_recorded_(is_recorded) {}
+  /// `rows` is null, or the walls of the key `segments` of `world` (wall_rows.hpp).
+  ScenarioReader(const YamlNode& root, Scenario& scenario, bool is_recorded, std::vector<Wall>* rows)
+      : root_(root), map_(root, "the scenario"), scenario_(scenario), is_recorded_(is_recorded), rows_(rows) {}
 
   void read() {
     read_schema(map_);
@@ -110,7 +113,7 @@ class ScenarioReader {
       if (loaded.dropped > 0)
         scenario_.notes.push_back(fmt::format("{}: skipped {} segments without length", as_written, loaded.dropped));
     } else {
-      loaded.world = read_world(map, scenario_.name);
+      loaded.world = read_world(map, scenario_.name, rows_);
       map.done();
       at_param(node, [&] { sim::validate(loaded.world); });
     }
@@ -235,10 +238,34 @@ class ScenarioReader {
   YamlMap map_;
   Scenario& scenario_;
   bool is_recorded_;  ///< the run folder holds what the log says
+  std::vector<Wall>* rows_;
 };
+
+// Reads a scenario whose world is in it, with rows of walls in the canonical form. Returns nothing for other scenarios
+// and for all errors, which the reader of any form then finds again, with their places.
+std::optional<Scenario> parse_canonical(std::string_view text, const std::filesystem::path& path,
+                                        const std::vector<std::string>& sets, bool is_recorded) {
+  if (std::ranges::any_of(sets, [](const std::string& set) { return set.starts_with("world"); })) return std::nullopt;
+  auto rows = take_wall_rows(text);
+  if (!rows) return std::nullopt;
+  try {
+    YamlNode root = parse_yaml(rows->rest, kMaxWorldBytes);
+    const YamlNode* world = root.find("world");
+    if (world == nullptr || !rows->belong_to(*world) || !rows->fit_into(root)) return std::nullopt;
+    Scenario scenario;
+    scenario.path = path;
+    scenario.text = text;
+    apply_sets(root, sets);
+    ScenarioReader(root, scenario, is_recorded, &rows->walls).read();
+    return scenario;
+  } catch (const ConfigError&) {
+    return std::nullopt;
+  }
+}
 
 Scenario parse(std::string_view text, const std::filesystem::path& path, const std::vector<std::string>& sets,
                bool is_recorded) {
+  if (auto scenario = parse_canonical(text, path, sets, is_recorded)) return *std::move(scenario);
   Scenario scenario;
   scenario.path = path;
   scenario.text = text;
@@ -246,7 +273,7 @@ Scenario parse(std::string_view text, const std::filesystem::path& path, const s
     // The larger limit applies, because a scenario may contain its world.
     YamlNode root = parse_yaml(text, kMaxWorldBytes);
     apply_sets(root, sets);
-    ScenarioReader(root, scenario, is_recorded).read();
+    ScenarioReader(root, scenario, is_recorded, nullptr).read();
   });
   return scenario;
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
 
 #include "core/error.hpp"
@@ -12,6 +13,7 @@
 #include "harness/files/placed_error.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/scenario/shared_keys.hpp"
+#include "harness/scenario/wall_rows.hpp"
 #include "harness/yaml/writer.hpp"
 
 namespace scanbench::harness {
@@ -29,7 +31,7 @@ const std::string& read_label(const YamlNode& node, std::string_view what) {
 
 class WorldReader {
  public:
-  WorldReader(YamlMap& map, const std::string& default_name) : map_(map) {
+  WorldReader(YamlMap& map, const std::string& default_name, std::vector<Wall>* rows) : map_(map) {
     world_.name = map.text_or("name", default_name);
     world_.about = map.text_or("about", "");
     ParamSpec unit;
@@ -37,7 +39,10 @@ class WorldReader {
     unit.bounds = above(0);
     unit.unit = "m";
     if (const YamlNode* node = map.find("unit_m")) unit_m_ = std::get<double>(read_param(*node, unit));
-    read_segments();
+    if (rows != nullptr)
+      take_segments(std::move(*rows));
+    else
+      read_segments();
     read_chains("polylines", 2, false);
     read_chains("polygons", 3, true);
     read_circles();
@@ -74,6 +79,15 @@ class WorldReader {
   const std::vector<YamlNode>* list(std::string_view key, std::string_view allowed) {
     const YamlNode* node = map_.find(key);
     return node == nullptr ? nullptr : &read_list(*node, key, allowed);
+  }
+
+  void take_segments(std::vector<Wall> rows) {
+    const Mark mark = map_.require("segments", "rows").mark;
+    for (Wall& wall : rows) {
+      wall.segment = {unit_m_ * wall.segment.a, unit_m_ * wall.segment.b};
+      if (!(wall.segment.length() > 0)) throw PlacedError(mark, fmt::format("wall {} has no length", wall.label));
+    }
+    world_.walls = std::move(rows);
   }
 
   void read_segments() {
@@ -134,16 +148,18 @@ class WorldReader {
       throw PlacedError(node->mark,
                         fmt::format("losses is {}; allowed: a map, wall: probability", describe_node(*node)));
     world_.losses.assign(world_.walls.size(), 0.0);
+    std::unordered_map<std::string_view, std::size_t> index;
+    for (std::size_t i = 0; i < world_.walls.size(); ++i) index.emplace(world_.walls[i].label, i);
     for (const auto& entry : node->entries) {
-      const auto wall = std::ranges::find(world_.walls, entry.key, &Wall::label);
-      if (wall == world_.walls.end())
+      const auto wall = index.find(entry.key);
+      if (wall == index.end())
         throw PlacedError(entry.mark, fmt::format("losses names a wall {}, which the world does not have; allowed: the "
                                                   "label of a segment, or name.number of a polyline or polygon",
                                                   quoted_excerpt(entry.key)));
       const double loss = read_number(entry.value, "a loss");
       if (!(loss >= 0 && loss <= 1))
         throw PlacedError(entry.value.mark, fmt::format("a loss is {}; allowed: a probability, 0 .. 1", loss));
-      world_.losses[static_cast<std::size_t>(wall - world_.walls.begin())] = loss;
+      world_.losses[wall->second] = loss;
     }
   }
 
@@ -200,6 +216,7 @@ bool is_vector_map(const std::filesystem::path& path) {
 
 YamlNode row(std::initializer_list<double> numbers, const std::string& label) {
   YamlNode node = yaml_sequence();
+  node.items.reserve(1 + numbers.size());
   node.items.push_back(yaml_text(label));
   for (const double v : numbers) node.items.push_back(yaml_number(v));
   return node;
@@ -214,20 +231,49 @@ void validate_in_file(const sim::World& world, const std::string& file) {
   }
 }
 
+std::string default_name(const std::string& file) {
+  return std::filesystem::path(file).stem().string();
+}
+
+sim::World read_world_file(const YamlNode& root, const std::string& name, std::vector<Wall>* rows) {
+  YamlMap map(root, "the world file");
+  read_schema(map);
+  sim::World world = read_world(map, name, rows);
+  map.done();
+  return world;
+}
+
+// Reads a file whose rows of walls have the canonical form. Returns nothing for other files and for all errors, which
+// the reader of any form then finds again, with their places.
+std::optional<sim::World> parse_canonical(std::string_view text, const std::string& name) {
+  auto rows = take_wall_rows(text);
+  if (!rows) return std::nullopt;
+  try {
+    const YamlNode root = parse_yaml(rows->rest, kMaxWorldBytes);
+    if (!rows->belong_to(root) || !rows->fit_into(root)) return std::nullopt;
+    sim::World world = read_world_file(root, name, &rows->walls);
+    sim::validate(world);
+    return world;
+  } catch (const ConfigError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
-sim::World read_world(YamlMap& map, const std::string& default_name) {
-  return WorldReader(map, default_name).take();
+sim::World read_world(YamlMap& map, const std::string& default_name, std::vector<Wall>* rows) {
+  return WorldReader(map, default_name, rows).take();
 }
 
 sim::World parse_world(std::string_view text, const std::string& file) {
+  if (auto world = parse_canonical(text, default_name(file))) return *std::move(world);
+  return parse_world_yaml(text, file);
+}
+
+sim::World parse_world_yaml(std::string_view text, const std::string& file) {
   sim::World world = in_file(file, {}, [&] {
     const YamlNode root = parse_yaml(text, kMaxWorldBytes);
-    YamlMap map(root, "the world file");
-    read_schema(map);
-    sim::World result = read_world(map, std::filesystem::path(file).stem().string());
-    map.done();
-    return result;
+    return read_world_file(root, default_name(file), nullptr);
   });
   validate_in_file(world, file);
   return world;
@@ -287,6 +333,7 @@ YamlNode to_yaml(const sim::World& world) {
   yaml_add(map, "name", yaml_text(world.name));
   if (!world.about.empty()) yaml_add(map, "about", yaml_text(world.about));
   YamlNode& segments = yaml_add(map, "segments", yaml_sequence());
+  segments.items.reserve(world.walls.size());
   for (const auto& wall : world.walls)
     segments.items.push_back(
         row({wall.segment.a.x(), wall.segment.a.y(), wall.segment.b.x(), wall.segment.b.y()}, wall.label));

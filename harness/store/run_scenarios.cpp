@@ -90,9 +90,9 @@ void add_sources(const fs::path& run, Scenario& scenario) {
 }
 
 /// The effective scenario of that name.
-fs::path effective_file(const fs::path& run, const Manifest& manifest, const std::string& name) {
+fs::path effective_file(const fs::path& run, const std::vector<std::string>& names, const std::string& name) {
   const fs::path alone = run / kEffectiveFile;
-  const bool many = manifest.scenarios.size() > 1 || !fs::exists(alone);
+  const bool many = names.size() > 1 || !fs::exists(alone);
   return many ? run / "effective" / (name + ".yaml") : alone;
 }
 
@@ -120,21 +120,37 @@ std::map<std::string, std::map<std::string, std::string>> load_run_settings(cons
   const Manifest manifest = load_manifest(run);
   std::map<std::string, std::map<std::string, std::string>> settings;
   for (const auto& name : manifest.scenarios) {
-    const fs::path file = effective_file(run, manifest, name);
+    const fs::path file = effective_file(run, manifest.scenarios, name);
     settings[name] = effective_settings(read_file(file), file.string());
   }
   return settings;
 }
 
 std::vector<Scenario> load_run_scenarios(const fs::path& run) {
-  const Manifest manifest = load_manifest(run);
+  return load_run_scenarios(run, load_manifest(run).scenarios);
+}
+
+std::vector<Scenario> load_run_scenarios(const fs::path& run, const std::vector<std::string>& names) {
   std::vector<Scenario> scenarios;
-  for (const auto& name : manifest.scenarios) {
-    scenarios.push_back(load_recorded_scenario(effective_file(run, manifest, name)));
+  for (const auto& name : names) {
+    scenarios.push_back(load_recorded_scenario(effective_file(run, names, name)));
     scenarios.back().name = name;
     add_sources(run, scenarios.back());
   }
   return scenarios;
+}
+
+std::vector<fs::path> scenario_files(const fs::path& run, const std::vector<std::string>& names) {
+  std::vector<fs::path> files{kScenarioFile.name(), kEffectiveFile.name(), kBenchmarkFile.name(), kGatesFile.name()};
+  if (names.size() > 1) files = {kBenchmarkFile.name(), kGatesFile.name()};
+  for (const auto& name : names) {
+    if (names.size() > 1)
+      for (const char* folder : {"scenarios", "effective"}) files.push_back(fs::path(folder) / (name + ".yaml"));
+    for (const RunFile* file : {&kPublishedCopy, &kLinesCopy, &kSourcesFile})
+      files.push_back(inputs_path("", name) / *file);
+  }
+  std::erase_if(files, [&](const fs::path& file) { return !fs::exists(run / file); });
+  return files;
 }
 
 void write_suite_rules(const fs::path& run, const SuiteRules& rules) {

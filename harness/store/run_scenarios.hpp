@@ -27,6 +27,14 @@ void write_run_scenarios(const std::filesystem::path& run, const std::vector<Sce
 /// nothing outside the folder.
 std::vector<Scenario> load_run_scenarios(const std::filesystem::path& run);
 
+/// The same for a folder without a manifest, like that of a sweep: its scenarios have these names.
+std::vector<Scenario> load_run_scenarios(const std::filesystem::path& run, const std::vector<std::string>& names);
+
+/// The files that write_run_scenarios() and write_suite_rules() have written, relative to the run folder. The scenarios
+/// have these names.
+std::vector<std::filesystem::path> scenario_files(const std::filesystem::path& run,
+                                                  const std::vector<std::string>& names);
+
 /// The effective settings of a run's scenarios (scenario/effective.hpp), by scenario. Throws ConfigError.
 std::map<std::string, std::map<std::string, std::string>> load_run_settings(const std::filesystem::path& run);
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "sim/cast/caster.hpp"
-#include "sim/lanes/isa.hpp"
+#include "core/isa.hpp"
 #include "sim/world.hpp"
 
 namespace scanbench::sim {

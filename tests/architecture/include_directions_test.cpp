@@ -29,6 +29,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"harness/store", {"core", "metrics", "harness/files", "harness/scenario"}},
     {"harness/run",
      {"core", "sim", "metrics", "harness/files", "harness/exchange", "harness/scenario", "harness/store"}},
+    {"harness/sweep", {"core", "harness/files", "harness/scenario", "harness/store", "harness/run"}},
     {"harness/analysis", {"core", "metrics", "harness/files", "harness/scenario", "harness/store"}},
     {"harness/page", {"core", "harness/files"}},
     {"harness/report",
@@ -45,7 +46,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"harness/film", {"core", "render", "harness/files", "harness/scenario", "harness/store", "harness/report"}},
     {"app",
      {"core", "render", "harness/files", "harness/exchange", "harness/scenario", "harness/store", "harness/run",
-      "harness/analysis", "harness/page", "harness/report", "harness/nightly", "harness/player", "harness/gallery",
+      "harness/sweep", "harness/analysis", "harness/page", "harness/report", "harness/nightly", "harness/player", "harness/gallery",
       "harness/film"}},
 };
 

@@ -11,7 +11,7 @@
 
 #include "core/rng.hpp"
 #include "core/sensor_model.hpp"
-#include "sim/lanes/isa.hpp"
+#include "core/isa.hpp"
 #include "sim/noise.hpp"
 
 namespace scanbench::sim {

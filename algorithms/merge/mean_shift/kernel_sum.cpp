@@ -1,133 +1,73 @@
-// Sums of a truncated Gaussian kernel in float, four lanes (Lakaemper 2009, eq. 1).
+// Candidates of a box, and the mean shift from the sums over them (Lakaemper 2009, eq. 1).
 #include "algorithms/merge/mean_shift/kernel_sum.hpp"
 
-#include <bit>
+#include <algorithm>
 
 namespace scanbench::merge {
 namespace {
 
 constexpr float kFar = 1e12F;  // its square is finite and beyond any cut-off
 
-Float4 all(float v) {
-  return Float4{v, v, v, v};
-}
-
-float total(Float4 v) {
-  return (v[0] + v[2]) + (v[1] + v[3]);
-}
-
-inline Float4 gaussian_lanes(Float4 squared) {
-  // exp(-s / 2) = 2^n 2^f with |f| <= 1/2; adding 1.5 * 2^23 rounds to the nearest integer and leaves it in the low
-  // bits. 2^f: Taylor polynomial of degree 5, remainder below (ln 2 / 2)^6 / 6! = 2.5e-6.
-  const Float4 y = squared * all(-0.72134752F);
-  const Float4 rounded = y + all(12582912.0F);
-  const Float4 f = y - (rounded - all(12582912.0F));
-  Float4 p = all(0.0013333558F);
-  p = p * f + all(0.0096181291F);
-  p = p * f + all(0.0555041087F);
-  p = p * f + all(0.2402265070F);
-  p = p * f + all(0.6931471806F);
-  p = p * f + all(1.0F);
-  return std::bit_cast<Float4>(std::bit_cast<Word4>(p) + (std::bit_cast<Word4>(rounded) << 23));
-}
-
 }  // namespace
 
-Float4 gaussian(Float4 squared) {
-  return gaussian_lanes(squared);
-}
+CandidateList::CandidateList(Isa isa) : kernels_(isa == Isa::v3 ? &v3::kSumKernels : &baseline::kSumKernels) {}
 
 void CandidateList::clear() {
-  blocks_.clear();
-  filled_ = 4;
+  count_ = 0;
+}
+
+void CandidateList::make_space(std::size_t more) {
+  if (count_ + more <= x_.size()) return;
+  const std::size_t size = std::max(count_ + more, 2 * x_.size());
+  for (std::vector<float>* array : {&x_, &y_, &z_}) array->resize(size);
 }
 
 void CandidateList::add(Float3 p) {
-  if (filled_ == 4) {
-    blocks_.push_back({all(kFar), all(kFar), all(kFar)});
-    filled_ = 0;
-  }
-  Block& block = blocks_.back();
-  block.x[filled_] = p.x;
-  block.y[filled_] = p.y;
-  block.z[filled_] = p.z;
-  ++filled_;
+  make_space(1);
+  x_[count_] = p.x;
+  y_[count_] = p.y;
+  z_[count_] = p.z;
+  ++count_;
+}
+
+void CandidateList::add_near(const PointGrid& grid, const Vec3& centre, const Vec3& half, double radius) {
+  const NearBox box{
+      {centre.x(), centre.y(), centre.z()}, {half.x(), half.y(), half.z()}, radius * radius, grid.period()};
+  grid.for_each_run(centre, half, radius, [&](std::size_t begin, std::size_t end) {
+    make_space(end - begin + kNearLanes);
+    count_ += static_cast<std::size_t>(kernels_->select(grid.x().data() + begin, grid.y().data() + begin,
+                                                        grid.z().data() + begin, static_cast<int>(end - begin), box,
+                                                        x_.data() + count_, y_.data() + count_, z_.data() + count_));
+  });
 }
 
 void CandidateList::seal() {
-  filled_ = 4;
+  while (count_ % kSumLanes != 0) add({kFar, kFar, kFar});
 }
 
 Shift CandidateList::shift(Float3 t, float squared_cutoff) const {
-  const Float4 tx = all(t.x);
-  const Float4 ty = all(t.y);
-  const Float4 tz = all(t.z);
-  const Float4 cut = all(squared_cutoff);
-  Float4 mass = all(0.0F);
-  Float4 sx = all(0.0F);
-  Float4 sy = all(0.0F);
-  Float4 sz = all(0.0F);
-  for (const Block& b : blocks_) {
-    const Float4 dx = b.x - tx;
-    const Float4 dy = b.y - ty;
-    const Float4 dz = b.z - tz;
-    const Float4 squared = dx * dx + dy * dy + dz * dz;
-    const auto inside = squared <= cut;  // lanes of all ones or all zeros
-    const auto w = std::bit_cast<Float4>(std::bit_cast<Word4>(gaussian_lanes(squared)) & std::bit_cast<Word4>(inside));
-    mass += w;
-    sx += w * dx;
-    sy += w * dy;
-    sz += w * dz;
-  }
-  Shift result{total(mass), {}};
-  if (result.mass > 0.0F) result.step = {total(sx) / result.mass, total(sy) / result.mass, total(sz) / result.mass};
+  const float at[] = {t.x, t.y, t.z};
+  const FirstSums s = kernels_->first(arrays(), at, squared_cutoff);
+  Shift result{s.mass, {}};
+  if (s.mass > 0.0F) result.step = {s.x / s.mass, s.y / s.mass, s.z / s.mass};
   return result;
 }
 
 ShiftAndCovariance CandidateList::shift_and_covariance(Float3 t, float squared_cutoff) const {
-  const Float4 tx = all(t.x);
-  const Float4 ty = all(t.y);
-  const Float4 tz = all(t.z);
-  const Float4 cut = all(squared_cutoff);
-  const Float4 at_cutoff = gaussian_lanes(cut);
-  Float4 mass = all(0.0F), density = mass, sx = mass, sy = mass, sz = mass;
-  Float4 xx = mass, xy = mass, xz = mass, yy = mass, yz = mass, zz = mass;
-  for (const Block& b : blocks_) {
-    const Float4 dx = b.x - tx;
-    const Float4 dy = b.y - ty;
-    const Float4 dz = b.z - tz;
-    const Float4 squared = dx * dx + dy * dy + dz * dz;
-    const auto inside = std::bit_cast<Word4>(squared <= cut);
-    const Float4 full = gaussian_lanes(squared);
-    const auto w = std::bit_cast<Float4>(std::bit_cast<Word4>(full) & inside);
-    density += std::bit_cast<Float4>(std::bit_cast<Word4>(full - at_cutoff) & inside);
-
-    const Float4 wx = w * dx;
-    const Float4 wy = w * dy;
-    const Float4 wz = w * dz;
-    mass += w;
-    sx += wx;
-    sy += wy;
-    sz += wz;
-    xx += wx * dx;
-    xy += wx * dy;
-    xz += wx * dz;
-    yy += wy * dy;
-    yz += wy * dz;
-    zz += wz * dz;
-  }
+  const float at[] = {t.x, t.y, t.z};
+  const SecondSums sums = kernels_->second(arrays(), at, squared_cutoff);
   ShiftAndCovariance result;
-  const float m = total(mass);
+  const float m = sums.first.mass;
   if (!(m > 0.0F)) return result;
-  const Float3 s{total(sx) / m, total(sy) / m, total(sz) / m};
+  const Float3 s{sums.first.x / m, sums.first.y / m, sums.first.z / m};
   result.shift = {m, s};
-  result.density = total(density);
-  result.xx = total(xx) / m - s.x * s.x;
-  result.xy = total(xy) / m - s.x * s.y;
-  result.xz = total(xz) / m - s.x * s.z;
-  result.yy = total(yy) / m - s.y * s.y;
-  result.yz = total(yz) / m - s.y * s.z;
-  result.zz = total(zz) / m - s.z * s.z;
+  result.density = sums.density;
+  result.xx = sums.xx / m - s.x * s.x;
+  result.xy = sums.xy / m - s.x * s.y;
+  result.xz = sums.xz / m - s.x * s.z;
+  result.yy = sums.yy / m - s.y * s.y;
+  result.yz = sums.yz / m - s.y * s.z;
+  result.zz = sums.zz / m - s.z * s.z;
   return result;
 }
 

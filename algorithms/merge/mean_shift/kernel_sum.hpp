@@ -1,5 +1,5 @@
-// Sums of a truncated Gaussian kernel over a list of candidates, four at a time in float: the inner loop of mean shift
-// (Lakaemper 2009, eq. 1).
+// Sums of a truncated Gaussian kernel over a list of candidates in float: the inner loop of mean shift (Lakaemper 2009,
+// eq. 1), computed by sum_kernels.hpp.
 //
 // Coordinates are in units of the kernel's standard deviation, relative to the centre of a box. So the resolution of
 // float is about 1e-6 standard deviations, independent of the distance of the map from the origin. Only + - * are used,
@@ -7,15 +7,16 @@
 // afterwards, in double (mode_polish.hpp).
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
 
-namespace scanbench::merge {
+#include "algorithms/merge/mean_shift/sum_kernels.hpp"
+#include "algorithms/merge/parts/point_grid.hpp"
+#include "core/isa.hpp"
 
-using Float4 [[gnu::vector_size(16)]] = float;
-using Word4 [[gnu::vector_size(16)]] = std::uint32_t;
+namespace scanbench::merge {
 
 struct Float3 {
   float x = 0.0F;
@@ -27,9 +28,6 @@ struct Float3 {
   }
   float squared_norm() const { return x * x + y * y + z * z; }
 };
-
-/// exp(-squared / 2), relative error below 8e-6, for 0 <= squared <= 160.
-Float4 gaussian(Float4 squared);
 
 /// The mean shift m(t) - t (eq. 1) and the sum of its weights, which is 0 if no candidate is within the cut-off.
 struct Shift {
@@ -50,12 +48,16 @@ struct ShiftAndCovariance {
   float zz = 0.0F;
 };
 
-/// Candidates in blocks of four. Call add() for all of them, then seal(), then the sums.
+/// Candidates in arrays of eight. Call add() and add_near() for all of them, then seal(), then the sums.
 class CandidateList {
  public:
+  explicit CandidateList(Isa isa = best_isa());
+
   void clear();
   void add(Float3 p);
-  /// Fills the last block with points beyond every cut-off.
+  /// Adds p - centre, rounded, for all points p of the grid within `radius` of the box centre +- half.
+  void add_near(const PointGrid& grid, const Vec3& centre, const Vec3& half, double radius);
+  /// Fills the arrays up with points beyond every cut-off.
   void seal();
 
   /// Candidates farther than sqrt(squared_cutoff) from t have weight 0.
@@ -63,13 +65,12 @@ class CandidateList {
   ShiftAndCovariance shift_and_covariance(Float3 t, float squared_cutoff) const;
 
  private:
-  struct Block {
-    Float4 x;
-    Float4 y;
-    Float4 z;
-  };
-  std::vector<Block> blocks_;
-  int filled_ = 4;  ///< lanes used of the last block
+  CandidateArrays arrays() const { return {x_.data(), y_.data(), z_.data(), static_cast<int>(count_)}; }
+  void make_space(std::size_t more);
+
+  const SumKernels* kernels_;
+  std::vector<float> x_, y_, z_;  ///< longer than count_
+  std::size_t count_ = 0;
 };
 
 }  // namespace scanbench::merge

@@ -21,7 +21,7 @@ struct PolishedMode {
 /// Sets `differences` to p - centre (third component: nearest image) for all points that may be within kPolishCutoff of
 /// a place in centre +- kPolishBox.
 using Neighbours = std::function<void(const Vec3& centre, std::vector<Vec3>& differences)>;
-inline constexpr double kPolishBox = 1.0;
+inline constexpr double kPolishBox = 0.25;
 
 /// The mode uphill from `start`, in units of the standard deviation. Its gradient is zero to 1e-6 (to 1e-10 if rounding
 /// permits), and it is no saddle. The density never falls along the path. `period` as in PointGrid. Needs at least one

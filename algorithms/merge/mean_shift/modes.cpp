@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <unordered_map>
 
 #include "algorithms/merge/mean_shift/climb.hpp"
@@ -121,6 +123,8 @@ class ModeSearch {
   std::vector<Anchor> anchors_;
   std::vector<Float3> path_;
   std::vector<KnownEnd> ends_;
+  std::int64_t lowest_end_ = std::numeric_limits<std::int64_t>::max();  // of the boxes with ends, in z
+  std::int64_t highest_end_ = std::numeric_limits<std::int64_t>::min();
   std::unordered_map<BoxKey, std::vector<int>, BoxHash> ends_in_box_;
   std::unordered_map<BoxKey, std::vector<int>, BoxHash> modes_in_box_;
   Modes result_;
@@ -188,8 +192,7 @@ void ModeSearch::process_box(std::span<PendingClimb> climbs, std::vector<Pending
   const BoxKey box = climbs.front().box;
   const Vec3 centre = boxes_.centre(box);
   candidates_.clear();
-  grid_.for_each_near(centre, boxes_.half(kMargin), options_.cutoff + 1e-3,
-                      [&](std::size_t, const Vec3& d) { candidates_.add(Float3::rounded(d)); });
+  candidates_.add_near(grid_, centre, boxes_.half(kMargin), options_.cutoff + 1e-3);
   candidates_.seal();
   collect_anchors(box, centre);
 
@@ -226,6 +229,7 @@ void ModeSearch::process_box(std::span<PendingClimb> climbs, std::vector<Pending
 void ModeSearch::collect_anchors(const BoxKey& box, const Vec3& centre) {
   anchors_.clear();
   for_each_neighbour(boxes_, box, [&](const BoxKey& key) {
+    if (key.z < lowest_end_ || key.z > highest_end_) return;  // in the plane, two thirds of all boxes
     const auto found = ends_in_box_.find(key);
     if (found == ends_in_box_.end()) return;
     for (const int k : found->second) {
@@ -293,7 +297,10 @@ int ModeSearch::mode_of_end(const Vec3& end) {
 }
 
 void ModeSearch::remember(const Vec3& end, double radius, int mode) {
-  ends_in_box_[boxes_.key(end)].push_back(static_cast<int>(ends_.size()));
+  const BoxKey box = boxes_.key(end);
+  lowest_end_ = std::min(lowest_end_, box.z);
+  highest_end_ = std::max(highest_end_, box.z);
+  ends_in_box_[box].push_back(static_cast<int>(ends_.size()));
   ends_.push_back({end, radius, mode});
 }
 

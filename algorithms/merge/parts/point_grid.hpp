@@ -42,25 +42,41 @@ class PointGrid {
   template <class Visit>
   void for_each_near(const Vec3& centre, const Vec3& half, double radius, Visit&& visit) const {
     const double squared_radius = radius * radius;
+    for_each_run(centre, half, radius, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const double dx = x_[k] - centre.x();
+        const double dy = y_[k] - centre.y();
+        const double dz = wrapped(z_[k] - centre.z(), period_);
+        const double ox = std::max(0.0, std::abs(dx) - half.x());
+        const double oy = std::max(0.0, std::abs(dy) - half.y());
+        const double oz = std::max(0.0, std::abs(dz) - half.z());
+        if (ox * ox + oy * oy + oz * oz <= squared_radius) visit(index_[k], Vec3(dx, dy, dz));
+      }
+    });
+  }
+
+  /// Calls visit(begin, end) for runs of the sorted points that contain all points within `radius` of the box, and
+  /// others. Runs of one row of columns are adjacent and come as one.
+  template <class Visit>
+  void for_each_run(const Vec3& centre, const Vec3& half, double radius, Visit&& visit) const {
     const std::int64_t ix_first = cell_of(centre.x() - half.x() - radius);
     const std::int64_t ix_last = cell_of(centre.x() + half.x() + radius);
     const std::int64_t iy_last = cell_of(centre.y() + half.y() + radius);
     for (std::int64_t iy = cell_of(centre.y() - half.y() - radius); iy <= iy_last; ++iy) {
       auto column = std::lower_bound(columns_.begin(), columns_.end(), std::pair(iy, ix_first),
                                      [](const Column& c, const auto& key) { return std::pair(c.iy, c.ix) < key; });
-      for (; column != columns_.end() && column->iy == iy && column->ix <= ix_last; ++column) {
-        for (std::size_t k = column->begin; k < column->end; ++k) {
-          const double dx = x_[k] - centre.x();
-          const double dy = y_[k] - centre.y();
-          const double dz = wrapped(z_[k] - centre.z(), period_);
-          const double ox = std::max(0.0, std::abs(dx) - half.x());
-          const double oy = std::max(0.0, std::abs(dy) - half.y());
-          const double oz = std::max(0.0, std::abs(dz) - half.z());
-          if (ox * ox + oy * oy + oz * oz <= squared_radius) visit(index_[k], Vec3(dx, dy, dz));
-        }
-      }
+      if (column == columns_.end()) return;  // columns are sorted by row
+      const std::size_t begin = column->begin;
+      std::size_t end = begin;
+      for (; column != columns_.end() && column->iy == iy && column->ix <= ix_last; ++column) end = column->end;
+      if (end > begin) visit(begin, end);
     }
   }
+
+  /// Coordinates of the sorted points.
+  std::span<const double> x() const { return x_; }
+  std::span<const double> y() const { return y_; }
+  std::span<const double> z() const { return z_; }
 
  private:
   struct Column {

@@ -194,7 +194,7 @@ TEST(CellFiles, ThatDoNotFitEachOtherAreRefused) {
 TEST(CellAddress, ChangesWithEverythingThatTheResultDependsOn) {
   const Scenario base = testing::scenario_with("s", {testing::extract_with("p", "test_line", {{"skip", 1.0}})});
   const auto address = [](const Scenario& s, std::uint64_t seed = 1) {
-    return cell_address(input_address(s), s.metrics, s.pipelines[0], seed, {});
+    return cell_address(input_address(s), work_address(s.metrics, s.pipelines[0]), seed, {});
   };
   EXPECT_EQ(address(base), address(base));
   std::vector<Scenario> others(7, base);
@@ -255,8 +255,8 @@ TEST(CellAddress, OfAScenarioWithAWorldFileIsThatOfItsEffectiveScenario) {
   write_file_atomically(folder.path() / "effective.yaml", effective_yaml(scenario));
   const Scenario effective = load_scenario(folder.path() / "effective.yaml");
   EXPECT_EQ(input_address(scenario), input_address(effective));
-  EXPECT_EQ(cell_address("", scenario.metrics, scenario.pipelines[0], 1, {}),
-            cell_address("", effective.metrics, effective.pipelines[0], 1, {}));
+  EXPECT_EQ(work_address(scenario.metrics, scenario.pipelines[0]),
+            work_address(effective.metrics, effective.pipelines[0]));
 }
 
 TEST(CellAddress, FollowsTheBytesOfALog) {

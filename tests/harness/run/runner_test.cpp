@@ -85,7 +85,9 @@ TEST(Runner, ResumesAfterAnInterruptToTheSameBytes) {
     };
     const RunResult broken = run_here(scenarios, options);
     EXPECT_EQ(broken.exit_code(), 130);
-    EXPECT_LT(broken.cells.size() ? std::ranges::count(broken.cells, true, &CellResult::done) : 0, 8);
+    if (after < 4) {  // later cells may be put in place together with the fourth
+      EXPECT_LT(std::ranges::count(broken.cells, true, &CellResult::done), 8);
+    }
     for (const auto& name : testing::listing(out)) EXPECT_FALSE(is_temporary_name(fs::path(name).filename().string()));
 
     const RunResult resumed = run_here(scenarios, {.out = out, .jobs = 1, .resume = true});

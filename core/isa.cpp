@@ -1,11 +1,11 @@
 // Detects the processor's instruction set.
-#include "sim/lanes/isa.hpp"
+#include "core/isa.hpp"
 
-namespace scanbench::sim {
+namespace scanbench {
 
 Isa best_isa() {
   static const Isa best = __builtin_cpu_supports("avx2") ? Isa::v3 : Isa::baseline;
   return best;
 }
 
-}  // namespace scanbench::sim
+}  // namespace scanbench

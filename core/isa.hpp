@@ -1,7 +1,7 @@
-// Selects the build of the kernels in sim/lanes/ that this processor can run.
+// Selects the build of the kernels (scanbench_kernels in cmake/targets.cmake) that this processor can run.
 #pragma once
 
-namespace scanbench::sim {
+namespace scanbench {
 
 enum class Isa {
   baseline,  ///< any x86-64
@@ -11,4 +11,4 @@ enum class Isa {
 /// The best that the processor has. Both give equal bytes.
 Isa best_isa();
 
-}  // namespace scanbench::sim
+}  // namespace scanbench

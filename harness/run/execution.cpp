@@ -1,0 +1,347 @@
+// Schedules cells: those of one recording form a group, and at most `jobs` children run at once.
+#include "harness/run/execution.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <set>
+#include <utility>
+
+#include <malloc.h>
+
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "harness/files/system_error.hpp"
+#include "harness/run/cell_work.hpp"
+#include "harness/store/cell_files.hpp"
+#include "harness/store/recording_folder.hpp"
+#include "harness/store/summary.hpp"
+
+namespace scanbench::harness {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Of the time, the part that is spent on flushing the disk: one in this many.
+constexpr int kFlushShare = 20;
+
+/// A recording that one cell needs is read by that cell's child, which then may take this much more memory. Children
+/// share a larger one, which this process reads.
+constexpr double kReadByChildBytes = 16.0 * 1024 * 1024;
+constexpr double kReadingBytes = 4 * kReadByChildBytes;
+
+/// What a recording's child reports: the content hash, then about how many bytes the recording has in memory.
+std::string recording_report(const std::string& hash, const Recording& recording) {
+  const std::size_t beams = recording.observed.frames.empty() ? 0 : recording.observed.frames.front().ranges.size();
+  std::size_t lines = 0;
+  for (const auto& frame : recording.observed.frames) lines += frame.lines.size();
+  const std::size_t walls = recording.truth ? recording.truth->walls.size() : 0;
+  return hash + " " + std::to_string(24 * recording.observed.frames.size() * (beams + 16) + 100 * walls + 64 * lines);
+}
+
+/// What a cell's child reports: the length of the remarks, the remarks, and the lines of the summary.
+std::string cell_report(const std::string& remarks, const std::string& summary) {
+  return std::to_string(remarks.size()) + " " + remarks + summary;
+}
+
+/// Takes the summary from a report and leaves the remarks.
+std::string take_summary(std::string& report) {
+  const std::size_t blank = report.find(' ');
+  const auto size = static_cast<std::size_t>(parse_number(report.substr(0, blank)).value_or(0.0));
+  std::string summary = report.substr(blank + 1 + size);
+  report = report.substr(blank + 1, size);
+  return summary;
+}
+
+/// Reads a recording that is put in place at this moment, perhaps.
+Recording load_recording_of(const fs::path& staged, const fs::path& target) {
+  if (!staged.empty()) {
+    try {
+      return load_recording(staged);
+    } catch (const ConfigError&) {
+      // It has been renamed.
+    }
+  }
+  return load_recording(target);
+}
+
+}  // namespace
+
+Execution::Execution(const RunPlan& plan, int jobs, MakeRecording make_recording, ExecutionEvents events)
+    : plan_(plan),
+      jobs_(jobs),
+      make_recording_(std::move(make_recording)),
+      events_(std::move(events)),
+      groups_(plan.groups.size()) {}
+
+void Execution::add(std::size_t cell) {
+  group_of(cell).cells.push_back(cell);
+  ++group_of(cell).unfinished;
+}
+
+void Execution::work(const fs::path& folder, bool flush, double grace_seconds) {
+  folder_ = folder;
+  flush_ = flush;
+  ::malloc_trim(0);  // each fork copies the page tables of what this process holds, freed or not
+  try {
+    run_all(grace_seconds);
+  } catch (...) {
+    pool_->kill_all();  // before the folders that the children write are removed
+    throw;
+  }
+  pool_->kill_all();
+  running_.clear();
+  put_in_place();
+  interrupted_ = pool_->interrupted();
+  terminated_ = pool_->terminated();
+  for (auto& group : groups_) group.active.reset();
+}
+
+void Execution::run_all(double grace_seconds) {
+  while (!pool_->interrupted()) {
+    while (pool_->running() < static_cast<std::size_t>(jobs_) && start_next()) {
+    }
+    if (pool_->running() == 0) break;
+    for (auto& finished : pool_->wait()) take(std::move(finished));
+    put_in_place_if_due();
+    events_.pause();
+  }
+  const auto end = Clock::now() + std::chrono::duration<double>(grace_seconds);
+  while (pool_->interrupted() && pool_->running() > 0 && Clock::now() < end) {
+    const double left = std::chrono::duration<double>(end - Clock::now()).count();
+    for (auto& finished : pool_->wait_despite_interrupts(left)) take(std::move(finished));
+  }
+}
+
+void Execution::take(WorkerPool::Finished finished) {
+  if (finished.id < plan_.cells.size())
+    finish_cell(finished.id, std::move(running_.extract(finished.id).mapped()), std::move(finished.outcome));
+  else
+    finish_recording(finished.id - plan_.cells.size(), std::move(finished.outcome));
+}
+
+/// Starts a cell whose recording exists, else the next recording. False if there is nothing to start now.
+bool Execution::start_next() {
+  if (!ready_.empty()) {
+    const std::size_t cell = ready_.front();
+    ready_.pop_front();
+    start_cell(cell);
+    return true;
+  }
+  while (next_group_ < groups_.size()) {
+    const std::size_t index = next_group_++;
+    if (groups_[index].unfinished == 0) continue;
+    start_recording(index);
+    return true;
+  }
+  return false;
+}
+
+void Execution::start_recording(std::size_t index) {
+  groups_[index].active = std::make_unique<ActiveGroup>();
+  ActiveGroup& group = *groups_[index].active;
+  const PlannedGroup& planned = plan_.groups[index];
+  try {
+    group.staged.emplace(recording_path(folder_, planned.scenario->name, planned.seed));
+  } catch (const ConfigError& e) {
+    skip_cells(index, {.message = e.what(), .system_error = true});
+    return;
+  }
+  const int threads = std::max(1, jobs_ - static_cast<int>(pool_->running()));
+  events_.began_recording("recording " + planned.scenario->name + "/" + std::to_string(planned.seed));
+  const auto make = [&] {
+    const Recording recording = make_recording_(*planned.scenario, planned.seed, threads);
+    return recording_report(write_recording(group.staged->path(), recording), recording);
+  };
+  try {
+    pool_->start(plan_.cells.size() + index, make,
+                 {planned.scenario->limits.seconds, planned.scenario->limits.memory_bytes, threads});
+  } catch (const SystemError& e) {
+    group.staged.reset();
+    skip_cells(index, {.message = e.what(), .system_error = true});
+  }
+}
+
+void Execution::finish_recording(std::size_t index, WorkerOutcome outcome) {
+  ActiveGroup& group = *groups_[index].active;
+  const std::vector<std::size_t>& cells = groups_[index].cells;
+  if (outcome.status == CellStatus::ok) {
+    try {
+      const std::size_t blank = outcome.message.find(' ');
+      const std::string hash = outcome.message.substr(0, blank);
+      const double bytes = parse_number(std::string_view(outcome.message).substr(blank + 1)).value_or(0.0);
+      const bool by_child = cells.size() == 1 && bytes < kReadByChildBytes;
+      if (!by_child) group.recording = load_recording(group.staged->path());
+      // The new recording replaces the old one only if it differs.
+      try {
+        if (fs::exists(group.staged->target()) && recording_hash(load_recording(group.staged->target())) == hash)
+          group.staged.reset();
+      } catch (const ConfigError&) {
+        // The old recording is damaged.
+      }
+      if (group.staged) new_recordings_.push_back(index);
+      ready_.insert(ready_.end(), cells.begin(), cells.end());
+      return;
+    } catch (const SystemError& e) {
+      outcome = {.message = e.what(), .system_error = true};
+    } catch (const std::exception& e) {
+      outcome = {.status = CellStatus::failed, .message = e.what()};
+    }
+  }
+  group.staged.reset();
+  skip_cells(index, outcome);
+}
+
+void Execution::skip_cells(std::size_t index, const WorkerOutcome& outcome) {
+  if (outcome.bad_input && first_bad_input_.empty()) first_bad_input_ = outcome.message;
+  has_other_failure_ = has_other_failure_ || !outcome.bad_input;
+  const std::string message =
+      "there is no recording: " + std::string(to_string(outcome.status)) + ": " + outcome.message;
+  for (const std::size_t cell : groups_[index].cells) {
+    if (outcome.system_error)
+      mark_missing(cell, outcome.message);
+    else if (auto staged = stage(cell))
+      finish_cell(cell, std::move(*staged), {.status = CellStatus::skipped, .message = message});
+  }
+}
+
+/// The work of a cell's child.
+std::function<std::string()> Execution::task_of(std::size_t cell, const fs::path& folder) {
+  return [this, cell, folder] {
+    const PlannedCell& planned = plan_.cells[cell];
+    const PlannedWork& work = plan_.works[planned.work];
+    const ActiveGroup& group = active_group_of(cell);
+    std::optional<Recording> read;
+    if (!group.recording)
+      read = load_recording_of(group.staged ? group.staged->path() : fs::path(),
+                               recording_path(folder_, work.scenario->name, plan_.groups[planned.group].seed));
+    const CellOutput output =
+        make_cell(folder, *work.scenario, *work.pipeline, plan_.trace(planned), read ? *read : *group.recording);
+    return cell_report(output.remarks, summary_lines(plan_.key(planned), output.rows));
+  };
+}
+
+void Execution::start_cell(std::size_t cell) {
+  has_other_failure_ = true;
+  if (!active_group_of(cell).fault.empty()) {
+    mark_missing(cell, active_group_of(cell).fault);
+    return;
+  }
+  std::optional<StagedFolder> staged = stage(cell);
+  if (!staged) return;
+  const Limits& limits = scenario_of(cell).limits;
+  const double reading = active_group_of(cell).recording ? 0.0 : kReadingBytes;
+  try {
+    pool_->start(cell, task_of(cell, staged->path()), {limits.seconds, limits.memory_bytes + reading, 1});
+    running_.emplace(cell, std::move(*staged));
+  } catch (const SystemError& e) {
+    mark_missing(cell, e.what());
+  }
+}
+
+void Execution::finish_cell(std::size_t cell, StagedFolder staged, WorkerOutcome outcome) {
+  if (outcome.system_error) {
+    mark_missing(cell, outcome.message);
+    return;
+  }
+  const PlannedCell& planned = plan_.cells[cell];
+  CellResult result;
+  result.key = plan_.key(planned);
+  result.done = true;
+  try {
+    std::string summary;
+    if (outcome.status == CellStatus::ok)
+      summary = take_summary(outcome.message);
+    else
+      staged.clear();
+    result.record.outcome = std::move(outcome);
+    result.record.address = plan_.address(planned);
+    write_staged_file(staged.path() / kStatusFile, status_json(result.record));
+    finished_.push_back({cell, std::move(result), std::move(summary), std::move(staged)});
+  } catch (const ConfigError& e) {
+    mark_missing(cell, e.what());
+  }
+}
+
+/// Makes the unfinished folder of a cell. If that fails, marks the cell as missing.
+std::optional<StagedFolder> Execution::stage(std::size_t cell) {
+  try {
+    return std::optional<StagedFolder>(std::in_place, cell_path(folder_, plan_.key(plan_.cells[cell])));
+  } catch (const ConfigError& e) {
+    mark_missing(cell, e.what());
+    return std::nullopt;
+  }
+}
+
+void Execution::put_in_place_if_due() {
+  const auto begun = Clock::now();
+  if (finished_.empty() || begun < due_) return;
+  put_in_place();
+  const auto ended = Clock::now();
+  due_ = ended + kFlushShare * (ended - begun);
+}
+
+/// Puts finished recordings in place, then finished cells. Cells whose folder cannot be put in place are missing.
+void Execution::put_in_place() {
+  std::string fault;
+  std::set<fs::path> parents;
+  const auto place = [&](StagedFolder& staged) -> std::string {
+    if (!fault.empty()) return fault;
+    try {
+      staged.place();
+      parents.insert(staged.target().parent_path());
+    } catch (const ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  try {
+    if (flush_ && !finished_.empty())
+      finished_.front().staged.flush();
+    else if (flush_ && !new_recordings_.empty())
+      groups_[new_recordings_.front()].active->staged->flush();
+  } catch (const ConfigError& e) {
+    fault = e.what();
+  }
+  for (const std::size_t index : std::exchange(new_recordings_, {})) {
+    ActiveGroup& group = *groups_[index].active;
+    group.fault = place(*group.staged);
+    group.staged.reset();
+  }
+  std::vector<Finished> ended = std::exchange(finished_, {});
+  std::vector<std::string> faults;
+  for (auto& cell : ended)
+    faults.push_back(active_group_of(cell.cell).fault.empty() ? place(cell.staged) : active_group_of(cell.cell).fault);
+  try {
+    if (flush_)
+      for (const auto& parent : parents) flush_folder(parent);
+  } catch (const ConfigError& e) {
+    faults.assign(faults.size(), e.what());
+  }
+  for (std::size_t i = 0; i < ended.size(); ++i) {
+    if (faults[i].empty())
+      end_cell(ended[i].cell, std::move(ended[i].result), std::move(ended[i].summary));
+    else
+      mark_missing(ended[i].cell, faults[i]);
+    if (group_of(ended[i].cell).unfinished == 0) group_of(ended[i].cell).active.reset();
+  }
+}
+
+/// Marks a cell as missing after a failure of the system, like a full disk. The run is then incomplete, but other cells
+/// may succeed.
+void Execution::mark_missing(std::size_t cell, const std::string& reason) {
+  const PlannedCell& planned = plan_.cells[cell];
+  CellResult result;
+  result.key = plan_.key(planned);
+  result.record.address = plan_.address(planned);
+  result.record.outcome.message = reason;
+  end_cell(cell, std::move(result), "");
+}
+
+void Execution::end_cell(std::size_t cell, CellResult result, std::string summary) {
+  Group& group = group_of(cell);
+  if (--group.unfinished == 0 && group.active) group.active->recording.reset();
+  events_.ended(cell, std::move(result), std::move(summary));
+}
+
+}  // namespace scanbench::harness

@@ -1,0 +1,129 @@
+// The verbs of sweeps, and the commands of docs/cluster.md.
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/program.hpp"
+
+namespace scanbench::app_test {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A room with two seeds, planned as two shards in `sweep`.
+void plan_room(const Folder& folder) {
+  folder.write("room.yaml", room());
+  const auto planned =
+      run({"plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "2"}, {}, folder.path());
+  ASSERT_EQ(planned.code, 0) << planned.err;
+  ASSERT_THAT(planned.out, HasSubstr("sweep: 2 cells in 2 shards"));
+}
+
+TEST(SweepVerbs, ShardsThatRunAtOnceMergeToTheRun) {
+  const Folder folder;
+  plan_room(folder);
+  {
+    Child first(command({"run", "--plan", "sweep", "--shard", "1"}), {}, folder.path());
+    Child again(command({"run", "--plan", "sweep", "--shard", "1"}), {}, folder.path());
+    Child second(command({"run", "--plan", "sweep"}), {{"SLURM_ARRAY_TASK_ID", "2"}}, folder.path());
+    for (Child* child : {&first, &again, &second}) EXPECT_EQ(child->wait().code, 0);
+  }
+  const auto merged = run({"merge", "sweep", "--out", "merged"}, {}, folder.path());
+  EXPECT_EQ(merged.code, 0) << merged.err;
+  EXPECT_THAT(merged.out, HasSubstr("merged/report.html"));
+  ASSERT_EQ(run({"run", "room.yaml", "--seed", "1,2", "--out", "local", "-q"}, {}, folder.path()).code, 0);
+  EXPECT_THAT(differences(results(folder / "merged"), results(folder / "local")), ::testing::IsEmpty());
+  EXPECT_EQ(read(folder / "merged/summary.csv"), read(folder / "local/summary.csv"));
+  EXPECT_EQ(read(folder / "merged/scenario.yaml"), read(folder / "local/scenario.yaml"));
+  EXPECT_EQ(read(folder / "merged/effective.yaml"), read(folder / "local/effective.yaml"));
+  EXPECT_TRUE(fs::exists(folder / "merged/figures/room_environment.svg"));
+}
+
+TEST(SweepVerbs, StatusAndMergeNameTheMissingShards) {
+  const Folder folder;
+  plan_room(folder);
+  ASSERT_EQ(run({"run", "--plan", "sweep", "--shard", "2", "-q"}, {}, folder.path()).code, 0);
+  const auto status = run({"status", "sweep", "--json"}, {}, folder.path());
+  EXPECT_EQ(status.code, 4);
+  const auto json = nlohmann::json::parse(status.out);
+  EXPECT_EQ(json["missing_shards"], nlohmann::json({1}));
+  EXPECT_EQ(json["array"], "1");
+  EXPECT_EQ(json["ok"], 1);
+  EXPECT_EQ(run({"status", "sweep", "--numbers"}, {}, folder.path()).out, "1\n");
+  const auto merged = run({"merge", "sweep"}, {}, folder.path());
+  EXPECT_EQ(merged.code, 4);
+  EXPECT_THAT(merged.err, HasSubstr("run these shards again: 1\n"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(SweepVerbs, RefusalsSayWhatIsAllowed) {
+  const Folder folder;
+  plan_room(folder);
+  const std::pair<Args, std::string> cases[] = {
+      {{"run", "--plan", "sweep", "--shard", "3"}, "has no shard 3; allowed: 1 .. 2"},
+      {{"run", "--plan", "sweep", "--shard", "two"}, "--shard is 'two'"},
+      {{"run", "--plan", "swep", "--shard", "1"}, "did you mean 'sweep'?"},
+      {{"run", "--plan", "sweep", "--shard", "1", "--out", "x"}, "--plan excludes --out"},
+      {{"run", "--plan", "sweep", "--shard", "1", "room.yaml"}, "FILE excludes --plan"},
+      {{"run", "room.yaml", "--shard", "1"}, "--shard needs --plan"},
+      {{"run"}, "'run' needs FILE: scenario or suite files"},
+      {{"plan", "room.yaml", "--out", "s", "--shards", "1001"}, "allowed: a whole number 1 .. 1000"},
+      {{"status", "."}, "it has no sweep.json"},
+      {{"submit", "pbs", "sweep"}, "'pbs' is no batch system; allowed: slurm"}};
+  for (const auto& [args, message] : cases) {
+    const auto outcome = run(args, {}, folder.path());
+    EXPECT_EQ(outcome.code, 2) << args[0];
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+  }
+}
+
+TEST(SweepVerbs, WithoutSlurmSubmitSaysWhatElseRunsASweep) {
+  const Folder folder;
+  plan_room(folder);
+  const auto outcome = run({"submit", "slurm", "sweep"}, {{"PATH", "/nowhere"}}, folder.path());
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("cannot start sbatch"));
+  EXPECT_THAT(outcome.err, HasSubstr("docs/cluster.md"));
+}
+
+/// Lines of the blocks of commands in a page.
+std::vector<std::string> commands_of(const fs::path& page) {
+  std::vector<std::string> lines;
+  std::istringstream text(read(page));
+  bool is_block = false;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("```"))
+      is_block = !is_block;
+    else if (is_block && line.starts_with("scanbench "))
+      lines.push_back(line);
+  }
+  return lines;
+}
+
+TEST(SweepVerbs, CommandsOfThePageAboutClustersRunAsWritten) {
+  const Folder folder;
+  fs::create_directory_symlink(places::source_dir() / "scenarios", folder / "scenarios");
+  const auto commands = commands_of(places::source_dir() / "docs/cluster.md");
+  EXPECT_GE(commands.size(), 12U);
+  const bool has_parallel = fs::exists("/usr/bin/parallel");
+  const std::string path = fs::path(places::program()).parent_path().string() + ":/usr/bin:/bin";
+  for (const auto& line : commands) {
+    if (!has_parallel && line.find("| parallel") != std::string::npos) {
+      for (const char* shard : {"1", "2", "3", "4"})
+        EXPECT_EQ(run({"run", "--plan", "sweep-parallel", "--shard", shard, "-q"}, {}, folder.path()).code, 0);
+      continue;
+    }
+    const auto outcome = Child({"/bin/sh", "-c", line}, {{"PATH", path}}, folder.path()).wait();
+    const bool is_incomplete = line.starts_with("scanbench status");  // two shards are missing, as the page says
+    EXPECT_EQ(outcome.code, is_incomplete && line.find('|') == std::string::npos ? 4 : 0) << line << "\n"
+                                                                                          << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace scanbench::app_test
