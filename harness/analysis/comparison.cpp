@@ -72,7 +72,7 @@ class ChangeJudge {
   }
 
   /// After q has been corrected for all gates.
-  void judge(MetricChange& change) const {
+  static void judge(MetricChange& change) {
     const MetricDescription& metric = change.metric;
     if (metric.timing && std::isnan(change.p)) {
       change.finding = Finding::not_compared;
@@ -290,14 +290,14 @@ class Comparer {
       if (change.pairs.size() == 1 && change.difference.count == 1 && !change.metric.timing &&
           change.finding != Finding::same)
         measure_scans(change, pairer);
-      result_.gates += change.gate;
+      result_.gates += change.gate ? 1U : 0U;
       p_values.push_back(change.gate ? change.p : kNaN);
     }
     const std::vector<double> q_values = benjamini_hochberg(p_values);
     for (std::size_t i = 0; i < q_values.size(); ++i) {
       MetricChange& change = result_.changes[i];
       change.q = change.gate ? q_values[i] : change.p;
-      judge_.judge(change);
+      ChangeJudge::judge(change);
     }
   }
 

@@ -27,6 +27,8 @@ class ScanValueReader {
  public:
   explicit ScanValueReader(std::filesystem::path run);
   ~ScanValueReader();
+  ScanValueReader(const ScanValueReader&) = delete;
+  ScanValueReader& operator=(const ScanValueReader&) = delete;
 
   /// True if the cell is of a recording without a truth whose files are there.
   bool is_log(const CellKey& key) const;

@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 using metrics::MetricRow;
 
 Json number(double value) {
-  if (std::isnan(value)) return Json();  // JSON has no NaN and no infinities
+  if (std::isnan(value)) return nullptr;  // JSON has no NaN and no infinities
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   return value;
 }

@@ -65,7 +65,7 @@ void add_cells(Database& database, std::int64_t night, const std::vector<CellRes
   for (const auto& cell : cells) {
     cell_row.bind(0, night).bind(1, cell.key.scenario).bind(2, cell.key.pipeline);
     cell_row.bind(3, static_cast<std::int64_t>(cell.key.seed)).bind(4, cell.status).bind(5, cell.message);
-    cell_row.bind(6, cell.recording).bind(7, std::int64_t{cell.requested}).run();
+    cell_row.bind(6, cell.recording).bind(7, std::int64_t{cell.requested ? 1 : 0}).run();
     const std::int64_t id = database.last_id();
     std::int64_t position = 0;
     for (const auto& row : cell.rows) {

@@ -125,6 +125,7 @@ std::string budget_sentence(const MethodRanking& ranking) {
   std::ranges::sort(front, {}, &RankedMethod::seconds);
   const Display quality = quality_unit(ranking);
   std::vector<std::string> parts;
+  parts.reserve(front.size());
   for (const RankedMethod* method : front) {
     parts.push_back(fmt::format("{} from {} {} ({})", method->pipeline, value_text(method->seconds, kMicroseconds),
                                 kMicroseconds.unit, value_text(method->quality.mean, quality)));
