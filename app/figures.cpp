@@ -70,12 +70,15 @@ int gallery(const Options& given, const std::vector<std::string>& argv) {
   if (!given.files.empty() || !given.figures.pipelines.empty() || given.figures.frame)
     throw ConfigError("--with, --pipelines and --frame are for the figures of a run; " + given.run +
                       " is a catalogue, which names them itself");
+  harness::FigureOptions figures = figure_options(given);
+  const bool is_shown = std::ranges::any_of(figures.formats, [](const auto& format) { return format != "pdf"; });
+  if (!is_shown) figures.formats.emplace_back("png");  // a page cannot show PDF
   GalleryOptions options{.catalogue = given.run,
                          .out = given.out,
                          .only = given.only,
                          .jobs = given.jobs,
                          .quiet = given.quiet,
-                         .figures = figure_options(given),
+                         .figures = std::move(figures),
                          .argv = argv};
   return make_gallery(std::move(options));
 }
@@ -118,7 +121,7 @@ void add_figures(Context& context) {
       "-o,--out", options->out,
       "an own folder for the figures (default: RUN/figures, which the report shows; of a catalogue out/<its name>)");
   verb->add_option("--format", figure.formats,
-                   "pictures to write, separated by commas; RUN/figures always has svg and png")
+                   "pictures to write, separated by commas; RUN/figures always has svg and png, a catalogue svg or png")
       ->delimiter(',')
       ->check(one_of("format", {"svg", "png", "pdf"}))
       ->capture_default_str();

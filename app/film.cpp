@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,6 +12,8 @@
 #include "app/inputs.hpp"
 #include "app/option_checks.hpp"
 #include "app/progress.hpp"
+#include "core/error.hpp"
+#include "core/names.hpp"
 #include "core/registry.hpp"
 #include "harness/film/film_file.hpp"
 #include "harness/store/manifest.hpp"
@@ -28,13 +31,26 @@ struct Options {
   std::string run, style = "paper";
   harness::FilmOptions film;
   bool quiet = false;
+  bool format_given = false;
 };
+
+/// The ending of --out chooses the format; --format and an ending must agree.
+void choose_format(harness::FilmOptions& film, bool format_given) {
+  const std::string ending = film.out.extension().string();
+  if (ending != ".apng" && ending != ".mp4") return;
+  const std::string named = ending.substr(1);
+  if (!format_given) film.formats = {named};
+  if (std::ranges::count(film.formats, named) == 0)
+    throw ConfigError(fmt::format("--out {} names another format than --format {}; leave out the ending, or --format",
+                                  film.out.string(), join(film.formats)));
+}
 
 int film(const Options& given) {
   const fs::path run = given.run;
   check_run_exists(run);
   harness::FilmOptions options = given.film;
   options.theme = render::theme_from(given.style);
+  choose_format(options, given.format_given);
   // A film beside the figures of the run is one of its files: the folder is locked, and the manifest lists it.
   const bool is_in_run = options.out.empty();
   std::optional<harness::RunLock> lock;
@@ -70,11 +86,11 @@ void add_film(Context& context) {
       ->capture_default_str();
   verb->add_option("--scenario", film_options.scenario, "of which scenario (not needed if the run has one)");
   verb->add_option("--pipeline", film_options.pipeline, "of which pipeline (default: the first that has such a film)");
-  verb->add_option("--format", film_options.formats,
-                   "files to write, separated by commas; mp4 needs the program ffmpeg")
-      ->delimiter(',')
-      ->check(one_of("format", {"apng", "mp4"}))
-      ->capture_default_str();
+  auto* format = verb->add_option("--format", film_options.formats,
+                                  "files to write, separated by commas; mp4 needs the program ffmpeg")
+                     ->delimiter(',')
+                     ->check(one_of("format", {"apng", "mp4"}))
+                     ->capture_default_str();
   verb->add_option("--fps", film_options.fps, "frames per second")
       ->check(whole_number("number of frames per second", 1, 60))
       ->capture_default_str();
@@ -88,9 +104,13 @@ void add_film(Context& context) {
       ->check(one_of("style", {"paper", "dark"}))
       ->capture_default_str();
   verb->add_option("-o,--out", film_options.out,
-                   "the files without their ending (default: RUN/figures/<scenario>_<pipeline>_<of>)");
+                   "the file; without an ending --format adds its own (default: "
+                   "RUN/figures/<scenario>_<pipeline>_<of>)");
   verb->add_flag("-q,--quiet", options->quiet, "print only errors");
-  verb->callback([&context, options] { context.action = [options] { return film(*options); }; });
+  verb->callback([&context, options, format] {
+    options->format_given = format->count() > 0;
+    context.action = [options] { return film(*options); };
+  });
 }
 
 }  // namespace scanbench::app

@@ -115,6 +115,8 @@ class Figure {
   virtual std::vector<std::string> trace_rows(std::string_view /*pipeline*/) const { return {}; }
   /// True if it shows NamedResult::difference, which the harness then computes.
   virtual bool compares_pixels() const { return false; }
+  /// True if it shows results of all seeds, and not of the first alone.
+  virtual bool spans_seeds() const { return false; }
   /// True if it is drawn once for a whole run, from FigureInput::scenarios alone.
   virtual bool spans_scenarios() const { return false; }
   /// No scenes if there is nothing to show (no truth, no map).

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/error.hpp"
@@ -101,6 +102,14 @@ std::unique_ptr<LoadedFilm> find_film(const fs::path& run, const Scenario& scena
                  : "the recording has no scans, or no pipeline ended well"));
 }
 
+bool has_ending(const fs::path& file) {
+  return file.extension() == ".apng" || file.extension() == ".mp4";
+}
+
+fs::path without_ending(fs::path file) {
+  return has_ending(file) ? file.replace_extension() : file;
+}
+
 render::Scene scene_of(const LoadedFilm& loaded, std::size_t frame, const FilmOptions& options) {
   return render::styled(loaded.film->scene(frame), {.theme = options.theme});
 }
@@ -117,7 +126,7 @@ FilmFiles make_film(const fs::path& run, const FilmOptions& options,
   const auto loaded = find_film(run, scenario, options);
   const fs::path base = options.out.empty()
                             ? run / "figures" / fmt::format("{}_{}_{}", scenario.name, loaded->pipeline, options.of)
-                            : options.out;
+                            : without_ending(options.out);
   make_folders(fs::absolute(base).parent_path());
   const auto with_ending = [&](const char* ending) { return fs::path(base.string() + ending); };
 
@@ -134,7 +143,7 @@ FilmFiles make_film(const fs::path& run, const FilmOptions& options,
     if (mp4) mp4->add(pixels.rgb);
   }
   FilmFiles made{.files = {},
-                 .caption = loaded->film->caption + " " + recording_note(scenario, scenario.seeds.front()),
+                 .caption = loaded->film->caption + " " + recording_note(scenario, std::span(scenario.seeds).first(1)),
                  .frames = frames};
   if (wants_apng) {
     write_file_atomically(with_ending(".apng"), apng.finish());

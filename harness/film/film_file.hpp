@@ -21,7 +21,7 @@ struct FilmOptions {
   std::size_t frames = 200;  ///< at most
   int width_px = 640;
   render::Theme theme = render::Theme::paper;
-  std::filesystem::path out{};  ///< without ending; empty: RUN/figures/<scenario>_<pipeline>_<of>
+  std::filesystem::path out{};  ///< with or without ending; empty: RUN/figures/<scenario>_<pipeline>_<of>
 };
 
 struct FilmFiles {

@@ -92,6 +92,16 @@ Table part_of(const Table& table, std::size_t first, std::size_t count) {
   return part;
 }
 
+/// The caption, which speaks of the star that the terminal shows, for a table that has bold instead.
+std::string bold_caption(std::string caption) {
+  constexpr std::string_view kStar = "* marks the best";
+  const auto at = caption.find(kStar);
+  if (at == std::string::npos) return caption;
+  const bool begins_sentence = at < 2 || caption[at - 2] == '.';
+  return caption.replace(at, 1, begins_sentence ? "Bold" : "bold");
+  return caption;
+}
+
 std::string part_to_terminal(const Table& table, bool color) {
   const std::size_t heads = table.row_heads.size();
   std::vector<std::size_t> widths;
@@ -205,7 +215,7 @@ std::string to_markdown(const Table& table) {
     }
     out += "\n";
   }
-  if (!table.caption.empty()) out += "\n" + table.caption + "\n";
+  if (!table.caption.empty()) out += "\n" + bold_caption(table.caption) + "\n";
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -207,7 +208,7 @@ Json packed(const Scenario& scenario, const Recording& recording, const std::vec
     list.back()["color"] = hex(styles[k].color);
   }
   return {{"name", scenario.name},
-          {"note", recording_note(scenario, scenario.seeds.front())},
+          {"note", recording_note(scenario, std::span(scenario.seeds).first(1))},
           {"of", recording.observed.frames.size()},
           {"frames", chosen},
           {"beams", geometry.beams()},

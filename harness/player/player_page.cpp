@@ -20,7 +20,7 @@ constexpr std::string_view kPlayerStyle = R"css(<style>
 #scan { width: 100%; } #view { width: 100%; height: 62vh; min-height: 20rem; border: 1px solid var(--rule);
   display: block; cursor: grab; touch-action: none; }
 #what { font-variant-numeric: tabular-nums; min-height: 1.5em; } .swatch { display: inline-block; width: 1.6rem; border-top: 3px solid; vertical-align: middle; }
-#facts table { margin: .3rem 0; } #facts .unjudged tr > :nth-child(n+3):nth-child(-n+6) { display: none; } kbd { border: 1px solid var(--rule); border-radius: .2rem; padding: 0 .3rem; }
+#facts { overflow-x: auto; } #facts table { margin: .3rem 0; } #facts .unjudged tr > :nth-child(n+3):nth-child(-n+6) { display: none; } kbd { border: 1px solid var(--rule); border-radius: .2rem; padding: 0 .3rem; }
 </style>)css";
 
 constexpr std::string_view kPlayerBody = R"html(<div class="bar">
@@ -37,7 +37,7 @@ constexpr std::string_view kPlayerBody = R"html(<div class="bar">
 Solid lines are right or not judged, dashed ones false, dotted ones pieces of a wall that another line explains already;
 thick pale lines are walls that a method missed. The sensor is the triangle; x is upwards.</p>
 <div id="facts"><table><thead><tr><th class="head">pipeline</th><th>lines</th><th>false</th><th>missed</th><th>split</th>
-<th>F1</th><th>returns without a line</th><th>residual of the others</th></tr></thead><tbody></tbody></table></div>)html";
+<th>F1</th><th>returns without a line</th><th>RMS distance of the others from their lines</th></tr></thead><tbody></tbody></table></div>)html";
 
 constexpr std::string_view kPlayerScript = R"js(<script>
 (() => {
@@ -155,7 +155,7 @@ function choose(index) {
   for (const p of rec.pipelines) {
     if (p.f1) options.push(['f1 of ' + p.name, 'lowest F1 of ' + p.name]);
     options.push(['unexplained of ' + p.name, 'most returns without a line, ' + p.name]);
-    options.push(['residual_m of ' + p.name, 'largest residual of ' + p.name]);
+    options.push(['residual_m of ' + p.name, 'largest RMS distance from lines, ' + p.name]);
   }
   el('order').replaceChildren(...options.map(([value, text]) => new Option(text, value)));
   el('methods').replaceChildren(...rec.pipelines.map(p => {

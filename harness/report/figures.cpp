@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -189,13 +190,14 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& all, c
          line_verdicts(recording, loaded.result, segment_rules(scenario.metrics)),
          pixels ? line_difference(recording, loaded.result, raster_rules(scenario.metrics)) : std::nullopt});
 
-  const std::string note = recording_note(scenario, seed), title_note = recording_title_note(scenario, seed);
   std::vector<FigureFile> files;
   for (std::size_t i = 0; i < scenario.figures.size(); ++i) {
     const auto& choice = scenario.figures[i];
     if (progress) progress(static_cast<double>(i) / static_cast<double>(scenario.figures.size()), choice.module);
     const auto figure = figure_of({choice.kind, choice.module, with_frame(choice.params, options.frame)});
     if (figure->spans_scenarios()) continue;
+    const auto shown = std::span(scenario.seeds).first(figure->spans_seeds() ? scenario.seeds.size() : 1);
+    const std::string note = recording_note(scenario, shown), title_note = recording_title_note(scenario, shown);
     auto scenes = figure->draw(input);
     if (scenes.empty())
       files.push_back({scenario.name, "", choice.module + " is not drawn: " + figure->why_nothing(input)});

@@ -14,8 +14,12 @@
 namespace scanbench::harness {
 namespace {
 
-std::string text_of(const SimulatedInput& input, std::uint64_t seed) {
-  std::vector<std::string> facts{fmt::format("Simulated with seed {}", seed)};
+std::string text_of(std::span<const std::uint64_t> seeds) {
+  return seeds.size() == 1 ? fmt::format("seed {}", seeds.front()) : fmt::format("{} seeds", seeds.size());
+}
+
+std::string text_of(const SimulatedInput& input, std::span<const std::uint64_t> seeds) {
+  std::vector<std::string> facts{"Simulated with " + text_of(seeds)};
   if (!input.tilt.level())
     facts.push_back(
         fmt::format("the sensor is tilted anew for each scan (standard deviations {:.3g} deg of roll, "
@@ -26,30 +30,31 @@ std::string text_of(const SimulatedInput& input, std::uint64_t seed) {
   return join(facts, "; ") + ".";
 }
 
-std::string text_of(const RecordedInput& input, std::uint64_t seed) {
+std::string text_of(const RecordedInput& input, std::span<const std::uint64_t> seeds) {
   std::string text = "Recorded log " + input.log.filename().string();
   if (const auto poses = input.params.find("poses"); poses != input.params.end())
     text += fmt::format(", its {} poses", to_text(poses->second));
-  if (input.odometry.any()) text += fmt::format(" with added errors of seed {}", seed);
+  if (input.odometry.any()) text += fmt::format(" with added errors of {}", text_of(seeds));
   return text + ".";
 }
 
-std::string text_of(const LinesInput& input, std::uint64_t seed) {
-  return input.file.empty() ? fmt::format("Copies of the walls with seed {}.", seed)
+std::string text_of(const LinesInput& input, std::span<const std::uint64_t> seeds) {
+  return input.file.empty() ? fmt::format("Copies of the walls with {}.", text_of(seeds))
                             : "Lines of " + input.file_name + ".";
 }
 
 }  // namespace
 
-std::string recording_note(const Scenario& scenario, std::uint64_t seed) {
-  return std::visit([seed](const auto& input) { return text_of(input, seed); }, scenario.input);
+std::string recording_note(const Scenario& scenario, std::span<const std::uint64_t> seeds) {
+  return std::visit([seeds](const auto& input) { return text_of(input, seeds); }, scenario.input);
 }
 
-std::string recording_title_note(const Scenario& scenario, std::uint64_t seed) {
+std::string recording_title_note(const Scenario& scenario, std::span<const std::uint64_t> seeds) {
   std::vector<std::string> facts;
   if (const auto* simulated = std::get_if<SimulatedInput>(&scenario.input))
     if (!simulated->tilt.level()) facts.emplace_back("tilted sensor");
-  if (scenario.seeds.size() > 1) facts.push_back(fmt::format("seed {} of {} seeds", seed, scenario.seeds.size()));
+  if (seeds.size() == 1 && scenario.seeds.size() > 1)
+    facts.push_back(fmt::format("seed {} of {} seeds", seeds.front(), scenario.seeds.size()));
   return join(facts);
 }
 

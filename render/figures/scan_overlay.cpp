@@ -71,7 +71,8 @@ class ScanOverlay : public Figure {
     Scene scene = small_multiples(groups.size() * shown.size());
     if (shown.size() == 2) scene.columns = groups.size() <= 2 ? 2 : 4;  // the two scans of a pipeline side by side
     const std::size_t frames = input.recording.observed.frames.size();
-    scene.title = shown.size() == 2 ? input.title + ": the median and the worst scan"
+    scene.title = shown.size() == 2 ? fmt::format("{}: the median scan ({}) and the worst ({})", input.title,
+                                                  shown[0].frame, shown[1].frame)
                                     : fmt::format("{}: scan {} of 0 to {}", input.title, shown[0].frame, frames - 1);
     for (const auto& group : groups)
       for (const ShownScan& scan : shown) scene.panels.push_back(panel_of(input, group, scan));
@@ -111,7 +112,7 @@ class ScanOverlay : public Figure {
     const std::vector<Vec2> points = frame_points(recording, scan.frame, Pose2());
     const JudgedLines lines = lines_of(named, scan.frame);
     Panel panel{.tell_outside = "point"};
-    const std::string which = scan.rank.empty() ? "" : fmt::format(", {} scan {}", scan.rank, scan.frame);
+    const std::string which = scan.rank.empty() ? "" : fmt::format(", {}", scan.rank);
     panel.title = fmt::format("{}{}: {}", names_of(input.results, group), which, counted(lines.found().size(), "line"));
     if (has_truth(recording, scan.frame))
       panel.items.emplace_back(

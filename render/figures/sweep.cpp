@@ -58,6 +58,7 @@ class Sweep : public Figure {
     return fmt::format("no two pipelines differ in {} alone", fmt::join(words_of(params_.parameters), " or "));
   }
 
+  bool spans_seeds() const override { return true; }
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     Scene scene{.title = input.title + ": " + params_.metric};
     std::vector<std::string> names;  // of the curves in all panels

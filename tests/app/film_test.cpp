@@ -98,6 +98,18 @@ TEST_F(Film, GivesFfmpegEveryPixelOfEveryFrame) {
   EXPECT_THAT(half_written(folder_.path()), IsEmpty());
 }
 
+TEST_F(Film, HasTheFormatThatTheEndingOfItsFileNames) {
+  const Env env = with_ffmpeg("for out; do :; done\ncat > \"$out\"\n");
+  ASSERT_EQ(here({"film", "run", "--width-px", "320", "--out", "a.mp4"}, env).code, 0);
+  ASSERT_EQ(here({"film", "run", "--width-px", "320", "--out", "b.apng"}, env).code, 0);
+  ASSERT_EQ(here({"film", "run", "--width-px", "320", "--format", "apng,mp4", "--out", "c.mp4"}, env).code, 0);
+  for (const char* file : {"a.mp4", "b.apng", "c.mp4", "c.apng"}) EXPECT_TRUE(fs::exists(folder_ / file)) << file;
+  for (const char* file : {"a.apng", "a.mp4.apng", "b.mp4"}) EXPECT_FALSE(fs::exists(folder_ / file)) << file;
+  const auto outcome = here({"film", "run", "--format", "mp4", "--out", "d.apng"}, env);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("d.apng names another format than --format mp4"));
+}
+
 TEST_F(Film, ThatFfmpegBreaksOffLeavesNoFile) {
   const std::string half = "for out; do :; done\nhead -c 300000 > \"$out\"\necho 'the encoder broke' >&2\nexit 1\n";
   const std::string end = "for out; do :; done\ncat > \"$out\"\necho 'no space left' >&2\nexit 1\n";

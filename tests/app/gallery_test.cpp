@@ -53,6 +53,12 @@ TEST_F(Gallery, HasAPictureACaptionAndACommandForEachFigureAndSaysWhatIsAbsent) 
   EXPECT_THAT(read(folder_ / "out/book/gallery.md"), HasSubstr("![Somebody 2000, figure 1](first.png)"));
 }
 
+TEST_F(Gallery, WithPdfAloneStillShowsPicturesOnItsPage) {
+  ASSERT_EQ(here({"figures", "book.yaml", "--format", "pdf", "--only", "first", "-q"}).code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/book/first.pdf"));
+  EXPECT_THAT(read(folder_ / "out/book/index.html"), AllOf(HasSubstr("src=\"first.png\""), HasSubstr("first.pdf")));
+}
+
 TEST_F(Gallery, IsTheSameForAnyNumberOfJobsAndWhenMadeAgainFromItsOwnRun) {
   ASSERT_EQ(here({"figures", "book.yaml", "--out", "one", "-q"}).code, 0);
   ASSERT_EQ(here({"figures", "book.yaml", "--out", "two", "-q", "--jobs", "2"}).code, 0);

@@ -52,6 +52,7 @@ class AccuracyTime : public Figure {
                        params_.metric);
   }
 
+  bool spans_seeds() const override { return true; }
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     const std::vector<PlacedPipeline> placed = place(input);
     if (placed.empty()) return {};

@@ -37,6 +37,7 @@ class PrecisionRecall : public Figure {
     return fmt::format("no two pipelines differ in {} alone", params_.parameter);
   }
 
+  bool spans_seeds() const override { return true; }
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     const std::vector<VariedPipelines> groups =
         varied_pipelines(params_.parameter, input.measured, {params_.precision, params_.recall});

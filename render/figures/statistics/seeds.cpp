@@ -41,6 +41,7 @@ class Seeds : public Figure {
 
   std::string why_nothing(const FigureInput&) const override { return no_value_of(params_.metric); }
 
+  bool spans_seeds() const override { return true; }
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     std::vector<const MeasuredPipeline*> shown;
     for (const MeasuredPipeline& measured : input.measured)

@@ -50,6 +50,14 @@ TEST(MarkdownTable, HasARulerAndMarksTheBest) {
   EXPECT_THAT(to_markdown(example()), HasSubstr("|---|---:|---:|---:|"));
 }
 
+TEST(Captions, NameTheMarkThatTheTableHas) {
+  Table table = example();
+  table.caption = "Means; * marks the best value.";
+  EXPECT_THAT(to_terminal(table, false), HasSubstr("Means; * marks the best value."));
+  EXPECT_THAT(to_markdown(table), HasSubstr("Means; bold marks the best value."));
+  EXPECT_THAT(to_html(table), HasSubstr("Means; * marks the best value."));
+}
+
 TEST(HtmlTable, EscapesWhatHtmlReserves) {
   EXPECT_THAT(to_html(example()), HasSubstr("Lines &lt;of&gt; a &amp; b"));
   EXPECT_THAT(to_html(example()), HasSubstr("colspan=\"2\">N</th>"));

@@ -308,9 +308,11 @@ TEST(ScanOverlay, ShowsTheWorstScanBesideTheMedianOne) {
   const Scene& scene = scenes[0].scene;
   ASSERT_EQ(scene.panels.size(), 6U);  // two for each pipeline
   EXPECT_EQ(scene.columns % 2, 0);
-  const auto scan = [](std::size_t f) { return "scan " + std::to_string(f) + ":"; };
-  EXPECT_NE(scene.panels[0].title.find("median " + scan(by_share[4].second)), std::string::npos);
-  EXPECT_NE(scene.panels[1].title.find("worst " + scan(by_share[0].second)), std::string::npos);
+  const std::string title = "the median scan (" + std::to_string(by_share[4].second) + ") and the worst (" +
+                            std::to_string(by_share[0].second) + ")";
+  EXPECT_NE(scene.title.find(title), std::string::npos) << scene.title;
+  EXPECT_NE(scene.panels[0].title.find(", median:"), std::string::npos);
+  EXPECT_NE(scene.panels[1].title.find(", worst:"), std::string::npos);
 }
 
 TEST(Overlays, DistinguishRightSplitFalseAndMissedLinesByColourAndDash) {
