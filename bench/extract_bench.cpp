@@ -1,11 +1,19 @@
 // Time of line extraction in microseconds per 451-beam scan, for every registered extractor, on 200 poses in a 15-wall
 // world with noise of 1 and 5 cm. For comparison, a textbook IEPF (recursion, copies, polar distances with
 // trigonometry) runs on the same scans.
+//
+// With --ratios [rounds] the program prints rows of bench/ratios.hpp instead.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "bench/ratios.hpp"
 #include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
@@ -157,6 +165,29 @@ void run_textbook(benchmark::State& state) {
   state.counters["lines"] = static_cast<double>(lines) / kPoses;
 }
 
+/// Prints rows of bench/ratios.hpp: the fast extractors against the textbook's, and all others beside them.
+void print_ratios(int rounds) {
+  for (const int sigma_cm : {1, 5}) {
+    const ScanSet& set = scans(sigma_cm);
+    std::vector<bench::Method> methods{{"textbook IEPF", [&set] {
+                                          for (std::size_t f = 0; f < set.frames.size(); ++f)
+                                            benchmark::DoNotOptimize(textbook::iepf(set.scan(f)).size());
+                                          return set.frames.size();
+                                        }}};
+    for (const char* name : {"iepf", "line_tracking", "sef", "optimal", "smf", "polyline"})
+      methods.push_back({name,
+                         [&set, module = std::shared_ptr(Registry<LineExtractor>::make(name))] {
+                           Trace silent;
+                           for (std::size_t f = 0; f < set.frames.size(); ++f)
+                             benchmark::DoNotOptimize(module->extract(set.scan(f), silent).lines.data());
+                           return set.frames.size();
+                         },
+                         sigma_cm == 1 && std::string(name) == "iepf" ? 20.0 : 0.0});
+    bench::measure("lines of a scan of 451 beams, " + std::to_string(sigma_cm) + " cm noise", std::move(methods),
+                   rounds);
+  }
+}
+
 // Called from main(), because static initialisers of this file can run before those that fill the registry.
 void register_all() {
   for (const int sigma_cm : {1, 5}) {
@@ -172,6 +203,10 @@ void register_all() {
 }  // namespace scanbench
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "--ratios") {
+    scanbench::print_ratios(argc > 2 ? std::max(1, std::atoi(argv[2])) : 9);
+    return 0;
+  }
   scanbench::register_all();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

@@ -6,15 +6,21 @@
 // of 0.35 in every dimension and about 50 points each. The centres are uniform at constant density; the direction is
 // periodic with 18 standard deviations. Lengths are in standard deviations of the kernel. A climb ends when its shift
 // is below 1e-4.
+//
+// With --ratios [rounds] the program prints rows of bench/ratios.hpp instead.
 #include <benchmark/benchmark.h>
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nanoflann.hpp>
+#include <string>
 #include <vector>
 
 #include "algorithms/merge/mean_shift/modes.hpp"
+#include "bench/ratios.hpp"
 #include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
@@ -70,26 +76,28 @@ void ours(benchmark::State& state) {
   state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+void climb_by_brute_force(const std::vector<Vec3>& points) {
+  for (Vec3 t : points) {
+    for (int step = 0; step < 5000; ++step) {
+      Vec3 sum = Vec3::Zero();
+      double mass = 0.0;
+      for (const Vec3& p : points) {
+        const Vec3 d(p.x() - t.x(), p.y() - t.y(), wrapped_z(p.z() - t.z()));
+        const double w = std::exp(-0.5 * d.squaredNorm());
+        sum += w * d;
+        mass += w;
+      }
+      const Vec3 shift = sum / mass;
+      t += shift;
+      if (shift.squaredNorm() < kTolerance * kTolerance) break;
+    }
+    benchmark::DoNotOptimize(t);
+  }
+}
+
 void brute_force_double(benchmark::State& state) {
   const auto points = hallway_points(static_cast<int>(state.range(0)));
-  for (auto _ : state) {
-    for (Vec3 t : points) {
-      for (int step = 0; step < 5000; ++step) {
-        Vec3 sum = Vec3::Zero();
-        double mass = 0.0;
-        for (const Vec3& p : points) {
-          const Vec3 d(p.x() - t.x(), p.y() - t.y(), wrapped_z(p.z() - t.z()));
-          const double w = std::exp(-0.5 * d.squaredNorm());
-          sum += w * d;
-          mass += w;
-        }
-        const Vec3 shift = sum / mass;
-        t += shift;
-        if (shift.squaredNorm() < kTolerance * kTolerance) break;
-      }
-      benchmark::DoNotOptimize(t);
-    }
-  }
+  for (auto _ : state) climb_by_brute_force(points);
 }
 
 /// Points and their periodic images within the cut-off of the seam.
@@ -103,37 +111,62 @@ struct Cloud {
   }
 };
 
+void climb_by_tree(const std::vector<Vec3>& points) {
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, std::size_t>;
+  Cloud cloud{points};
+  for (const Vec3& p : points) {
+    if (p.z() < kCutoff) cloud.points.emplace_back(p.x(), p.y(), p.z() + kPeriod);
+    if (p.z() > kPeriod - kCutoff) cloud.points.emplace_back(p.x(), p.y(), p.z() - kPeriod);
+  }
+  const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(10));
+  std::vector<std::pair<std::size_t, double>> found;
+  const nanoflann::SearchParams unsorted(32, 0.0F, false);
+  for (Vec3 t : points) {
+    for (int step = 0; step < 5000; ++step) {
+      found.clear();
+      tree.radiusSearch(t.data(), kCutoff * kCutoff, found, unsorted);
+      Vec3 sum = Vec3::Zero();
+      double mass = 0.0;
+      for (const auto& [i, squared] : found) {
+        const double w = std::exp(-0.5 * squared);
+        sum += w * (cloud.points[i] - t);
+        mass += w;
+      }
+      const Vec3 shift = sum / mass;
+      t += shift;
+      t.z() -= kPeriod * std::floor(t.z() / kPeriod);
+      if (shift.squaredNorm() < kTolerance * kTolerance) break;
+    }
+    benchmark::DoNotOptimize(t);
+  }
+}
+
 void nanoflann_cut_4(benchmark::State& state) {
   const auto points = hallway_points(static_cast<int>(state.range(0)));
-  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, std::size_t>;
-  for (auto _ : state) {
-    Cloud cloud{points};
-    for (const Vec3& p : points) {
-      if (p.z() < kCutoff) cloud.points.emplace_back(p.x(), p.y(), p.z() + kPeriod);
-      if (p.z() > kPeriod - kCutoff) cloud.points.emplace_back(p.x(), p.y(), p.z() - kPeriod);
-    }
-    const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(10));
-    std::vector<std::pair<std::size_t, double>> found;
-    const nanoflann::SearchParams unsorted(32, 0.0F, false);
-    for (Vec3 t : points) {
-      for (int step = 0; step < 5000; ++step) {
-        found.clear();
-        tree.radiusSearch(t.data(), kCutoff * kCutoff, found, unsorted);
-        Vec3 sum = Vec3::Zero();
-        double mass = 0.0;
-        for (const auto& [i, squared] : found) {
-          const double w = std::exp(-0.5 * squared);
-          sum += w * (cloud.points[i] - t);
-          mass += w;
-        }
-        const Vec3 shift = sum / mass;
-        t += shift;
-        t.z() -= kPeriod * std::floor(t.z() / kPeriod);
-        if (shift.squaredNorm() < kTolerance * kTolerance) break;
-      }
-      benchmark::DoNotOptimize(t);
-    }
-  }
+  for (auto _ : state) climb_by_tree(points);
+}
+
+/// Prints rows of bench/ratios.hpp.
+void print_ratios(int rounds) {
+  const auto compare = [&](int n, const std::string& name, void (*climb)(const std::vector<Vec3>&), double limit) {
+    const auto points = hallway_points(n);
+    const auto count = points.size();
+    scanbench::bench::measure("mean shift of " + std::to_string(n) + " points, a point",
+                              {{name,
+                                [&] {
+                                  climb(points);
+                                  return count;
+                                }},
+                               {"find_modes",
+                                [&] {
+                                  benchmark::DoNotOptimize(find_modes(points, {.period = kPeriod}).mode_of.data());
+                                  return count;
+                                },
+                                limit}},
+                              rounds);
+  };
+  compare(1654, "brute force", climb_by_brute_force, 80);
+  compare(100000, "k-d tree", climb_by_tree, 16);
 }
 
 /// The whole module on a map of corridors: walls of 1 to 4 m, each seen about 20 times, with an area in proportion to
@@ -180,3 +213,15 @@ BENCHMARK(ours)
 BENCHMARK(merge_module)->Arg(1654)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "--ratios") {
+    print_ratios(argc > 2 ? std::max(1, std::atoi(argv[2])) : 5);
+    return 0;
+  }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

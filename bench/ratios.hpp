@@ -82,8 +82,4 @@ inline void measure(const std::string& work, std::vector<Method> methods, int ro
   std::fflush(stdout);
 }
 
-inline void print_header() {
-  std::puts("| work | alternative | method | factor | 10 % .. 90 % | at least |\n|---|---|---|---:|---:|---:|");
-}
-
 }  // namespace scanbench::bench

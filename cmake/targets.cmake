@@ -90,11 +90,12 @@ function(scanbench_executable name)
     "WHOLE_ARCHIVE,scanbench_sim,scanbench_metrics,scanbench_render")
 endfunction()
 
-# scanbench_kernels(target folder): compiles folder/*_kernels.cpp, which the target contains for any x86-64, a second
-# time for AVX2, in the namespace v3 instead of baseline. The program selects one at run time. FMA stays off, so that
-# both give the same bytes.
-function(scanbench_kernels target folder)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*_kernels.cpp)
+# scanbench_kernels(target folder...): compiles the files *_kernels.cpp of the folders, which the target contains for any
+# x86-64, a second time for AVX2, in the namespace v3 instead of baseline. The program selects one at run time. FMA stays
+# off, so that both give the same bytes.
+function(scanbench_kernels target)
+  list(TRANSFORM ARGN REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/\\1/*_kernels.cpp" OUTPUT_VARIABLE patterns)
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   add_library(${target}_v3 OBJECT ${sources})
   scanbench_flags(${target}_v3)
   target_compile_definitions(${target}_v3 PRIVATE SCANBENCH_ISA=v3)

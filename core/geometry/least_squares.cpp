@@ -44,6 +44,16 @@ PointMoments PointMoments::of(std::span<const Vec2> points) {
   return m;
 }
 
+PointMoments PointMoments::given(double weight, const Vec2& centroid, double sxx, double sxy, double syy) {
+  PointMoments m;
+  m.weight_ = weight;
+  m.centroid_ = centroid;
+  m.sxx_ = sxx;
+  m.sxy_ = sxy;
+  m.syy_ = syy;
+  return m;
+}
+
 void PointMoments::add(const Vec2& p, double weight) {
   if (!(weight > 0)) return;
   const Vec2 before = p - centroid_;

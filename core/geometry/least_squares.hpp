@@ -13,6 +13,8 @@ class PointMoments {
   PointMoments() = default;
   /// The moments of points of weight 1, in two passes: as accurate as the update, without a division per point.
   static PointMoments of(std::span<const Vec2> points);
+  /// Given moments: the sum of weights, the weighted mean, and the weighted second moments about it.
+  static PointMoments given(double weight, const Vec2& centroid, double sxx, double sxy, double syy);
   void add(const Vec2& p, double weight = 1.0);
   void add(const PointMoments& other);
 

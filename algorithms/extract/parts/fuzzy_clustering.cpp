@@ -7,16 +7,19 @@
 #include "algorithms/extract/parts/fuzzy_clustering.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
 
+#include "algorithms/extract/parts/fuzzy_kernels.hpp"
 #include "core/geometry/least_squares.hpp"
+#include "core/isa.hpp"
 #include "core/params.hpp"
 
 namespace scanbench::extract {
 namespace {
-
-constexpr double kZeroDistance2 = 1e-18;  // [m^2] a point this close to a prototype belongs to it
 
 // Eq. (4), f and g.
 double squared_distance(const FuzzyLine& line, const Vec2& p, bool penalty) {
@@ -69,6 +72,81 @@ bool changed(const FuzzyLine& before, const FuzzyLine& after, const FuzzyOptions
          std::fabs(cross(before.normal, after.normal)) > std::sin(options.alpha_tolerance_rad);
 }
 
+// Step 2 for any number of lines. Sets the memberships and the clusters' moments; returns J.
+double membership_step(std::span<const Vec2> points, const FuzzyOptions& options, std::span<const FuzzyLine> lines,
+                       std::vector<double>& memberships, std::vector<PointMoments>& moments) {
+  std::vector<double> d2(lines.size());
+  std::vector<double> u(lines.size());
+  std::fill(moments.begin(), moments.end(), PointMoments{});
+  double cost = 0.0;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    for (std::size_t i = 0; i < lines.size(); ++i) d2[i] = squared_distance(lines[i], points[j], options.penalty);
+    memberships_of(d2, options.fuzzifier, u);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const double w = power(u[i], options.fuzzifier);
+      memberships[i * points.size() + j] = u[i];
+      moments[i].add(points[j], w);
+      cost += w * d2[i];
+    }
+  }
+  return cost;
+}
+
+// Step 2 for two lines and the fuzzifier 2, several points at a time. The moments are those of membership_step() but
+// for rounding: two passes instead of Welford's update, whose divisions wait for each other.
+class TwoClusters {
+ public:
+  TwoClusters(std::span<const Vec2> points, bool penalty)
+      : count_(points.size()),
+        kernels_(best_isa() == Isa::v3 ? v3::kFuzzyKernels : baseline::kFuzzyKernels),
+        penalty_(penalty) {
+    const std::size_t padded = (count_ + kFuzzyLanes - 1) / kFuzzyLanes * kFuzzyLanes;
+    for (std::vector<double>* array : {&x_, &y_, &u_[0], &u_[1]}) array->resize(padded);
+    for (std::size_t j = 0; j < count_; ++j) {
+      x_[j] = points[j].x();
+      y_[j] = points[j].y();
+    }
+  }
+
+  double step(std::span<const FuzzyLine> lines, std::span<PointMoments> moments) {
+    TwoLines two{};
+    two.penalty = penalty_;
+    for (std::size_t i = 0; i < 2; ++i) {
+      two.normal_x[i] = lines[i].normal.x();
+      two.normal_y[i] = lines[i].normal.y();
+      two.rho[i] = lines[i].rho;
+      two.centre_x[i] = lines[i].centre.x();
+      two.centre_y[i] = lines[i].centre.y();
+    }
+    const PointArrays points{x_.data(), y_.data(), static_cast<int>(count_)};
+    double* const u[] = {u_[0].data(), u_[1].data()};
+    const TwoMeans means = kernels_.memberships(points, two, u);
+    double centre_x[2], centre_y[2];
+    for (std::size_t i = 0; i < 2; ++i) {
+      const bool has_weight = means.weight[i] > 0;
+      centre_x[i] = two.centre_x[i] + (has_weight ? means.x[i] / means.weight[i] : 0.0);
+      centre_y[i] = two.centre_y[i] + (has_weight ? means.y[i] / means.weight[i] : 0.0);
+    }
+    const TwoMoments second = kernels_.moments(points, u, centre_x, centre_y);
+    for (std::size_t i = 0; i < 2; ++i)
+      moments[i] =
+          PointMoments::given(means.weight[i], {centre_x[i], centre_y[i]}, second.xx[i], second.xy[i], second.yy[i]);
+    return means.cost;
+  }
+
+  void copy_memberships(std::vector<double>& out) const {
+    for (std::size_t i = 0; i < 2; ++i)
+      std::copy_n(u_[i].begin(), count_, out.begin() + static_cast<std::ptrdiff_t>(i * count_));
+  }
+
+ private:
+  std::size_t count_;
+  const FuzzyKernels& kernels_;
+  bool penalty_;
+  std::vector<double> x_, y_;
+  std::array<std::vector<double>, 2> u_;
+};
+
 }  // namespace
 
 FuzzyLines fuzzy_lines(std::span<const Vec2> points, std::span<const FuzzyLine> initial, const FuzzyOptions& options) {
@@ -81,29 +159,19 @@ FuzzyLines fuzzy_lines(std::span<const Vec2> points, std::span<const FuzzyLine> 
     result.converged = true;
     return result;
   }
-  std::vector<double> d2(lines);
-  std::vector<double> u(lines);
   std::vector<PointMoments> moments(lines);
+  // SMF calls this with two lines and, by default, the fuzzifier 2.
+  std::optional<TwoClusters> two;
+  if (lines == 2 && options.fuzzifier == 2.0) two.emplace(points, options.penalty);
   while (!result.converged && result.iterations < options.max_iterations) {
     // Step 2: memberships, with the centres of the last step 3. Eq. (6) minimises J exactly for fixed prototypes, and
     // eqs. (7) to (9) do for fixed memberships, so J cannot increase.
-    double cost = 0.0;
-    std::fill(moments.begin(), moments.end(), PointMoments{});
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      for (std::size_t i = 0; i < lines; ++i) d2[i] = squared_distance(result.lines[i], points[j], options.penalty);
-      memberships_of(d2, options.fuzzifier, u);
-      for (std::size_t i = 0; i < lines; ++i) {
-        const double w = power(u[i], options.fuzzifier);
-        result.memberships[i * points.size() + j] = u[i];
-        moments[i].add(points[j], w);
-        cost += w * d2[i];
-      }
-    }
-    result.costs.push_back(cost);
+    result.costs.push_back(two ? two->step(result.lines, moments)
+                               : membership_step(points, options, result.lines, result.memberships, moments));
 
     // Steps 3 and 4: prototypes, and whether one of them still moves.
     result.converged = true;
-    cost = 0.0;
+    double cost = 0.0;
     for (std::size_t i = 0; i < lines; ++i) {
       const FuzzyLine next = updated(result.lines[i], moments[i]);
       if (changed(result.lines[i], next, options)) result.converged = false;
@@ -113,6 +181,7 @@ FuzzyLines fuzzy_lines(std::span<const Vec2> points, std::span<const FuzzyLine> 
     result.costs.push_back(cost);
     ++result.iterations;
   }
+  if (two && result.iterations > 0) two->copy_memberships(result.memberships);
   return result;
 }
 

@@ -129,9 +129,10 @@ ScanLines assemble(const Scan& scan, const ScanPoints& points, std::span<const P
 }  // namespace
 
 PointMoments moments_of(std::span<const Vec2> points, std::span<const int> indices) {
-  PointMoments moments;
-  for (const int i : indices) moments.add(points[as_index(i)]);
-  return moments;
+  std::vector<Vec2> chosen;
+  chosen.reserve(indices.size());
+  for (const int i : indices) chosen.push_back(points[as_index(i)]);
+  return PointMoments::of(chosen);
 }
 
 LineFit fit_group(std::span<const Vec2> points, Fit fit) {

@@ -2,14 +2,18 @@
 #include "algorithms/extract/parts/fuzzy_clustering.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <numeric>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
 
+#include "algorithms/extract/parts/fuzzy_kernels.hpp"
 #include "core/error.hpp"
 #include "core/geometry/least_squares.hpp"
 #include "core/geometry/pose2.hpp"
+#include "core/isa.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
@@ -63,6 +67,59 @@ TEST(FuzzyLines, NeverIncreaseTheCost) {
         ASSERT_EQ(r.costs.size(), 2 * static_cast<std::size_t>(r.iterations));
         for (std::size_t k = 1; k < r.costs.size(); ++k) ASSERT_LE(r.costs[k], r.costs[k - 1] * (1 + 1e-12));
       }
+}
+
+// Two lines with the fuzzifier 2 are clustered by kernels in lanes, everything else by the formulas one point at a
+// time. The next number after 2 changes the exact result by less than rounding does.
+TEST(FuzzyLines, AreTheSameInLanesUpToRounding) {
+  const double other = std::nextafter(2.0, 3.0);
+  for (const bool penalty : {true, false})
+    for (const int count : {1, 2, 7, 40})
+      for (std::uint32_t seed = 0; seed < 50; ++seed) {
+        const Scene scene = two_segments(seed, 0.02, count + 3);
+        // Few iterations: where two clusterings compete, rounding may decide between them in the end.
+        const FuzzyLines a = fuzzy_lines(scene.points, scene.initial, {.penalty = penalty, .max_iterations = 3});
+        const FuzzyLines b =
+            fuzzy_lines(scene.points, scene.initial, {.fuzzifier = other, .penalty = penalty, .max_iterations = 3});
+        ASSERT_EQ(a.iterations, b.iterations);
+        for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(line_distance(a.lines[i], b.lines[i]), 1e-9) << seed;
+        for (std::size_t k = 0; k < a.memberships.size(); ++k) EXPECT_NEAR(a.memberships[k], b.memberships[k], 1e-9);
+        for (std::size_t k = 0; k < a.costs.size(); ++k) EXPECT_NEAR(a.costs[k], b.costs[k], 1e-12 + 1e-9 * b.costs[k]);
+      }
+}
+
+TEST(FuzzyKernels, HaveTheSameBytesOnEveryProcessor) {
+  if (best_isa() == Isa::baseline) GTEST_SKIP() << "this processor has one set of kernels";
+  for (std::uint32_t seed = 0; seed < 50; ++seed) {
+    const Scene scene = two_segments(seed, 0.02, 3 + static_cast<int>(seed % 5));
+    const std::size_t n = scene.points.size();
+    std::vector<double> x(n + kFuzzyLanes), y(n + kFuzzyLanes);
+    for (std::size_t j = 0; j < n; ++j) {
+      x[j] = scene.points[j].x();
+      y[j] = scene.points[j].y();
+    }
+    const PointArrays points{x.data(), y.data(), static_cast<int>(n)};
+    TwoLines lines{};
+    lines.penalty = seed % 2 == 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      lines.normal_x[i] = scene.initial[i].normal.x();
+      lines.normal_y[i] = scene.initial[i].normal.y();
+      lines.rho[i] = scene.initial[i].rho;
+      lines.centre_x[i] = scene.initial[i].centre.x();
+      lines.centre_y[i] = scene.initial[i].centre.y();
+    }
+    std::vector<std::vector<double>> u(4, std::vector<double>(n + kFuzzyLanes));
+    double* const first[] = {u[0].data(), u[1].data()};
+    double* const second[] = {u[2].data(), u[3].data()};
+    const TwoMeans a = baseline::kFuzzyKernels.memberships(points, lines, first);
+    const TwoMeans b = v3::kFuzzyKernels.memberships(points, lines, second);
+    EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
+    EXPECT_EQ(u[0], u[2]);
+    EXPECT_EQ(u[1], u[3]);
+    const TwoMoments c = baseline::kFuzzyKernels.moments(points, first, lines.centre_x, lines.centre_y);
+    const TwoMoments d = v3::kFuzzyKernels.moments(points, second, lines.centre_x, lines.centre_y);
+    EXPECT_EQ(std::memcmp(&c, &d, sizeof c), 0);
+  }
 }
 
 TEST(FuzzyLines, ReportTheCostOfTheirResult) {
