@@ -79,6 +79,11 @@ void take_pending_signals() {
   while (sigtimedwait(&held, &info, &now) > 0) note_interrupt(info);
 }
 
+bool run_is_terminated() {
+  take_pending_signals();
+  return interrupt_seen == SIGTERM;
+}
+
 /// True if the kernel has killed a process for want of memory that has not been accounted for yet.
 bool system_killed_for_memory() {
   if (out_of_memory_kills() <= memory_kills) return false;
@@ -342,7 +347,7 @@ struct WorkerPool::Worker {
     if (killed_for_time) {
       result.status = CellStatus::timeout;
       result.message = over_time();
-    } else if (signal == SIGTERM && has_come(SIGTERM)) {
+    } else if (signal == SIGTERM && run_is_terminated()) {
       // A batch system sends it to every process of a job. The cell is then unfinished and not at fault.
       result.system_error = true;
       result.message = "stopped with the run";
@@ -405,8 +410,7 @@ bool WorkerPool::interrupted() const {
 }
 
 bool WorkerPool::terminated() const {
-  take_pending_signals();
-  return interrupt_seen == SIGTERM;
+  return run_is_terminated();
 }
 
 void WorkerPool::start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits) {
