@@ -1,9 +1,9 @@
 // Plans sweeps, runs their shards, merges them, and submits them to Slurm.
 #include "app/sweep.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>

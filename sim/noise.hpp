@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/geometry/geometry.hpp"
-#include "core/sensor_model.hpp"
 #include "core/isa.hpp"
+#include "core/sensor_model.hpp"
 
 namespace scanbench::sim {
 

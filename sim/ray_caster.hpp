@@ -5,10 +5,10 @@
 #include <span>
 
 #include "core/geometry/pose2.hpp"
+#include "core/isa.hpp"
 #include "core/sensor_model.hpp"
 #include "sim/cast/caster.hpp"
 #include "sim/cast/ray.hpp"
-#include "core/isa.hpp"
 #include "sim/world.hpp"
 
 namespace scanbench::sim {

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "sim/cast/caster.hpp"
 #include "core/isa.hpp"
+#include "sim/cast/caster.hpp"
 #include "sim/world.hpp"
 
 namespace scanbench::sim {

@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/isa.hpp"
 #include "core/rng.hpp"
 #include "core/sensor_model.hpp"
-#include "core/isa.hpp"
 #include "sim/noise.hpp"
 
 namespace scanbench::sim {
