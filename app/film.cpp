@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "app/inputs.hpp"
 #include "app/option_checks.hpp"
@@ -37,6 +39,11 @@ struct Options {
 /// The ending of --out chooses the format; --format and an ending must agree.
 void choose_format(harness::FilmOptions& film, bool format_given) {
   const std::string ending = film.out.extension().string();
+  constexpr std::array<std::string_view, 6> kOthers{".avi", ".gif", ".mkv", ".mov", ".png", ".webm"};
+  if (std::ranges::count(kOthers, ending) > 0)
+    throw ConfigError(fmt::format("--out {}: films are .apng or .mp4", film.out.string()));
+  if (fs::is_directory(film.out))
+    throw ConfigError(fmt::format("--out {}: a folder; allowed: the name of a file", film.out.string()));
   if (ending != ".apng" && ending != ".mp4") return;
   const std::string named = ending.substr(1);
   if (!format_given) film.formats = {named};

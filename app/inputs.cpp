@@ -71,9 +71,13 @@ std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files
 }
 
 void check_run_exists(const fs::path& run) {
-  if (fs::exists(run)) return;
+  if (fs::is_directory(run)) return;
+  if (fs::exists(run))
+    throw ConfigError(run.string() + ": a file, not a run folder; `scanbench run` makes one, out/" +
+                      run.stem().string() + " by default");
   const std::string near = nearest_file(run);
-  throw ConfigError(run.string() + ": no such folder" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  const bool suggested = !near.empty() && fs::is_directory(near);
+  throw ConfigError(run.string() + ": no such folder" + (suggested ? "; did you mean '" + near + "'?" : ""));
 }
 
 std::vector<harness::Scenario> scenarios_for(const fs::path& run, const std::vector<std::string>& files) {

@@ -9,12 +9,12 @@
 #include <system_error>
 #include <vector>
 
+#include "app/authoring/conform.hpp"
+#include "app/authoring/new_module.hpp"
 #include "app/compare.hpp"
-#include "app/conform.hpp"
 #include "app/figures.hpp"
 #include "app/film.hpp"
 #include "app/inspection.hpp"
-#include "app/new_module.hpp"
 #include "app/nightly.hpp"
 #include "app/progress.hpp"
 #include "app/recordings.hpp"

@@ -53,6 +53,10 @@ std::vector<Iteration> iterations_of(const TraceRows* trace, std::size_t scans) 
   return iterations;
 }
 
+std::string hypotheses(std::size_t count) {
+  return fmt::format("{} {}", count, count == 1 ? "hypothesis" : "hypotheses");
+}
+
 class AlignmentMoves final : public FilmKind {
  public:
   using Params = NoParams;
@@ -75,7 +79,7 @@ class AlignmentMoves final : public FilmKind {
                         view = view_of(shown, *iterations)](std::size_t k) {
       const Iteration& now = (*iterations)[steps[k]];
       Panel panel = view;
-      panel.title = fmt::format("{}: iteration {}, {} hypotheses", shown.pipeline, now.number, now.hypotheses.size());
+      panel.title = fmt::format("{}: iteration {}, {}", shown.pipeline, now.number, hypotheses(now.hypotheses.size()));
       for (const auto& corners : now.hypotheses)
         panel.items.emplace_back(Polyline{.points = corners, .stroke = kHypothesis, .closed = true});
       for (std::size_t f = 0; f < now.poses.size(); ++f) {

@@ -57,7 +57,8 @@ class Drive final : public FilmKind {
       return film_scene(input.title, {std::move(panel)}, std::move(legend));
     };
     return Film{steps.size(), scene,
-                fmt::format("{}: {} scans, and the lines that {} found in them.", input.title, frames, shown.pipeline)};
+                fmt::format("{}: {} scans at their {}, and the lines that {} found in them.", input.title, frames,
+                            to_string(place_frames(recording, nullptr).source), shown.pipeline)};
   }
 
  private:

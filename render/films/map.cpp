@@ -95,25 +95,29 @@ class MapGrows final : public FilmKind {
       Lines lines{growth->lines_after(f, last),
                   is_merged ? kMerged : Stroke{method_color(input.results, 0), 0.9, Dash::solid}};
       panel.title = fmt::format("{}: scan {} of 0 to {}, {}", shown.pipeline, f, frames - 1,
-                                counted(lines.segments.size(), is_merged ? "line of the map" : "line"));
+                                counted(lines.segments.size(), "line") + (is_merged ? " of the map" : ""));
       panel.items.emplace_back(std::move(lines));
       if (!is_merged) panel.items.emplace_back(Lines{growth->found[f], kNewest});
       add_path(input, std::span(growth->poses).first(f + 1), kPath, panel);
       panel.items.emplace_back(Arrow{.pose = growth->poses[f], .length_pt = 14, .stroke = kNewest});
-      return film_scene(input.title, {std::move(panel)},
-                        {{.text = growth->changes.born.empty() ? "lines of all scans so far" : "map",
-                          .stroke = Stroke{method_color(input.results, 0), 0.9, Dash::solid}},
-                         {.text = "lines of this scan", .stroke = kNewest},
-                         path_legend(input, kPath)});
+      const bool is_map = is_merged || !growth->changes.born.empty();
+      std::vector<LegendEntry> legend{
+          {.text = is_map ? "map" : "lines of all scans so far",
+           .stroke = is_merged ? kMerged : Stroke{method_color(input.results, 0), 0.9, Dash::solid}}};
+      if (!is_merged) legend.push_back({.text = "lines of this scan", .stroke = kNewest});
+      legend.push_back(path_legend(input, kPath));
+      return film_scene(input.title, {std::move(panel)}, std::move(legend));
     };
-    return Film{steps.size(), scene,
-                growth->changes.born.empty()
-                    ? fmt::format("{}: the lines of all scans so far, and at the end the map of {}.", input.title,
-                                  shown.pipeline)
-                    : fmt::format("{}: the map of {} after each scan.", input.title, shown.pipeline)};
+    return Film{steps.size(), scene, caption_of(input.title, shown.pipeline, *growth)};
   }
 
  private:
+  static std::string caption_of(const std::string& title, const std::string& pipeline, const Growth& growth) {
+    if (!growth.changes.born.empty()) return fmt::format("{}: the map of {} after each scan.", title, pipeline);
+    const std::string lines = fmt::format("{}: the lines of {} in all scans so far", title, pipeline);
+    return growth.map.empty() ? lines + "; it makes no map." : lines + ", and at the end its map.";
+  }
+
   static Growth growth_of(const Recording& recording, const NamedResult& shown) {
     Growth growth{.changes = Changes(shown.trace),
                   .poses = place_frames(recording, shown.result).world_from_sensor,

@@ -87,11 +87,11 @@ class MeanShiftClimbs final : public FilmKind {
       }
       panels[0].items = {std::move(trail_above), std::move(above)};
       panels[1].items = {std::move(beside)};
-      return film_scene(
-          fmt::format("{}: mean shift, phase 1, iteration {}", input.title, steps[k] / kStepsPerIteration),
-          std::move(panels),
-          {{.text = "centres of segments", .marker = Marker::dot, .marker_size_pt = 2.4},
-           {.text = "their paths to the modes", .stroke = kTrail}});
+      return film_scene(fmt::format("{}, {}: mean shift, phase 1, iteration {}", input.title,
+                                    input.results.front().pipeline, steps[k] / kStepsPerIteration),
+                        std::move(panels),
+                        {{.text = "centres of segments", .marker = Marker::dot, .marker_size_pt = 2.4},
+                         {.text = "their paths to the modes", .stroke = kTrail}});
     };
     return Film{steps.size(), scene,
                 fmt::format("{}: {} climb to the modes of their density.", input.title, rows->counted_pieces())};

@@ -18,6 +18,7 @@ namespace {
 constexpr int kTitleLines = 3;       // at most
 constexpr double kTitleSize = 1.12;  // of the scene, relative to the font
 constexpr double kLineHeight = 1.2;
+constexpr double kLeastPanelEm = 8.0;  // least height of a panel without a stated height
 
 Rect merged(const Rect& a, const Rect& b) {
   return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
@@ -155,8 +156,10 @@ class Composer {
     const double aspect = tallest_aspect();
     double box_w = std::max(1.0, (out_.width - fixed_x) / columns_), box_h = aspect * box_w;
     const bool sized = scene_.height_in > 0;
+    // A picture may become higher than its limit rather than lose its panels between their labels.
+    const double least = sized ? 1.0 : kLeastPanelEm * scene_.font_pt;
     const double tallest =
-        std::max(1.0, (72.0 * (sized ? scene_.height_in : scene_.max_height_in) - fixed_y) / std::max(1, rows_));
+        std::max(least, (72.0 * (sized ? scene_.height_in : scene_.max_height_in) - fixed_y) / std::max(1, rows_));
     if (sized || box_h > tallest) box_h = tallest;
     const bool all_equal =
         std::all_of(scene_.panels.begin(), scene_.panels.end(), [](const Panel& p) { return p.equal_aspect; });

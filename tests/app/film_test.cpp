@@ -110,6 +110,13 @@ TEST_F(Film, HasTheFormatThatTheEndingOfItsFileNames) {
   EXPECT_THAT(outcome.err, HasSubstr("d.apng names another format than --format mp4"));
 }
 
+TEST_F(Film, RefusesOtherFormatsFoldersAndScenarioFiles) {
+  EXPECT_THAT(here({"film", "run", "--out", "a.gif"}).err, HasSubstr("a.gif: films are .apng or .mp4"));
+  EXPECT_THAT(here({"film", "run", "--out", "run"}).err, HasSubstr("--out run: a folder"));
+  folder_.write("scene.yaml", room());
+  EXPECT_THAT(here({"film", "scene.yaml"}).err, HasSubstr("scene.yaml: a file, not a run folder"));
+}
+
 TEST_F(Film, ThatFfmpegBreaksOffLeavesNoFile) {
   const std::string half = "for out; do :; done\nhead -c 300000 > \"$out\"\necho 'the encoder broke' >&2\nexit 1\n";
   const std::string end = "for out; do :; done\ncat > \"$out\"\necho 'no space left' >&2\nexit 1\n";

@@ -1,6 +1,8 @@
 // The values of a metric over the seeds: a dot for each, the mean and its 95 % interval, one row per pipeline.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -16,15 +18,18 @@ namespace {
 constexpr double kDotPt = 3.0;
 const Stroke kInterval{kBlack, 1.2, Dash::solid};
 
-/// Offsets across the row, in rows, so that values nearer to each other than `width` do not cover each other: the
-/// first of a cluster is in the middle, the next ones alternate above and below.
+/// Offsets across the row, in rows, so that values nearer to each other than `width` do not cover each other: each
+/// value takes the lane nearest to the middle that is free there. Of more values than lanes some cover others.
 std::vector<double> spread(const std::vector<double>& sorted, double width) {
+  constexpr double kLanes[] = {0.0, 0.09, -0.09, 0.18, -0.18, 0.27, -0.27, 0.36, -0.36};
+  std::array<double, std::size(kLanes)> last{};
+  last.fill(-INFINITY);
   std::vector<double> offsets;
-  int in_cluster = 0;
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    in_cluster = i > 0 && sorted[i] - sorted[i - 1] < width ? in_cluster + 1 : 0;
-    const int rank = (in_cluster + 1) / 2;
-    offsets.push_back(std::clamp((in_cluster % 2 == 1 ? 0.09 : -0.09) * rank, -0.36, 0.36));
+  for (const double value : sorted) {
+    auto lane = std::ranges::find_if(last, [&](double before) { return value - before >= width; });
+    if (lane == last.end()) lane = std::ranges::min_element(last);
+    *lane = value;
+    offsets.push_back(kLanes[static_cast<std::size_t>(lane - last.begin())]);
   }
   return offsets;
 }

@@ -1,5 +1,5 @@
 // new: writes the file of a new module, which works and passes the conformance suite, for its author to change.
-#include "app/new_module.hpp"
+#include "app/authoring/new_module.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/module_templates.hpp"
+#include "app/authoring/module_templates.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "harness/files/atomic_file.hpp"

@@ -1,5 +1,5 @@
 // Templates of modules: @name@ and @Name@ are replaced.
-#include "app/module_templates.hpp"
+#include "app/authoring/module_templates.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // The verb conform: runs the conformance checks on the modules of a library or on a program.
-#include "app/conform.hpp"
+#include "app/authoring/conform.hpp"
 
 #include <fmt/format.h>
 
