@@ -269,6 +269,7 @@ std::string camel_case(std::string_view name) {
 
 std::vector<std::string> template_kinds() {
   std::vector<std::string> kinds;
+  kinds.reserve(kTemplates.size());
   for (const Template& each : kTemplates) kinds.emplace_back(each.kind);
   return kinds;
 }
