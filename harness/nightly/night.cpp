@@ -148,17 +148,20 @@ std::vector<PicturePair> pictures_of(const fs::path& run, const fs::path& last_g
 std::vector<PicturePair> figures_of(const fs::path& run, const fs::path& last_good, const Comparison& comparison) {
   std::set<std::string> scenarios;
   for (const MetricChange* change : changes_with(comparison, Finding::worse)) scenarios.insert(change->scenario);
-  const auto picture_in = [](const fs::path& folder, const FigureFile& figure,
+  // Each picture has the caption of its own night: the worst scan, for one, may be another.
+  const auto picture_in = [](const fs::path& folder, const std::vector<FigureFile>& index, const std::string& name,
                              const std::string& when) -> std::optional<PagePicture> {
-    const fs::path file = folder / "figures" / (figure.name + ".png");
-    if (!fs::exists(file) || fs::file_size(file) > kLargestFigure) return std::nullopt;
-    return PagePicture{when + ": " + figure.caption, read_file(file)};
+    const fs::path file = folder / "figures" / (name + ".png");
+    const auto figure = std::ranges::find(index, name, &FigureFile::name);
+    if (figure == index.end() || !fs::exists(file) || fs::file_size(file) > kLargestFigure) return std::nullopt;
+    return PagePicture{when + ": " + figure->caption, read_file(file)};
   };
+  const auto now = load_figure_index(run / "figures"), before = load_figure_index(last_good / "figures");
   std::vector<PicturePair> figures;
-  for (const auto& figure : load_figure_index(run / "figures")) {
+  for (const auto& figure : now) {
     if (figure.name.empty() || !scenarios.contains(figure.scenario) || figures.size() == kPictures) continue;
-    PicturePair pair{figure.name, picture_in(last_good, figure, "in the last good night"),
-                     picture_in(run, figure, "now")};
+    PicturePair pair{figure.name, picture_in(last_good, before, figure.name, "in the last good night"),
+                     picture_in(run, now, figure.name, "now")};
     const bool is_equal = pair.before && pair.now && pair.before->png == pair.now->png;
     if (pair.now && !is_equal) figures.push_back(std::move(pair));
   }

@@ -32,6 +32,12 @@ std::string verdict_banner(const NightInput& input) {
   if (input.drift)
     out += fmt::format("<p>Against the oldest baseline, {}: {}</p>\n", escaped(input.drift_reference),
                        escaped(verdict_sentence(*input.drift)));
+  if (input.comparison && !input.comparison->differing.empty()) {
+    const auto& differing = input.comparison->differing;
+    out += fmt::format("<p>What differs: {}", escaped(differing.front()));
+    if (differing.size() > 1) out += fmt::format(" <a href=\"#differs-section\">and {} more</a>", differing.size() - 1);
+    out += "</p>\n";
+  }
   return out + fmt::format("<p class=\"faint\">{}</p>\n", reuse_text(input.now.cells.size(), input.reused));
 }
 

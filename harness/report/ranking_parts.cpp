@@ -94,6 +94,10 @@ std::string heading_of(const MethodRanking& ranking, const std::string& report) 
 
 }  // namespace
 
+/// Of fewer seeds not even a pipeline that wins on each has a Clopper-Pearson interval above one half: the lower end is
+/// 0.025^(1/n), 0.478 for 5 and 0.541 for 6.
+constexpr int kFewestSeeds = 6;
+
 std::string ranking_sentence(const MethodRanking& ranking) {
   const auto& methods = ranking.methods;
   const std::string where = list_of(ranking.scenarios);
@@ -105,10 +109,14 @@ std::string ranking_sentence(const MethodRanking& ranking) {
   std::string text = fmt::format("{} has the best {} of {} pipelines in {}, {}{}", best.pipeline,
                                  ranking.quality.metric, complete, where, value_text(best.quality.mean, display), unit);
   if (std::isfinite(best.beats_next.mean)) {
-    text += best.beats_next.low > 0.5
-                ? fmt::format(", and beats the next, {}, with probability {:.2f}", methods[1].pipeline,
-                              best.beats_next.mean)
-                : fmt::format("; the seeds do not separate it from the next, {}", methods[1].pipeline);
+    const std::string& next = methods[1].pipeline;
+    if (best.beats_next.low > 0.5)
+      text += fmt::format(", and beats the next, {}, with probability {:.2f}", next, best.beats_next.mean);
+    else if (best.beats_next.count < kFewestSeeds)
+      text += fmt::format("; {} seeds are too few to tell whether it beats the next, {} (at least {})",
+                          best.beats_next.count, next, kFewestSeeds);
+    else
+      text += fmt::format("; the seeds do not separate it from the next, {}", next);
   }
   text += ".";
   if (complete < std::ssize(methods))
