@@ -164,10 +164,10 @@ std::vector<Table> comparison_tables(const Comparison& comparison, bool all) {
     tables.push_back(std::move(table));
   };
   add("worse", "What became worse", Finding::worse, false,
-      "Differences are now − before, with their 95 % intervals, over equal seeds or, of a recorded log, over its "
-      "scans. The effect is the mean difference over its standard deviation; "
-      "q "
-      "is the share of false alarms among all gates that are as certain (Benjamini–Hochberg). Only gates fail.");
+      "The difference that is largest in tolerances comes first. Differences are now − before, with their 95 % "
+      "intervals, over equal seeds or, of a recorded log, over its scans. The effect is the mean difference over its "
+      "standard deviation; q is the share of false alarms among all gates that are as certain (Benjamini–Hochberg). "
+      "Only gates fail.");
   if (auto cells = completeness_table(comparison)) tables.push_back(std::move(*cells));
   add("uncertain", "Changed by more than the tolerance, but not on enough seeds to be certain", Finding::uncertain,
       true, "More seeds, or a longer log, would tell.");
