@@ -19,12 +19,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
-
 struct CellEnd {
   std::string status, message;
 };

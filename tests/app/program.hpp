@@ -20,6 +20,12 @@
 
 namespace scanbench::app_test {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
 namespace fs = std::filesystem;
 
 inline std::string read(const fs::path& path) {

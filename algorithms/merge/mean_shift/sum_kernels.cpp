@@ -11,6 +11,7 @@ namespace {
 
 typedef float Floats __attribute__((vector_size(4 * kSumLanes)));      // NOLINT(modernize-use-using)
 typedef int Ints __attribute__((vector_size(4 * kSumLanes)));          // NOLINT(modernize-use-using)
+typedef unsigned Words __attribute__((vector_size(4 * kSumLanes)));    // NOLINT(modernize-use-using)
 typedef double Doubles __attribute__((vector_size(8 * kNearLanes)));   // NOLINT(modernize-use-using)
 typedef long long Longs __attribute__((vector_size(8 * kNearLanes)));  // NOLINT(modernize-use-using)
 typedef float LooseFloats __attribute__((vector_size(4 * kSumLanes), aligned(4), may_alias));     // NOLINT
@@ -31,7 +32,7 @@ SCANBENCH_INLINE void gaussian_lanes(const Floats& squared, Floats& out) {
   p = p * f + 0.2402265070F;
   p = p * f + 0.6931471806F;
   p = p * f + 1.0F;
-  out = reinterpret_cast<Floats>(reinterpret_cast<Ints>(p) + (reinterpret_cast<Ints>(rounded) << 23));
+  out = reinterpret_cast<Floats>(reinterpret_cast<Words>(p) + (reinterpret_cast<Words>(rounded) << 23));
 }
 
 SCANBENCH_INLINE void masked(const Ints& mask, Floats& v) {
