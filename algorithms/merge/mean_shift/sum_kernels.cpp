@@ -177,7 +177,8 @@ int select(const double* x, const double* y, const double* z, int count, const N
 
 }  // namespace
 
-extern const SumKernels kSumKernels;
+extern const SumKernels
+    kSumKernels;  // NOLINT(readability-redundant-declaration): seen by clang-tidy for one of two builds
 const SumKernels kSumKernels{.gaussian = gaussian, .first = first, .second = second, .select = select};
 
 }  // namespace scanbench::merge::SCANBENCH_ISA
