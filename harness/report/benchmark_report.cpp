@@ -139,7 +139,10 @@ Table modules_table(const ReportInput& input, const BenchmarkSpec& spec, const s
     std::vector<std::string> params;
     for (const auto& param : module.params)
       if (auto text = param_text(scenarios, k, spec.of, param); !text.empty()) params.push_back(std::move(text));
-    table.rows.push_back({{ranked.name, module.info.summary, fmt::format("{}", fmt::join(params, ", "))}, {}, false});
+    const ModuleChoice& slot = slot_of(pipelines[k], spec.of);
+    const std::string version = slot.source ? slot.source->module.version : "";
+    const std::string what = version.empty() ? module.info.summary : module.info.summary + ", version " + version;
+    table.rows.push_back({{ranked.name, what, fmt::format("{}", fmt::join(params, ", "))}, {}, false});
   }
   table.caption = fmt::format("Values separated by / belong to the noise levels {:.3g} cm.",
                               fmt::join(noise_levels(scenarios), " / "));
