@@ -73,6 +73,17 @@ TEST_F(ForeignPrograms, RunAgainFromTheEffectiveScenarioGiveTheSameBytes) {
   EXPECT_THAT(differences(results(folder_ / "a"), results(folder_ / "b")), testing::IsEmpty());
 }
 
+TEST_F(ForeignPrograms, HaveTheirVersionOnThePageOfABenchmark) {
+  program("m.py", "return []");
+  scenario("{program: [python3, m.py]}");
+  const auto suite = folder_.write("suite.yaml",
+                                   "schema: 1\nscenarios: [room.yaml]\nmetrics: [segments, {name: efficiency, params: "
+                                   "{matches: true}}, timing]\nbenchmark: {baseline: good}\nfigures: []\n");
+  const auto outcome = run({"run", suite, "--out", folder_ / "a", "--quiet"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(read(folder_ / "a/report.md"), HasSubstr("version 1 |"));
+}
+
 TEST_F(ForeignPrograms, AnEditedProgramIsRunAgainAndAnUnchangedOneIsNot) {
   const auto source = program("m.py", "return []");
   const auto file = scenario("{program: [python3, m.py]}");

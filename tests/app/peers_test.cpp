@@ -157,6 +157,18 @@ TEST_F(Peers, NdtOfPclFindsTheMotionBetweenScans) {
   if (!IsSkipped()) expect_motion("pcl_ndt", "epsilon_m2: 1.0e-8");
 }
 
+TEST_F(Peers, SuitesAreAccepted) {
+  for (const char* library : {"cv_hough", "mrpt_icp", "pcl_icp", "pcl_ndt"}) {
+    need_library(library);
+    if (IsSkipped()) return;
+  }
+  for (const char* name : {"peers.yaml", "peers_matchers.yaml"}) {
+    const auto outcome = run({"check", places::source_dir() / "scenarios/suites" / name});
+    if (outcome.err.find("./scanbench peers") != std::string::npos) GTEST_SKIP() << outcome.err;
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+}
+
 TEST_F(Peers, SuitesNameTheCommandThatBuildsWhatIsMissing) {
   for (const std::string name : {"peers", "peers_matchers"}) {
     const std::string text = read(places::source_dir() / "scenarios/suites" / (name + ".yaml"));
