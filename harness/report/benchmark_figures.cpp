@@ -243,7 +243,9 @@ class Drawer {
       }
       chart.facets.push_back({name, {curve}, {}});
     }
-    chart.y.range = log_range(chart.facets, 1);
+    const auto range = log_range(chart.facets, 1);
+    chart.y.range = range;
+    if (range.second > 1e3 * range.first) chart.y.ticks.clear();  // powers of ten alone: the labels would touch
     write(rank.metric + "_noise",
           rank.head +
               " against the standard deviation of the readings, lower is better: mean over the conditions, bars "
