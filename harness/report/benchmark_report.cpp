@@ -219,6 +219,7 @@ std::vector<std::pair<std::string, std::string>> definitions(const BenchmarkSpec
 
 std::vector<std::string> names_of(const std::vector<RankedPipeline>& ranking) {
   std::vector<std::string> names;
+  names.reserve(ranking.size());
   for (const auto& ranked : ranking) names.push_back(ranked.name);
   return names;
 }
