@@ -136,7 +136,7 @@ function go(k, keep_view) {
   at = Math.max(0, Math.min(order.length - 1, k));
   el('scan').value = at;
   const i = shown_scan();
-  el('what').textContent = 'scan ' + rec.frames[i] + ' of 0 to ' + (rec.of - 1) + ', place ' + (at + 1) + ' of ' + order.length + ' in this order';
+  el('what').textContent = 'scan ' + rec.frames[i] + ' (0 to ' + (rec.of - 1) + '), place ' + (at + 1) + ' of ' + order.length + ' in this order';
   if (!keep_view) fit();
   table(i); draw();
   try { history.replaceState(null, '', '#' + encodeURIComponent(rec.name) + '/' + rec.frames[i]); } catch (e) { }
