@@ -55,11 +55,11 @@ std::string run_text(const ReportInput& input, const BenchmarkSpec& spec) {
           ? ""
           : fmt::format(" and {} {}", observations(input.rows, spec.baseline, subject.count_metric), subject.counted);
   return fmt::format(
-      "{} {}s on {} conditions: {} worlds, {} sensors, noise of {:.3g} cm. {} seeds make {} recordings with "
+      "{} {}s on {} conditions: {} world{}, {} sensor{}, noise of {:.3g} cm. {} seeds make {} recordings with "
       "{} scans{} in total; every {} gets the same recordings.",
-      scenarios.front().pipelines.size(), subject.noun, scenarios.size(), worlds.size(), sensors.size(),
-      fmt::join(noise_levels(scenarios), ", "), seeds, scenarios.size() * seeds,
-      observations(input.rows, spec.baseline, "t_scan"), counted, subject.noun);
+      scenarios.front().pipelines.size(), subject.noun, scenarios.size(), worlds.size(), worlds.size() == 1 ? "" : "s",
+      sensors.size(), sensors.size() == 1 ? "" : "s", fmt::join(noise_levels(scenarios), " and "), seeds,
+      scenarios.size() * seeds, observations(input.rows, spec.baseline, "t_scan"), counted, subject.noun);
 }
 
 Table worlds_table(const ReportInput& input) {
