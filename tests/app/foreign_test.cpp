@@ -80,6 +80,8 @@ TEST_F(ForeignPrograms, HaveTheirVersionAndParametersOnThePageOfABenchmark) {
                                    "{matches: true}}, timing]\nbenchmark: {baseline: good}\nfigures: []\n");
   const auto outcome = run({"run", suite, "--out", folder_ / "a", "--quiet"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(read(folder_ / "a/manifest.json"),
+              HasSubstr("\"extract split_lines of python3 split_lines.py, version 1.0: iterative end-point fit"));
   EXPECT_THAT(read(folder_ / "a/report.md"),
               HasSubstr("version 1.0 | all: max_gap_m 0.5, min_points 7, threshold_m 0.1 |"));
 }
