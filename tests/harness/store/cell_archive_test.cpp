@@ -27,7 +27,8 @@ TEST(CellArchive, FoldersAreReadBackByTheirPart) {
   const FolderFiles large{{"ranges.npy", std::string(100000, 'r')}};
   const ArchivePart first = writer.add("cells/room/iepf/1", kSmall);
   const ArchivePart second = writer.add("recordings/room/1", large);
-  EXPECT_EQ(writer.finish(), sha256_of_file(folder.path() / "a.tar"));
+  const std::string hash = writer.finish();
+  EXPECT_EQ(hash, sha256_of_file(folder.path() / "a.tar"));
   const ArchiveReader reader(folder.path() / "a.tar");
   EXPECT_EQ(reader.files(first, "cells/room/iepf/1"), kSmall);
   EXPECT_EQ(reader.files(second, "recordings/room/1"), large);
@@ -49,7 +50,8 @@ TEST(CellArchive, AFolderThatDoesNotFitTheDiskLeavesTheArchiveAsItWas) {
   setrlimit(RLIMIT_FSIZE, &before);
   const ArchivePart third = writer.add("cells/room/iepf/3", kSmall);
   EXPECT_EQ(third.offset, first.offset + first.bytes);
-  EXPECT_EQ(writer.finish(), sha256_of_file(folder.path() / "a.tar"));
+  const std::string hash = writer.finish();
+  EXPECT_EQ(hash, sha256_of_file(folder.path() / "a.tar"));
   EXPECT_EQ(ArchiveReader(folder.path() / "a.tar").files(third, "cells/room/iepf/3"), kSmall);
 }
 
