@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <unordered_map>
@@ -12,6 +13,7 @@
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
+#include "harness/files/input_file.hpp"
 #include "harness/files/system_error.hpp"
 #include "harness/run/runner.hpp"
 #include "harness/store/archived_run.hpp"
@@ -86,6 +88,7 @@ class Merge {
 
   /// Finds an undamaged commit of every cell; returns the cells that have none.
   std::optional<MissingCells> choose() {
+    check_.read_all(commits_.whole);
     MissingCells missing;
     std::set<int> shards;
     std::set<std::string> damaged;
@@ -259,11 +262,14 @@ class Merge {
 
   std::string summary() const {
     std::string text = summary_header();
-    std::map<std::uint32_t, std::string> tables;  // by commit
+    std::map<std::uint32_t, InputFile> tables;  // by commit
     for (const Source& source : chosen_) {
-      const auto [table, is_new] = tables.try_emplace(source.commit);
-      if (is_new) table->second = read_file(commit_of(source).folder / kSummaryFile);
-      text.append(table->second, cell_of(source).summary_begin, cell_of(source).summary_size);
+      const auto table = tables.try_emplace(source.commit, commit_of(source).folder / kSummaryFile).first;
+      const CommittedCell& cell = cell_of(source);
+      const std::size_t begin = text.size();
+      text.resize(begin + cell.summary_size);
+      if (table->second.read_at(cell.summary_begin, std::span(text).subspan(begin)) < cell.summary_size)
+        throw ConfigError(table->second.path().string() + " was cut off while it was read");
     }
     return text;
   }
