@@ -2,9 +2,7 @@
 #include "harness/sweep/shard_commit.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <charconv>
-#include <thread>
 
 #include <unistd.h>
 #include <nlohmann/json.hpp>
@@ -25,9 +23,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Columns = std::vector<std::string>;
-
-/// Threads that read archives: more do not read faster from one disk.
-constexpr unsigned kMostReaders = 4;
 
 constexpr const char* kCommitFile = "commit.json";
 constexpr const char* kArchiveFile = "cells.tar";
@@ -242,35 +237,16 @@ ShardCommits load_commits(const fs::path& sweep, int number) {
   return commits;
 }
 
-void CommitCheck::read_all(const std::vector<ShardCommit>& commits) {
-  std::vector<std::pair<const ShardCommit*, Archive*>> unread;
-  for (const ShardCommit& commit : commits) {
-    const auto [known, is_new] = archives_.try_emplace(commit.folder.string());
-    if (is_new) unread.emplace_back(&commit, &known->second);
-  }
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < unread.size(); i = next++) read(*unread[i].first, *unread[i].second);
-  };
-  std::vector<std::thread> threads;
-  for (unsigned i = 1; i < std::min(std::thread::hardware_concurrency(), kMostReaders); ++i) threads.emplace_back(work);
-  work();
-  for (auto& thread : threads) thread.join();
-}
-
 CommitCheck::Archive& CommitCheck::archive_of(const ShardCommit& commit) {
   const auto [known, is_new] = archives_.try_emplace(commit.folder.string());
-  if (is_new) read(commit, known->second);
-  return known->second;
-}
-
-void CommitCheck::read(const ShardCommit& commit, Archive& archive) {
+  if (!is_new) return known->second;
   try {
-    archive.is_whole = sha256_of_file(commit.archive()) == commit.archive_sha256;
-    archive.reader.emplace(commit.archive());
+    known->second.is_whole = sha256_of_file(commit.archive()) == commit.archive_sha256;
+    known->second.reader.emplace(commit.archive());
   } catch (const ConfigError&) {
-    archive.is_whole = false;
+    known->second.is_whole = false;
   }
+  return known->second;
 }
 
 bool CommitCheck::is_whole(const ShardCommit& commit, const CommittedCell& cell) {

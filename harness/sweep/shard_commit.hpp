@@ -97,8 +97,6 @@ ShardCommits load_commits(const std::filesystem::path& sweep, int number = 0);
 /// Reads archives and compares their hashes.
 class CommitCheck {
  public:
-  /// Reads all archives, several at once; else each is read when it is needed.
-  void read_all(const std::vector<ShardCommit>& commits);
   /// True if every byte of the archive is as it was committed.
   bool is_whole(const ShardCommit& commit) { return archive_of(commit).is_whole; }
   /// True if the files of the cell and of its recording are as they were committed.
@@ -112,7 +110,6 @@ class CommitCheck {
     std::map<std::uint64_t, bool> recordings;
   };
   Archive& archive_of(const ShardCommit& commit);
-  static void read(const ShardCommit& commit, Archive& archive);
 
   std::map<std::string, Archive> archives_;  ///< by folder; those that have been read
 };

@@ -88,7 +88,6 @@ class Merge {
 
   /// Finds an undamaged commit of every cell; returns the cells that have none.
   std::optional<MissingCells> choose() {
-    check_.read_all(commits_.whole);
     MissingCells missing;
     std::set<int> shards;
     std::set<std::string> damaged;

@@ -51,9 +51,7 @@ void require_sweep_or_nothing(const fs::path& folder) {
 std::unordered_set<std::string> committed_addresses(const fs::path& folder) {
   std::unordered_set<std::string> addresses;
   CommitCheck check;
-  const ShardCommits commits = load_commits(folder);
-  check.read_all(commits.whole);
-  for (const ShardCommit& commit : commits.whole)
+  for (const ShardCommit& commit : load_commits(folder).whole)
     for (const CommittedCell& cell : commit.cells)
       if (!addresses.contains(cell.address) && check.is_whole(commit, cell)) addresses.insert(cell.address);
   return addresses;
