@@ -98,9 +98,8 @@ void add_film(Context& context) {
                      ->delimiter(',')
                      ->check(one_of("format", {"apng", "mp4"}))
                      ->capture_default_str();
-  verb->add_option("--fps", film_options.fps, "frames per second")
-      ->check(whole_number("number of frames per second", 1, 60))
-      ->capture_default_str();
+  verb->add_option("--fps", film_options.fps, "frames per second (default: 10, fewer for a film of few frames)")
+      ->check(whole_number("number of frames per second", 1, 60));
   verb->add_option("--frames", film_options.frames, "most frames; of more steps an even selection is shown")
       ->check(whole_number("number of frames", 2, 5000))
       ->capture_default_str();

@@ -136,10 +136,10 @@ std::string without_parents(std::string value) {
   return value;
 }
 
-/// "abcdef: pipelines.iepf.extract.params.threshold_m: 0.1 -> 0.2"
+/// "abcdef: pipelines.iepf.extract.params.threshold_m: 0.1 -> 0.2". Scenarios with the same difference share an entry.
 void compare_settings(const RunResults& a, const RunResults& b, std::vector<std::string>& differing) {
-  constexpr std::size_t kShown = 12;
-  std::size_t left_out = 0;
+  constexpr std::size_t kShown = 12, kNamed = 3;
+  std::vector<std::pair<std::string, std::vector<std::string>>> differences;  // difference, scenarios
   for (const auto& [scenario, settings] : b.settings) {
     const auto earlier = a.settings.find(scenario);
     if (earlier == a.settings.end()) continue;
@@ -155,13 +155,27 @@ void compare_settings(const RunResults& a, const RunResults& b, std::vector<std:
       const std::string before = value_in(earlier->second);
       const std::string after = value_in(settings);
       if (without_parents(before) == without_parents(after)) continue;
-      if (differing.size() < kShown)
-        differing.push_back(fmt::format("{}: {}: {} -> {}", scenario, path, before, after));
-      else
-        ++left_out;
+      const std::string difference = fmt::format("{}: {} -> {}", path, before, after);
+      auto known = std::ranges::find(differences, difference, &decltype(differences)::value_type::first);
+      if (known == differences.end()) known = differences.insert(known, {difference, {}});
+      known->second.push_back(scenario);
     }
   }
-  if (left_out > 0) differing.push_back(fmt::format("{} more settings", left_out));
+  for (std::size_t i = 0; i < differences.size() && i < kShown; ++i) {
+    const auto& [difference, scenarios] = differences[i];
+    std::string where;
+    for (std::size_t k = 0; k < scenarios.size() && k < kNamed; ++k) where += (k > 0 ? ", " : "") + scenarios[k];
+    if (scenarios.size() > kNamed) where += fmt::format(" and {} more", scenarios.size() - kNamed);
+    differing.push_back(where + ": " + difference);
+  }
+  if (differences.size() > kShown) differing.push_back(fmt::format("{} more settings", differences.size() - kShown));
+}
+
+/// Twelve digits of a commit and, for a tree with changes, six of the hash of its code.
+std::string short_commit(const std::string& commit) {
+  const auto changes = commit.find("-dirty-");
+  if (changes == std::string::npos) return commit.substr(0, 12);
+  return commit.substr(0, std::min<std::size_t>(changes, 12)) + commit.substr(changes, 13);
 }
 
 std::vector<std::string> what_differs(const RunResults& a, const RunResults& b,
@@ -171,7 +185,7 @@ std::vector<std::string> what_differs(const RunResults& a, const RunResults& b,
     if (before != after && !before.empty() && !after.empty())
       differing.push_back(fmt::format("{}: {} -> {}", what, before, after));
   };
-  add("commit", a.provenance.commit, b.provenance.commit);
+  add("commit", short_commit(a.provenance.commit), short_commit(b.provenance.commit));
   add("compiler", a.provenance.compiler, b.provenance.compiler);
   add("libraries", a.provenance.libraries, b.provenance.libraries);
   add("processor", a.provenance.processor, b.provenance.processor);

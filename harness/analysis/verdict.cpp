@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/special_values.hpp"
@@ -24,12 +27,31 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
+/// ": 6 of iepf in abcdef, 3 of lt in abcdef", the pipeline with the most serious change first.
+std::string places_text(const std::vector<const MetricChange*>& worse) {
+  constexpr std::size_t kNamed = 3;
+  std::vector<std::pair<std::string, std::size_t>> places;
+  for (const MetricChange* change : worse) {
+    const std::string place = fmt::format("{} in {}", change->pipeline, change->scenario);
+    auto known = std::ranges::find(places, place, &std::pair<std::string, std::size_t>::first);
+    if (known == places.end()) known = places.insert(known, {place, 0});
+    ++known->second;
+  }
+  if (worse.size() < 2) return "";  // the sentence on the worst change names the place
+  std::string text;
+  for (std::size_t i = 0; i < places.size() && i < kNamed; ++i)
+    text += fmt::format("{} {} of {}", i == 0 ? ":" : ",", places[i].second, places[i].first);
+  if (places.size() > kNamed)
+    text += fmt::format(", and others of {}", counted(places.size() - kNamed, "pipeline", "pipelines"));
+  return text;
+}
+
 std::string failure_text(const Comparison& comparison) {
   std::string text;
   const auto worse = changes_with(comparison, Finding::worse);
   if (!worse.empty())
-    text += fmt::format("{} of {} {} worse", worse.size(), counted(comparison.gates, "gate", "gates"),
-                        worse.size() == 1 ? "is" : "are");
+    text += fmt::format("{} of {} {} worse{}", worse.size(), counted(comparison.gates, "gate", "gates"),
+                        worse.size() == 1 ? "is" : "are", places_text(worse));
   if (!comparison.broken.empty())
     text += fmt::format("{}{} no longer ok", text.empty() ? "" : ", and ",
                         counted(comparison.broken.size(), "cell is", "cells are"));

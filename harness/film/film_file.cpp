@@ -15,8 +15,10 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/film/ffmpeg.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/report/recording_note.hpp"
 #include "harness/scenario/trace_choice.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/recording_folder.hpp"
@@ -63,6 +65,7 @@ std::unique_ptr<LoadedFilm> load_film(const fs::path& run, const Scenario& scena
                                       const FilmOptions& options) {
   const CellKey key{scenario.name, pipeline, scenario.seeds.front()};
   const fs::path cell = cell_path(run, key);
+  require_cell(run, key);
   if (!fs::exists(cell / kStatusFile) || load_status(cell).outcome.status != CellStatus::ok) return nullptr;
   const auto kind = Registry<render::FilmKind>::make(options.of);
   TraceChoice choice;
@@ -84,6 +87,14 @@ std::unique_ptr<LoadedFilm> load_film(const fs::path& run, const Scenario& scena
   return loaded->film ? std::move(loaded) : nullptr;
 }
 
+/// Runs the scenario once more, into another folder.
+std::string command_with_trace(const fs::path& run, const std::string& scenario) {
+  const fs::path alone = run / "effective.yaml";
+  const fs::path file = fs::exists(alone) ? alone : run / "effective" / (scenario + ".yaml");
+  return fmt::format("scanbench run {} --trace --out {}", shell_word(file.string()),
+                     shell_word((run.parent_path() / (scenario + "_trace")).string()));
+}
+
 /// The film of the pipeline that the options name, else of the first that has one.
 std::unique_ptr<LoadedFilm> find_film(const fs::path& run, const Scenario& scenario, const FilmOptions& options) {
   std::vector<std::string> names;
@@ -95,11 +106,11 @@ std::unique_ptr<LoadedFilm> find_film(const fs::path& run, const Scenario& scena
     if (options.pipeline.empty() || options.pipeline == name)
       if (auto loaded = load_film(run, scenario, name, options)) return loaded;
   const bool from_trace = !Registry<render::FilmKind>::make(options.of)->trace_rows().empty();
-  throw ConfigError(fmt::format(
-      "{}: there is no film of {} {}: {}", run.string(), options.of,
-      options.pipeline.empty() ? "in " + scenario.name : "of " + options.pipeline,
-      from_trace ? "no finished pipeline has such rows in its trace; `scanbench run --trace` keeps all of them"
-                 : "the recording has no scans, or no pipeline ended well"));
+  throw ConfigError(fmt::format("{}: there is no film of {} {}: {}", run.string(), options.of,
+                                options.pipeline.empty() ? "in " + scenario.name : "of " + options.pipeline,
+                                from_trace ? "no finished pipeline has such rows in its trace; `" +
+                                                 command_with_trace(run, scenario.name) + "` keeps all of them"
+                                           : "the recording has no scans, or no pipeline ended well"));
 }
 
 bool has_ending(const fs::path& file) {
@@ -108,6 +119,13 @@ bool has_ending(const fs::path& file) {
 
 fs::path without_ending(fs::path file) {
   return has_ending(file) ? file.replace_extension() : file;
+}
+
+/// Ten, but of a film of few frames as many as let it last for four seconds.
+std::uint16_t frames_per_second(const FilmOptions& options, std::size_t frames) {
+  constexpr std::size_t kUsual = 10, kShortestSeconds = 4;
+  return options.fps.value_or(
+      static_cast<std::uint16_t>(std::clamp<std::size_t>(frames / kShortestSeconds, 1, kUsual)));
 }
 
 render::Scene scene_of(const LoadedFilm& loaded, std::size_t frame, const FilmOptions& options) {
@@ -132,14 +150,15 @@ FilmFiles make_film(const fs::path& run, const FilmOptions& options,
 
   const std::size_t frames = loaded->film->frames;
   const double dpi = options.width_px / scene_of(*loaded, 0, options).width_in;
-  render::ApngWriter apng(static_cast<std::uint32_t>(frames), options.fps);
+  const std::uint16_t fps = frames_per_second(options, frames);
+  render::ApngWriter apng(static_cast<std::uint32_t>(frames), fps);
   std::optional<FfmpegPipe> mp4;
   for (std::size_t k = 0; k < frames; ++k) {
     if (progress)
       progress(static_cast<double>(k) / static_cast<double>(frames), fmt::format("frame {} of {}", k + 1, frames));
     const render::Pixels pixels = render::to_pixels(scene_of(*loaded, k, options), dpi);
     if (wants_apng) apng.add(pixels);
-    if (wants_mp4 && !mp4) mp4.emplace(ffmpeg, with_ending(".mp4"), pixels.width, pixels.height, options.fps);
+    if (wants_mp4 && !mp4) mp4.emplace(ffmpeg, with_ending(".mp4"), pixels.width, pixels.height, fps);
     if (mp4) mp4->add(pixels.rgb);
   }
   FilmFiles made{.files = {},

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ struct FilmOptions {
   std::string scenario{};                    ///< empty: the run's only one
   std::string pipeline{};                    ///< empty: the first that ended well and has such a film
   std::vector<std::string> formats{"apng"};  ///< apng, mp4
-  std::uint16_t fps = 10;
-  std::size_t frames = 200;  ///< at most
+  std::optional<std::uint16_t> fps{};        ///< none: 10, or fewer if the film has few frames (frames_per_second)
+  std::size_t frames = 200;                  ///< at most
   int width_px = 640;
   render::Theme theme = render::Theme::paper;
   std::filesystem::path out{};  ///< with or without ending; empty: RUN/figures/<scenario>_<pipeline>_<of>

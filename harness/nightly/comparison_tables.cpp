@@ -25,6 +25,14 @@ std::string signed_number(double value) {
   return std::isfinite(value) ? fmt::format("{:+.3g}", value) : std::string("–");
 }
 
+/// Standard deviations over a few seeds are small by chance, and ratios to them large.
+std::string effect_text(double effect) {
+  constexpr double kLargest = 10.0;
+  if (!std::isfinite(effect)) return "–";
+  if (std::fabs(effect) > kLargest) return effect > 0 ? "> 10" : "< -10";
+  return fmt::format("{:+.1f}", effect);
+}
+
 std::string interval(const MetricChange& change) {
   if (change.difference.count < 2) return "";
   return fmt::format("({:+.3g} … {:+.3g})", change.difference.low, change.difference.high);
@@ -105,6 +113,17 @@ void shorten(Table& table) {
   table.rows.resize(kLargestTable);
 }
 
+/// The changes of one pipeline in one scenario stand together, where the first of them stood.
+std::vector<const MetricChange*> by_place(const std::vector<const MetricChange*>& changes) {
+  std::map<std::pair<std::string, std::string>, std::size_t> ranks;
+  for (const MetricChange* change : changes) ranks.try_emplace({change->scenario, change->pipeline}, ranks.size());
+  std::vector<const MetricChange*> grouped = changes;
+  std::ranges::stable_sort(grouped, {}, [&](const MetricChange* change) {
+    return ranks.at({change->scenario, change->pipeline});
+  });
+  return grouped;
+}
+
 }  // namespace
 
 Table change_table(const std::string& id, const std::string& title, const std::vector<const MetricChange*>& changes,
@@ -122,7 +141,7 @@ Table change_table(const std::string& id, const std::string& title, const std::v
                {"", "over"},
                {"", "worst seed"}},
               {}};
-  for (const MetricChange* change : changes) {
+  for (const MetricChange* change : by_place(changes)) {
     const std::string unit = change->metric.unit.empty() ? "" : " [" + change->metric.unit + "]";
     TableCell now{.text = shown(change->after), .link = cells_link(*change)};
     if (change->lost > 0) now.spread = fmt::format("undefined on {}", change->lost);
@@ -131,7 +150,7 @@ Table change_table(const std::string& id, const std::string& title, const std::v
                            std::move(now),
                            {.text = signed_number(change->difference.mean), .spread = interval(*change)},
                            {shown(change->metric.tolerance)},
-                           {std::isfinite(change->effect) ? fmt::format("{:+.2f}", change->effect) : "–"},
+                           {effect_text(change->effect)},
                            {std::isfinite(change->q) ? fmt::format("{:.2g}", change->q) : "–"},
                            sample_cell(*change),
                            worst_seed(*change, run)},
@@ -164,7 +183,8 @@ std::vector<Table> comparison_tables(const Comparison& comparison, bool all) {
     tables.push_back(std::move(table));
   };
   add("worse", "What became worse", Finding::worse, false,
-      "The difference that is largest in tolerances comes first. Differences are now − before, with their 95 % "
+      "The pipeline with the largest difference in tolerances comes first. Differences are now − before, with their 95 "
+      "% "
       "intervals, over equal seeds or, of a recorded log, over its scans. The effect is the mean difference over its "
       "standard deviation; q is the share of false alarms among all gates that are as certain (Benjamini–Hochberg). "
       "Only gates fail.");

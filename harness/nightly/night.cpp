@@ -74,11 +74,12 @@ fs::path last_good_folder(const fs::path& run) {
   return whole.parent_path() / (whole.filename().string() + ".last_good");
 }
 
-/// The results of an earlier night, with its folder if that is kept.
+/// The results of an earlier night, with its folder if that is still there.
 RunResults night_results(const Store& store, const Night& night, const fs::path& run) {
   RunResults results = store.load(night.id);
-  const fs::path kept = last_good_folder(run);
-  if (fs::exists(kept / kManifestFile) && load_provenance(kept).start == night.start) results.folder = kept;
+  for (const fs::path& kept : {last_good_folder(run), fs::path(night.folder)})
+    if (results.folder.empty() && fs::exists(kept / kManifestFile) && load_provenance(kept).start == night.start)
+      results.folder = kept;
   return results;
 }
 
@@ -110,18 +111,25 @@ std::vector<const MetricChange*> listed_changes(const Comparison& comparison) {
   return listed;
 }
 
-/// `frame` receives the number of the scan.
-std::optional<PagePicture> picture_of(const fs::path& run, const ScanChoice& choice, const std::string& when,
-                                      std::size_t* frame = nullptr) try {
-  const ShownScan shown = show_scan(run, choice);
-  if (frame != nullptr) *frame = shown.frame;
-  return PagePicture{when + ": " + shown.text, picture_bytes(shown.scene, "scan.png")};
-} catch (const ConfigError&) {  // a pipeline without lines, or a run without scans.csv
-  return std::nullopt;
+/// The worst scan of a cell now, beside the same scan as it was before, where that is kept.
+PicturePair scan_pair(const fs::path& run, const fs::path& before, const ScanChoice& choice) {
+  if (fs::exists(before / kManifestFile)) {
+    try {
+      if (const auto both = show_scan_in_both(before, run, choice))
+        return {{}, {}, PagePicture{both->text, picture_bytes(both->scene, "scan.png")}};
+    } catch (const ConfigError&) {  // a cell that the earlier run does not have
+    }
+  }
+  try {
+    const ShownScan shown = show_scan(run, choice);
+    return {{}, {}, PagePicture{"now: " + shown.text, picture_bytes(shown.scene, "scan.png")}};
+  } catch (const ConfigError&) {  // a pipeline without lines, or a run without scans.csv
+    return {};
+  }
 }
 
 /// The worst scan of the worst seed of each pipeline that became worse.
-std::vector<PicturePair> pictures_of(const fs::path& run, const fs::path& last_good, const Comparison& comparison) {
+std::vector<PicturePair> pictures_of(const fs::path& run, const fs::path& before, const Comparison& comparison) {
   std::vector<PicturePair> pictures;
   std::vector<std::pair<std::string, std::string>> seen;
   for (const MetricChange* change : changes_with(comparison, Finding::worse)) {
@@ -129,16 +137,11 @@ std::vector<PicturePair> pictures_of(const fs::path& run, const fs::path& last_g
     const SeedPair* worst = change->worst();
     if (pictures.size() == kPictures || worst == nullptr || std::ranges::find(seen, place) != seen.end()) continue;
     seen.push_back(place);
-    ScanChoice choice{.scenario = change->scenario, .pipeline = change->pipeline, .seed = worst->seed};
-    PicturePair pair;
-    pair.title = fmt::format("{}/{}/{}: the scan with the lowest F1", change->scenario, change->pipeline, worst->seed);
-    std::size_t frame = 0;
-    pair.now = picture_of(run, choice, "now", &frame);
+    PicturePair pair =
+        scan_pair(run, before, {.scenario = change->scenario, .pipeline = change->pipeline, .seed = worst->seed});
     if (!pair.now) continue;
-    if (fs::exists(last_good / kManifestFile)) {
-      choice.frame = std::to_string(frame);
-      pair.before = picture_of(last_good, choice, "in the last good night");
-    }
+    pair.title =
+        fmt::format("{} in {}, seed {}: the scan with the lowest F1", change->pipeline, change->scenario, worst->seed);
     pictures.push_back(std::move(pair));
   }
   return pictures;
@@ -225,8 +228,9 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
     for (const MetricChange* change : listed_changes(comparison))
       input.trends[change->scenario + "/" + change->pipeline + "/" + change->metric.metric] =
           store.trend(plan.suite, change->scenario, change->pipeline, change->metric.metric, kTrendNights);
-    input.pictures = pictures_of(plan.run, last_good_folder(plan.run), comparison);
-    input.figures = figures_of(plan.run, last_good_folder(plan.run), comparison);
+    const fs::path before = reference->results.folder.empty() ? last_good_folder(plan.run) : reference->results.folder;
+    input.pictures = pictures_of(plan.run, before, comparison);
+    input.figures = figures_of(plan.run, before, comparison);
     for (const RunFile* file : {&kComparisonJson, &kComparisonMarkdown, &kComparisonJunit})
       input.files.push_back(file->name());
     write_file_atomically(plan.run / kComparisonJson, comparison_json(comparison));

@@ -34,8 +34,11 @@ std::string verdict_banner(const NightInput& input) {
                        escaped(verdict_sentence(*input.drift)));
   if (input.comparison && !input.comparison->differing.empty()) {
     const auto& differing = input.comparison->differing;
-    out += fmt::format("<p>What differs: {}", escaped(differing.front()));
-    if (differing.size() > 1) out += fmt::format(" <a href=\"#differs-section\">and {} more</a>", differing.size() - 1);
+    constexpr std::size_t kNamed = 3;
+    out += "<p>What differs: ";
+    for (std::size_t i = 0; i < differing.size() && i < kNamed; ++i) out += (i > 0 ? "; " : "") + escaped(differing[i]);
+    if (differing.size() > kNamed)
+      out += fmt::format("; <a href=\"#differs-section\">and {} more</a>", differing.size() - kNamed);
     out += "</p>\n";
   }
   return out + fmt::format("<p class=\"faint\">{}</p>\n", reuse_text(input.now.cells.size(), input.reused));
@@ -148,10 +151,11 @@ std::string worst_list(const NightInput& input) {
           fmt::format("scanbench show {} --scenario {} --pipeline {} --seed {} --frame {}", shell_word(input.now.name),
                       scan.key.scenario, scan.key.pipeline, scan.key.seed, scan.frame);
       out += fmt::format(
-          "<figure>{}<figcaption><a href=\"cells/{}/\" title=\"{}\">{}, seed {}, scan {}</a>: F1 {:.2f}, {} false, {} "
-          "missed, {} split</figcaption></figure>\n",
+          "<figure>{}<figcaption><a href=\"cells/{}/\" title=\"{}\">{}, seed {}, scan {}</a>: F1 {:.2f}, {} right, "
+          "{} false, {} missed, {} split{}</figcaption></figure>\n",
           scan.sketch, escaped(to_string(scan.key)), escaped(command), escaped(scan.key.scenario), scan.key.seed,
-          scan.frame, scan.f1, scan.false_lines, scan.missed, scan.split);
+          scan.frame, scan.f1, scan.found, scan.false_lines, scan.missed, scan.split,
+          scan.unjudged > 0 ? fmt::format(", {} too short to judge", scan.unjudged) : "");
     }
     out += "</div>\n";
   }
@@ -169,13 +173,20 @@ std::string file_list(const NightInput& input) {
 }
 
 /// The table of that id. The page's own heading stands above it, unless it has `own_title`.
-std::string table_of(const Comparison& comparison, const std::string& id, bool own_title = false) {
+std::string changes_of(const Comparison& comparison, const std::string& id, bool own_title = false) {
   for (auto& table : comparison_tables(comparison)) {
     if (table.id != id) continue;
     if (!own_title) table.title.clear();
-    return to_html(table);
+    return "<div class=\"changes\">\n" + to_html(table) + "</div>\n";
   }
   return "";
+}
+
+std::string completeness_of(const Comparison& comparison) {
+  auto table = completeness_table(comparison);
+  if (!table) return "";
+  table->title.clear();
+  return to_html(*table);
 }
 
 std::vector<PagePart> parts_of(const NightInput& input) {
@@ -184,13 +195,13 @@ std::vector<PagePart> parts_of(const NightInput& input) {
     parts.push_back({id, title, std::move(body)});
   };
   if (const auto& comparison = input.comparison) {
-    const std::string worse = table_of(*comparison, "worse");
+    const std::string worse = changes_of(*comparison, "worse");
     add("worse-section", "What became worse",
         (worse.empty() ? "<p>Nothing.</p>\n" : worse) + picture_pairs(input.pictures) +
-            table_of(*comparison, "uncertain", true));
+            changes_of(*comparison, "uncertain", true));
     add("differs-section", "What differs", list_of(comparison->differing));
-    add("better-section", "What became better", table_of(*comparison, "better"));
-    add("cells-section", "Completeness", table_of(*comparison, "completeness"));
+    add("better-section", "What became better", changes_of(*comparison, "better"));
+    add("cells-section", "Completeness", completeness_of(*comparison));
     add("matrix-section", "Pipelines × scenarios",
         html_status_matrices(input.now, *comparison, input.rankings, input.scenarios_page));
     add("figures-section", "Figures of what became worse", picture_pairs(input.figures));

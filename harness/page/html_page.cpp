@@ -65,6 +65,11 @@ td.failed, .chip.failed { background: #cc79a740; box-shadow: inset .25rem 0 #cc7
 .chips { flex: 1 1 100%; } .chips h3 { margin: .2rem 0; } .chips div { display: grid; grid-template-columns: repeat(auto-fill, minmax(10.5rem, 1fr)); gap: .25rem .4rem; }
 .chip { padding: .1rem .3rem .1rem .55rem; background: var(--tint); font-size: .82rem; line-height: 1.3; text-decoration: none; overflow-wrap: anywhere; } .chip b, .chip small { display: block; color: var(--ink); } .chip small { color: var(--faint); }
 .nights tbody th.head:last-child { white-space: normal; min-width: 16rem; font-weight: 400; } .nights th.head { vertical-align: top; }
+/* On a narrow screen a change has two lines: what changed, then before, now, difference and seed. */
+@media (max-width: 600px) {
+  .changes tr { display: grid; grid-template-columns: 1fr 1fr 1.5fr .7fr; } .changes th, .changes td { white-space: normal; overflow-wrap: anywhere; }
+  .changes tr > :nth-child(3) { grid-column: 3 / 5; } .changes tr > :nth-child(n+7):nth-child(-n+10) { display: none; } .changes table { width: 100%; }
+}
 @media print { nav, .tools { display: none; } body { max-width: none; } .scroll { overflow: visible; } }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; font-size: .86rem; } dt { color: var(--faint); } dd { margin: 0; overflow-wrap: anywhere; }
 )css";

@@ -57,7 +57,7 @@ for (const r of data) {
     p.shown = true;
   }
 }
-let rec, order, at = 0, view, timer = 0;
+let rec, order, at = 0, view, moved = false, timer = 0;  // moved: the reader has chosen the view
 const shown_scan = () => order[at];
 
 function far_points(i, push) {
@@ -74,6 +74,7 @@ function fit() {  // to the returns of this scan, without the farthest twentieth
   const range = v => { v.sort((a, b) => a - b); const k = Math.floor(v.length / 40);
     return [Math.min(0, v[k]), Math.max(0, v[v.length - 1 - k])]; };
   const [x0, x1] = range(xs), [y0, y1] = range(ys), c = el('view');
+  moved = false;
   const m = Math.max(1, 0.08 * Math.max(x1 - x0, y1 - y0));
   view = {x: (x0 + x1) / 2, y: (y0 + y1) / 2,
           scale: Math.min(c.clientWidth / (y1 - y0 + 2 * m), c.clientHeight / (x1 - x0 + 2 * m))};
@@ -136,7 +137,7 @@ function go(k, keep_view) {
   at = Math.max(0, Math.min(order.length - 1, k));
   el('scan').value = at;
   const i = shown_scan();
-  el('what').textContent = 'scan ' + rec.frames[i] + ' of 0 to ' + (rec.of - 1) + ', place ' + (at + 1) + ' of ' + order.length + ' in this order';
+  el('what').textContent = 'scan ' + rec.frames[i] + ' (0 to ' + (rec.of - 1) + '), place ' + (at + 1) + ' of ' + order.length + ' in this order';
   if (!keep_view) fit();
   table(i); draw();
   try { history.replaceState(null, '', '#' + encodeURIComponent(rec.name) + '/' + rec.frames[i]); } catch (e) { }
@@ -188,11 +189,11 @@ document.addEventListener('keydown', e => {
   e.preventDefault();
 });
 const canvas = el('view');
-canvas.addEventListener('wheel', e => { view.scale *= Math.exp(-e.deltaY / 500); draw(); e.preventDefault(); }, {passive: false});
+canvas.addEventListener('wheel', e => { view.scale *= Math.exp(-e.deltaY / 500); moved = true; draw(); e.preventDefault(); }, {passive: false});
 canvas.addEventListener('pointerdown', e => canvas.setPointerCapture(e.pointerId));
 canvas.addEventListener('pointermove', e => { if (!e.buttons) return;
-  view.y += e.movementX / view.scale; view.x += e.movementY / view.scale; draw(); });
-window.addEventListener('resize', draw);
+  view.y += e.movementX / view.scale; view.x += e.movementY / view.scale; moved = true; draw(); });
+window.addEventListener('resize', () => { if (!moved) fit(); draw(); });
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
 const [name, frame] = decodeURIComponent(location.hash.slice(1)).split('/');
 choose(Math.max(0, data.findIndex(r => r.name === name)));

@@ -14,6 +14,7 @@
 #include "harness/files/csv.hpp"
 #include "harness/report/basin_chart.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/summary.hpp"
 #include "render/charts/facets.hpp"
@@ -101,6 +102,7 @@ FacetCurve curve_of(const std::vector<ErrorPoint>& points, Against against) {
 
 std::vector<Vec2> bound_curve(const std::vector<ErrorPoint>& points) {
   std::vector<Vec2> curve;
+  curve.reserve(points.size());
   for (const ErrorPoint& p : points) curve.emplace_back(p.x, p.bound);
   return curve;
 }
@@ -121,9 +123,13 @@ std::pair<double, double> log_range(const std::vector<Facet>& facets, int coordi
 /// 1, 2, 5 times powers of ten.
 std::vector<std::pair<double, std::string>> round_ticks(double low, double high) {
   std::vector<std::pair<double, std::string>> ticks;
-  for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10)
-    for (const double multiple : {1.0, 2.0, 5.0})
-      ticks.emplace_back(multiple * decade, fmt::format("{:.3g}", multiple * decade));
+  const int first = static_cast<int>(std::floor(std::log10(low))),
+            last = static_cast<int>(std::floor(std::log10(high)));
+  for (int exponent = first; exponent <= last; ++exponent)
+    for (const double multiple : {1.0, 2.0, 5.0}) {
+      const double value = multiple * std::pow(10.0, exponent);
+      ticks.emplace_back(value, fmt::format("{:.3g}", value));
+    }
   return ticks;
 }
 
@@ -243,7 +249,9 @@ class Drawer {
       }
       chart.facets.push_back({name, {curve}, {}});
     }
-    chart.y.range = log_range(chart.facets, 1);
+    const auto range = log_range(chart.facets, 1);
+    chart.y.range = range;
+    if (range.second > 1e3 * range.first) chart.y.ticks.clear();  // powers of ten alone: the labels would touch
     write(rank.metric + "_noise",
           rank.head +
               " against the standard deviation of the readings, lower is better: mean over the conditions, bars "
@@ -340,6 +348,10 @@ class Drawer {
 std::vector<FigureFile> draw_benchmark_figures(const fs::path& run, const std::vector<Scenario>& scenarios,
                                                const BenchmarkSpec& spec, const FigureOptions& options,
                                                const std::function<void(double, const std::string&)>& progress) {
+  if (has_archives(run))
+    return {{spec.example, "",
+             "the figures of the benchmark need the files of all cells; `scanbench unpack " + run.string() +
+                 "` writes them"}};
   return Drawer(run, scenarios, spec, options).draw(progress);
 }
 

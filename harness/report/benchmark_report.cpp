@@ -55,11 +55,11 @@ std::string run_text(const ReportInput& input, const BenchmarkSpec& spec) {
           ? ""
           : fmt::format(" and {} {}", observations(input.rows, spec.baseline, subject.count_metric), subject.counted);
   return fmt::format(
-      "{} {}s on {} conditions: {} worlds, {} sensors, noise of {:.3g} cm. {} seeds make {} recordings with "
+      "{} {}s on {} conditions: {} world{}, {} sensor{}, noise of {:.3g} cm. {} seeds make {} recordings with "
       "{} scans{} in total; every {} gets the same recordings.",
-      scenarios.front().pipelines.size(), subject.noun, scenarios.size(), worlds.size(), sensors.size(),
-      fmt::join(noise_levels(scenarios), ", "), seeds, scenarios.size() * seeds,
-      observations(input.rows, spec.baseline, "t_scan"), counted, subject.noun);
+      scenarios.front().pipelines.size(), subject.noun, scenarios.size(), worlds.size(), worlds.size() == 1 ? "" : "s",
+      sensors.size(), sensors.size() == 1 ? "" : "s", fmt::join(noise_levels(scenarios), " and "), seeds,
+      scenarios.size() * seeds, observations(input.rows, spec.baseline, "t_scan"), counted, subject.noun);
 }
 
 Table worlds_table(const ReportInput& input) {
@@ -108,21 +108,38 @@ const ModuleChoice& slot_of(const PipelineSpec& pipeline, const std::string& kin
 
 /// "threshold_m 0.04 / 0.12 / 0.2", one value per noise level if they differ; empty if all have the default.
 std::string param_text(const std::vector<Scenario>& scenarios, std::size_t pipeline, const std::string& slot,
-                       const ParamSpec& spec) {
+                       const std::string& name, const std::string& default_text) {
   std::map<double, std::set<std::string>> by_noise;
   std::set<std::string> all;
   for (const auto& scenario : scenarios) {
-    const std::string value = to_text(slot_of(scenario.pipelines[pipeline], slot).params.at(spec.name));
+    const std::string value = to_text(slot_of(scenario.pipelines[pipeline], slot).params.at(name));
     by_noise[noise_m(scenario)].insert(value);
     all.insert(value);
   }
-  if (all.size() == 1) return *all.begin() == to_text(spec.default_value) ? "" : spec.name + " " + *all.begin();
+  if (all.size() == 1) return *all.begin() == default_text ? "" : name + " " + *all.begin();
   std::vector<std::string> values;
   for (const auto& [noise, of_noise] : by_noise) {
-    if (of_noise.size() > 1) return spec.name + " differs, see effective/";
+    if (of_noise.size() > 1) return name + " differs, see effective/";
     values.push_back(*of_noise.begin());
   }
-  return fmt::format("{} {}", spec.name, fmt::join(values, " / "));
+  return fmt::format("{} {}", name, fmt::join(values, " / "));
+}
+
+/// The parameters of a pipeline's module that differ from the defaults. A run folder does not keep the defaults of a
+/// foreign module: all of its parameters, after "all: ".
+std::string params_text(const std::vector<Scenario>& scenarios, std::size_t pipeline, const std::string& slot,
+                        const std::vector<ParamSpec>& specs) {
+  std::vector<std::string> params;
+  const auto append = [&](const std::string& name, const std::string& default_text) {
+    if (auto text = param_text(scenarios, pipeline, slot, name, default_text); !text.empty())
+      params.push_back(std::move(text));
+  };
+  for (const auto& spec : specs) append(spec.name, to_text(spec.default_value));
+  const ModuleChoice& choice = slot_of(scenarios.front().pipelines[pipeline], slot);
+  const bool unknown = choice.source && specs.empty() && !choice.params.empty();
+  if (unknown)
+    for (const auto& [name, value] : choice.params) append(name, "no default is known");
+  return fmt::format("{}{}", unknown ? "all: " : "", fmt::join(params, ", "));
 }
 
 Table modules_table(const ReportInput& input, const BenchmarkSpec& spec, const std::vector<RankedPipeline>& ranking) {
@@ -136,10 +153,10 @@ Table modules_table(const ReportInput& input, const BenchmarkSpec& spec, const s
     const auto k =
         static_cast<std::size_t>(std::ranges::find(pipelines, ranked.name, &PipelineSpec::name) - pipelines.begin());
     const ModuleEntry module = entry_of(slot_of(pipelines[k], spec.of));
-    std::vector<std::string> params;
-    for (const auto& param : module.params)
-      if (auto text = param_text(scenarios, k, spec.of, param); !text.empty()) params.push_back(std::move(text));
-    table.rows.push_back({{ranked.name, module.info.summary, fmt::format("{}", fmt::join(params, ", "))}, {}, false});
+    const ModuleChoice& slot = slot_of(pipelines[k], spec.of);
+    const std::string version = slot.source ? slot.source->module.version : "";
+    const std::string what = version.empty() ? module.info.summary : module.info.summary + ", version " + version;
+    table.rows.push_back({{ranked.name, what, params_text(scenarios, k, spec.of, module.params)}, {}, false});
   }
   table.caption = fmt::format("Values separated by / belong to the noise levels {:.3g} cm.",
                               fmt::join(noise_levels(scenarios), " / "));
@@ -202,6 +219,7 @@ std::vector<std::pair<std::string, std::string>> definitions(const BenchmarkSpec
 
 std::vector<std::string> names_of(const std::vector<RankedPipeline>& ranking) {
   std::vector<std::string> names;
+  names.reserve(ranking.size());
   for (const auto& ranked : ranking) names.push_back(ranked.name);
   return names;
 }

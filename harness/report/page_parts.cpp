@@ -81,13 +81,13 @@ struct Remark {
   bool same = true;  ///< all are the first
 };
 
-/// A remark without what is in parentheses.
+/// A remark without its numbers and without what is in parentheses.
 std::string kind_of(std::string_view remark) {
   std::string kind;
   int depth = 0;
   for (const char c : remark) {
     if (c == '(') ++depth;
-    if (depth == 0) kind += c;
+    if (depth == 0 && (c < '0' || c > '9')) kind += c;
     if (c == ')') depth = std::max(0, depth - 1);
   }
   return kind;

@@ -16,6 +16,7 @@
 #include "harness/files/text_file.hpp"
 #include "harness/report/line_verdicts.hpp"
 #include "harness/report/scan_error.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/recording_folder.hpp"
@@ -69,9 +70,9 @@ class ScanRows {
   std::string text(std::size_t frame) const {
     for (std::size_t row = 0; table_ && row < table_->rows(); ++row)
       if (table_->text(row, "frame") == std::to_string(frame))
-        return fmt::format("{} true, {} false, {} missed, {} split; F1 {}, residual {} m", table_->text(row, "true"),
+        return fmt::format("{} right, {} false, {} missed, {} split; F1 {}, residual {}", table_->text(row, "true"),
                            table_->text(row, "false"), table_->text(row, "missed"), table_->text(row, "split"),
-                           rounded(row, "f1"), rounded(row, "residual_m"));
+                           rounded(row, "f1", ""), rounded(row, "residual_m", " m"));
     return "";
   }
 
@@ -80,9 +81,9 @@ class ScanRows {
     return scan_error(table_->number(row, "f1"),
                       table_->number(row, "false") + table_->number(row, "missed") + table_->number(row, "split"));
   }
-  std::string rounded(std::size_t row, const char* column) const {
+  std::string rounded(std::size_t row, const char* column, const char* unit) const {
     const double value = table_->number(row, column);
-    return std::isnan(value) ? "undefined" : fmt::format("{:.3g}", value);
+    return std::isnan(value) ? "undefined" : fmt::format("{:.3g}{}", value, unit);
   }
 
   fs::path file_;
@@ -99,38 +100,79 @@ std::size_t frame_number(const std::string& text, std::size_t frames) {
   return frame;
 }
 
+/// A cell of a run that ended well.
+struct ChosenCell {
+  ChosenCell(const fs::path& run, const ScanChoice& choice) {
+    const std::vector<Scenario> scenarios = load_run_scenarios(run);
+    const Scenario& scenario = choose(scenarios, choice.scenario, "scenario", run.string());
+    const PipelineSpec& pipeline = choose(scenario.pipelines, choice.pipeline, "pipeline", scenario.name);
+    key = {scenario.name, pipeline.name, choice.seed.value_or(scenario.seeds.front())};
+    const fs::path cell = cell_path(run, key);
+    require_cell(run, key);
+    if (!fs::exists(cell / "status.json"))
+      throw ConfigError(run.string() + ": the cell " + to_string(key) + " is missing");
+    if (const auto& outcome = load_status(cell).outcome; outcome.status != CellStatus::ok)
+      throw ConfigError(run.string() + ": the cell " + to_string(key) + " has no lines: it is " +
+                        std::string(to_string(outcome.status)));
+    recording = load_recording(recording_path(run, key.scenario, key.seed));
+    result = load_result(cell);
+    rules = segment_rules(scenario.metrics);
+    rows.emplace(cell);
+    const std::string wanted = choice.frame == "worst" ? std::to_string(rows->worst_frame()) : choice.frame;
+    frame = frame_number(wanted, recording.observed.frames.size());
+  }
+
+  render::NamedResult named(const std::string& name) const {
+    return {name, &result, nullptr, line_verdicts(recording, result, rules)};
+  }
+
+  CellKey key;
+  Recording recording;
+  PipelineResult result;
+  metrics::SegmentRules rules;
+  std::optional<ScanRows> rows;
+  std::size_t frame = 0;
+};
+
+/// The same ranges to the bit; a beam without a return may be NaN.
+bool is_same_scan(const ChosenCell& a, const ChosenCell& b) {
+  if (a.frame >= b.recording.observed.frames.size()) return false;
+  return std::ranges::equal(a.recording.observed.scan(a.frame).ranges, b.recording.observed.scan(a.frame).ranges,
+                            [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+
+ShownScan drawn_scan(const ChosenCell& cell, std::vector<render::NamedResult> results) {
+  render::FigureInput input{
+      .title = cell.key.scenario, .recording = cell.recording, .waypoints = {}, .results = std::move(results)};
+  auto drawn =
+      Registry<render::Figure>::make("scan_overlay", {{"frame", static_cast<std::int64_t>(cell.frame)}})->draw(input);
+  if (drawn.empty()) throw ConfigError("there is nothing to draw of " + to_string(cell.key));
+  return {.name = fmt::format("{}_{}_{}_scan_{}", cell.key.scenario, cell.key.pipeline, cell.key.seed, cell.frame),
+          .text = fmt::format("{}, scan {} (0 to {})", to_string(cell.key), cell.frame,
+                              cell.recording.observed.frames.size() - 1),
+          .frame = cell.frame,
+          .scene = std::move(drawn.front().scene)};
+}
+
 }  // namespace
 
 ShownScan show_scan(const fs::path& run, const ScanChoice& choice) {
-  const std::vector<Scenario> scenarios = load_run_scenarios(run);
-  const Scenario& scenario = choose(scenarios, choice.scenario, "scenario", run.string());
-  const PipelineSpec& pipeline = choose(scenario.pipelines, choice.pipeline, "pipeline", scenario.name);
-  const CellKey key{scenario.name, pipeline.name, choice.seed.value_or(scenario.seeds.front())};
-  const fs::path cell = cell_path(run, key);
-  if (!fs::exists(cell / "status.json"))
-    throw ConfigError(run.string() + ": the cell " + to_string(key) + " is missing");
-  if (const auto& outcome = load_status(cell).outcome; outcome.status != CellStatus::ok)
-    throw ConfigError(run.string() + ": the cell " + to_string(key) + " has no lines: it is " +
-                      std::string(to_string(outcome.status)));
+  const ChosenCell cell(run, choice);
+  ShownScan shown = drawn_scan(cell, {cell.named(cell.key.pipeline)});
+  if (const std::string counts = cell.rows->text(cell.frame); !counts.empty()) shown.text += ": " + counts;
+  return shown;
+}
 
-  const Recording recording = load_recording(recording_path(run, key.scenario, key.seed));
-  const PipelineResult result = load_result(cell);
-  const ScanRows rows(cell);
-  const std::string wanted = choice.frame == "worst" ? std::to_string(rows.worst_frame()) : choice.frame;
-  const std::size_t frame = frame_number(wanted, recording.observed.frames.size());
-
-  render::FigureInput input{.title = scenario.name, .recording = recording, .waypoints = {}, .results = {}};
-  input.results.push_back(
-      {pipeline.name, &result, nullptr, line_verdicts(recording, result, segment_rules(scenario.metrics))});
-  auto drawn =
-      Registry<render::Figure>::make("scan_overlay", {{"frame", static_cast<std::int64_t>(frame)}})->draw(input);
-  if (drawn.empty()) throw ConfigError("there is nothing to draw of " + to_string(key));
-  ShownScan shown{
-      .name = fmt::format("{}_{}_{}_scan_{}", key.scenario, key.pipeline, key.seed, frame),
-      .text = fmt::format("{}, scan {} of 0 to {}", to_string(key), frame, recording.observed.frames.size() - 1),
-      .frame = frame,
-      .scene = std::move(drawn.front().scene)};
-  if (const std::string counts = rows.text(frame); !counts.empty()) shown.text += ": " + counts;
+std::optional<ShownScan> show_scan_in_both(const fs::path& before, const fs::path& now, const ScanChoice& choice) {
+  const ChosenCell cell(now, choice);
+  const ChosenCell earlier(before, {.scenario = cell.key.scenario,
+                                    .pipeline = cell.key.pipeline,
+                                    .seed = cell.key.seed,
+                                    .frame = std::to_string(cell.frame)});
+  if (!is_same_scan(earlier, cell)) return std::nullopt;
+  ShownScan shown =
+      drawn_scan(cell, {earlier.named(cell.key.pipeline + " before"), cell.named(cell.key.pipeline + " now")});
+  shown.text += ". Before: " + earlier.rows->text(cell.frame) + ". Now: " + cell.rows->text(cell.frame) + ".";
   return shown;
 }
 

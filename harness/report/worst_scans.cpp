@@ -77,8 +77,8 @@ class JudgedCell {
     if (scenario != scenarios.end()) verdicts_ = line_verdicts(recording_, result_, segment_rules(scenario->metrics));
   }
 
-  std::string sketch(const WorstScan& scan) const {
-    if (scan.frame >= recording_.observed.frames.size() || scan.frame >= result_.lines.size()) return "";
+  void draw(WorstScan& scan) const {
+    if (scan.frame >= recording_.observed.frames.size() || scan.frame >= result_.lines.size()) return;
     ScanSketch sketch;
     sketch.points = valid_points(recording_.observed.scan(scan.frame)).points;
     const auto& lines = result_.lines[scan.frame].lines;
@@ -86,12 +86,13 @@ class JudgedCell {
     for (std::size_t k = 0; k < lines.size(); ++k)
       sketch.lines.push_back(
           {lines[k].segment, judged ? kind_of(verdicts_[scan.frame].lines[k]) : SketchLine::unjudged});
+    scan.unjudged = static_cast<int>(std::ranges::count(sketch.lines, SketchLine::unjudged, &ScanSketch::Line::kind));
     if (judged)
       for (const Segment& missed : verdicts_[scan.frame].missed) sketch.lines.push_back({missed, SketchLine::missed});
     sketch.label =
         fmt::format("{}, scan {}: F1 {:.2f}, {} right, {} false, {} missed, {} split lines", to_string(scan.key),
                     scan.frame, scan.f1, scan.found, scan.false_lines, scan.missed, scan.split);
-    return scan_sketch(sketch);
+    scan.sketch = scan_sketch(sketch);
   }
 
  private:
@@ -117,7 +118,7 @@ std::vector<PipelineWorst> worst_scans(const fs::path& run, const RunResults& re
     std::map<CellKey, JudgedCell> cells;
     for (auto& scan : scans) {
       const auto cell = cells.try_emplace(scan.key, run, scan.key, scenarios).first;
-      scan.sketch = cell->second.sketch(scan);
+      cell->second.draw(scan);
     }
   }
   return all;

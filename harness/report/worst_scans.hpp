@@ -18,6 +18,7 @@ struct WorstScan {
   int false_lines = 0;
   int missed = 0;
   int split = 0;
+  int unjudged = 0;      ///< lines too short to judge
   std::string sketch{};  ///< inline SVG
 };
 

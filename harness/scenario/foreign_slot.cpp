@@ -203,21 +203,58 @@ ForeignSource read_program_slot(YamlMap& map, const YamlNode& node, const std::s
   return source;
 }
 
+/// An entry of `plugins`: a file, or {file: FILE, built_by: COMMAND}.
+struct NamedLibrary {
+  const YamlNode* node = nullptr;
+  std::string file;
+  std::string built_by;
+};
+
+std::vector<NamedLibrary> read_libraries(const YamlNode& node) {
+  constexpr const char* kForm = "a list of shared libraries, each a file or {file: ..., built_by: a command}";
+  if (node.kind == YamlKind::scalar) return {{&node, read_word(node, "plugins", kForm), ""}};
+  std::vector<NamedLibrary> libraries;
+  for (const YamlNode& item : read_list(node, "plugins", kForm)) {
+    NamedLibrary library{&item, "", ""};
+    if (item.kind == YamlKind::map) {
+      YamlMap map(item, "a library of plugins");
+      library.file = map.text("file", "a shared library");
+      library.built_by = map.text_or("built_by", "");
+      map.done();
+    } else {
+      library.file = read_word(item, "a library", kForm);
+    }
+    libraries.push_back(std::move(library));
+  }
+  if (libraries.empty()) throw PlacedError(node.mark, fmt::format("plugins is empty; allowed: {}", kForm));
+  return libraries;
+}
+
+/// The modules of a library. A fault names the command that builds the library.
+std::vector<ForeignSource> modules_of(const NamedLibrary& library, const fs::path& file) {
+  const std::string advice = library.built_by.empty() ? "" : fmt::format("; `{}` builds it", library.built_by);
+  const auto path = file_of(*library.node, library.file, file);
+  if (!path) throw PlacedError(library.node->mark, "no such file: " + library.file + advice);
+  try {
+    return inspect_library(*path);
+  } catch (const ForeignFault& fault) {
+    throw PlacedError(library.node->mark, fault.what() + advice);
+  }
+}
+
 }  // namespace
 
 std::vector<ForeignSource> read_plugins(YamlMap& map, const ModuleSources& sources) {
   std::vector<ForeignSource> modules;
   const YamlNode* node = map.find("plugins");
   if (node == nullptr || sources.is_recorded) return modules;
-  for (const std::string& word : read_words(*node, "plugins", "a list of shared libraries")) {
-    const auto path = file_of(*node, word, sources.file);
-    if (!path) throw PlacedError(node->mark, "no such file: " + word);
-    for (ForeignSource& source : at_node(*node, [&] { return inspect_library(*path); })) {
+  for (const NamedLibrary& library : read_libraries(*node)) {
+    for (ForeignSource& source : modules_of(library, sources.file)) {
       const auto is_same = [&](const ForeignSource& other) {
         return other.module.kind == source.module.kind && other.module.info.name == source.module.info.name;
       };
       if (std::ranges::any_of(modules, is_same))
-        throw PlacedError(node->mark,
+        throw PlacedError(library.node->mark,
                           fmt::format("two libraries have a {} {}", source.module.kind, source.module.info.name));
       modules.push_back(std::move(source));
     }

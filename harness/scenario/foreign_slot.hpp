@@ -19,8 +19,8 @@ struct ModuleSources {
   std::vector<ForeignSource> libraries = {};  ///< the modules of `plugins`
 };
 
-/// The modules of the libraries of the key `plugins`, a list of files; none if the map has no such key. Throws
-/// PlacedError.
+/// The modules of the libraries of the key `plugins`, a list of files or {file: FILE, built_by: COMMAND}; none if the
+/// map has no such key. Throws PlacedError, which names the command where a library is missing or refused.
 std::vector<ForeignSource> read_plugins(YamlMap& map, const ModuleSources& sources);
 
 /// True for {program: [...]}, {module: NAME, plugin: FILE} and {module: NAME} of a library in `sources`.

@@ -175,6 +175,7 @@ void write_manifest(const fs::path& run, const Manifest& manifest) {
             {"end", manifest.end},
             {"scenarios", manifest.scenarios},
             {"isolation", manifest.isolation},
+            {"foreign_modules", manifest.foreign_modules},
             {"cells", cells}};
   write_json(run, json,
              manifest.state == "running" ? Hashes() : artefacts(run, {manifest.verified, fs::file_time_type::max()}));
@@ -190,7 +191,8 @@ Manifest load_manifest(const fs::path& run) {
                       json.at("scenarios"),
                       {},
                       {},
-                      json.value("isolation", std::vector<std::string>{})};
+                      json.value("isolation", std::vector<std::string>{}),
+                      json.value("foreign_modules", std::vector<std::string>{})};
     for (const auto& scenario : manifest.scenarios) check_name("scenario", scenario);
     for (const auto& cell : json.at("cells")) {
       manifest.cells.push_back({cell.at("scenario"), cell.at("pipeline"), cell.at("seed")});

@@ -27,6 +27,8 @@ struct Manifest {
   std::map<std::string, std::string> verified{};
   /// What keeps cells from each other and from the machine: limits and sandboxes that were active.
   std::vector<std::string> isolation{};
+  /// What programs and libraries that are not part of scanbench say of their modules, with versions.
+  std::vector<std::string> foreign_modules{};
 };
 
 std::string utc_now();

@@ -1,6 +1,10 @@
 // The first and the last files of a run.
 #include "harness/store/run_start.hpp"
 
+#include <set>
+#include <string>
+#include <vector>
+
 #include "harness/files/atomic_file.hpp"
 #include "harness/foreign/confine.hpp"
 
@@ -28,6 +32,21 @@ std::vector<std::string> isolation_of(const std::vector<Scenario>& scenarios) {
   return active;
 }
 
+/// "extract sk_ransac of python3 sk_ransac.py, version 1.2.1: RANSACRegressor of ...", each once, in alphabetical
+/// order.
+std::vector<std::string> foreign_modules_of(const std::vector<Scenario>& scenarios) {
+  std::set<std::string> modules;
+  for (const auto& scenario : scenarios)
+    for (const auto& pipeline : scenario.pipelines)
+      for (const auto& slot : pipeline.slots) {
+        if (!slot.source) continue;
+        const ForeignModule& module = slot.source->module;
+        modules.insert(slot.kind + " " + module.info.name + " of " + slot.source->text() +
+                       (module.version.empty() ? "" : ", version " + module.version) + ": " + module.info.summary);
+      }
+  return {modules.begin(), modules.end()};
+}
+
 }  // namespace
 
 Manifest start_run(const RunTarget& target, const RunStart& start) {
@@ -36,6 +55,7 @@ Manifest start_run(const RunTarget& target, const RunStart& start) {
   Manifest manifest{"running", utc_now(), "", start.argv, {}, start.cells};
   for (const auto& scenario : start.scenarios) manifest.scenarios.push_back(scenario.name);
   if (!start.cells.empty()) manifest.isolation = isolation_of(start.scenarios);
+  manifest.foreign_modules = foreign_modules_of(start.scenarios);
   write_manifest(run, manifest);  // with it the folder is ours
   write_suite_rules(run, start.rules);
   write_run_scenarios(run, start.scenarios, start.effective_yaml);

@@ -25,6 +25,7 @@ class RunTarget {
   RunTarget(std::filesystem::path out, bool resume);
   RunTarget(const RunTarget&) = delete;
   RunTarget& operator=(const RunTarget&) = delete;
+  ~RunTarget() = default;
 
   const std::filesystem::path& path() const { return staged_ ? staged_->path() : out_; }
   bool resumed() const { return resumed_; }

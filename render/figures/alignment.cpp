@@ -22,10 +22,11 @@ class Alignment : public Figure {
     std::string pipeline;
     bool every_pipeline = false;
     static auto fields() {
-      return std::tuple{field("pipeline", &Params::pipeline,
-                              "pipeline whose poses are shown; empty: the first one that changes the poses"),
-                        field("every_pipeline", &Params::every_pipeline,
-                              "a panel for every pipeline that changes the poses, not for the first one alone")};
+      return std::tuple{
+          field("pipeline", &Params::pipeline,
+                "pipeline whose poses are shown; empty: the first one that changes the poses"),
+          field("every_pipeline", &Params::every_pipeline,
+                "a panel for every pipeline that gives poses, not only for the first one that changes them")};
     }
   };
   explicit Alignment(const Params& params) : params_(params) {}
@@ -42,7 +43,7 @@ class Alignment : public Figure {
     for (const NamedResult& r : input.results) {
       if (!aligned.empty() && !params_.every_pipeline) break;
       if (shows(params_.pipeline, r.pipeline) && r.result->world_from_sensor.size() == frames.size() &&
-          differ(r.result->world_from_sensor, odometry))
+          (params_.every_pipeline || differ(r.result->world_from_sensor, odometry)))
         aligned.push_back(&r);
     }
     const auto& reference = input.recording.reference;
@@ -50,7 +51,9 @@ class Alignment : public Figure {
     const std::size_t most = std::max<std::size_t>(aligned.size(), 1) + (input.recording.truth || compared ? 2 : 1);
     add_panel(input, input.recording.truth ? "odometry" : "given poses", odometry, most, scene);
     for (const NamedResult* r : aligned)
-      add_panel(input, "as aligned: " + r->pipeline, r->result->world_from_sensor, most, scene);
+      add_panel(input,
+                (differ(r->result->world_from_sensor, odometry) ? "as aligned: " : "left as given: ") + r->pipeline,
+                r->result->world_from_sensor, most, scene);
     if (input.recording.truth && input.recording.truth->world_from_sensor.size() == frames.size())
       add_panel(input, "true poses", input.recording.truth->world_from_sensor, most, scene);
     if (compared) add_panel(input, "poses to compare with", reference->world_from_sensor, most, scene);
@@ -78,10 +81,9 @@ class Alignment : public Figure {
     const Recording& recording = input.recording;
     Panel panel{.title = fmt::format("{}) {}", static_cast<char>('a' + scene.panels.size()), title),
                 .tell_outside = "point"};
-    std::vector<Vec2> points;
+    std::vector<Vec2> points, places;  // of a few scans, the view also holds the places of the sensor
     if (poses.size() <= kMostColored) {
       // Neighbours along the path overlap most, so their colours differ most.
-      std::vector<Vec2> places;
       places.reserve(poses.size());
       for (const Pose2& pose : poses) places.push_back(pose.translation());
       const std::vector<Color> colors = cluster_colors(places);
@@ -98,7 +100,7 @@ class Alignment : public Figure {
       panel.items.emplace_back(Points{.points = points, .color = kScanColor, .size_pt = 0.7});
     }
     add_path(input, poses, kPathStroke, panel);
-    set_view(points, {}, panel);
+    set_view(points, places, panel);
     if (points.empty()) add_note("no scan points", panel);
     scene.panels.push_back(std::move(panel));
   }

@@ -47,7 +47,7 @@ class MergeDetail : public Figure {
     const auto window = fullest_window(places, side);
 
     Scene scene{.width_in = kDoubleColumnIn, .columns = 2, .share_axes = true, .scale_bar = true};
-    scene.title = fmt::format("{}: {}, scan {} of 0 to {}", input.title, both.named->pipeline, frame,
+    scene.title = fmt::format("{}: {}, scan {} (0 to {})", input.title, both.named->pipeline, frame,
                               input.recording.observed.frames.size() - 1);
     Points scan{.points = points, .color = kBlack, .size_pt = 1.4};
     scene.panels = {panel("a) points of one scan", window, {}, kGivenStroke, points.empty() ? "no points" : ""),

@@ -73,7 +73,7 @@ class ScanOverlay : public Figure {
     const std::size_t frames = input.recording.observed.frames.size();
     scene.title = shown.size() == 2 ? fmt::format("{}: the median scan ({}) and the worst ({})", input.title,
                                                   shown[0].frame, shown[1].frame)
-                                    : fmt::format("{}: scan {} of 0 to {}", input.title, shown[0].frame, frames - 1);
+                                    : fmt::format("{}: scan {} (0 to {})", input.title, shown[0].frame, frames - 1);
     for (const auto& group : groups)
       for (const ShownScan& scan : shown) scene.panels.push_back(panel_of(input, group, scan));
     add_legend_entries(input, groups, scene);
@@ -120,9 +120,10 @@ class ScanOverlay : public Figure {
     panel.items.emplace_back(Points{.points = points, .color = kBlack, .size_pt = 1.1});
     lines.draw({method_color(input.results, group.front()), kLineWidth, Dash::solid}, true, panel);
     panel.items.emplace_back(Arrow{.pose = Pose2(), .length_pt = 12, .stroke = kSensorStroke});
-    // The view contains the points and the found lines, but not walls far away.
+    // All panels of a scan have one view. It contains the points and the found lines, but not walls far away.
     std::vector<Vec2> seen = points;
-    for (const Vec2& end : ends_of(lines.found())) seen.push_back(end);
+    for (const NamedResult& other : input.results)
+      for (const Vec2& end : ends_of(lines_of(other, scan.frame).found())) seen.push_back(end);
     const std::array sensor{Vec2(0.0, 0.0)};
     set_view(seen, sensor, panel);
     return panel;

@@ -38,7 +38,7 @@ class Drive final : public FilmKind {
     const auto scene = [&input, &shown, steps, poses, ground, found, frames](std::size_t k) {
       const std::size_t f = steps[k];
       Panel panel = *ground;
-      panel.title = fmt::format("{}: scan {} of 0 to {}", shown.pipeline, f, frames - 1);
+      panel.title = fmt::format("{}: scan {} (0 to {})", shown.pipeline, f, frames - 1);
       add_path(input, std::span(*poses).first(f + 1), kPath, panel);
       const Pose2& pose = (*poses)[f];
       panel.items.emplace_back(

@@ -94,7 +94,7 @@ class MapGrows final : public FilmKind {
       Panel panel = growth->view;
       Lines lines{growth->lines_after(f, last),
                   is_merged ? kMerged : Stroke{method_color(input.results, 0), 0.9, Dash::solid}};
-      panel.title = fmt::format("{}: scan {} of 0 to {}, {}", shown.pipeline, f, frames - 1,
+      panel.title = fmt::format("{}: scan {} (0 to {}), {}", shown.pipeline, f, frames - 1,
                                 counted(lines.segments.size(), "line") + (is_merged ? " of the map" : ""));
       panel.items.emplace_back(std::move(lines));
       if (!is_merged) panel.items.emplace_back(Lines{growth->found[f], kNewest});

@@ -77,7 +77,7 @@ TEST_F(Film, OfAnAlignmentAndOfMeanShiftComeFromTheTracesThatFiguresKeep) {
 TEST_F(Film, WithoutItsTraceSaysHowToKeepIt) {
   const auto outcome = here({"film", "run", "--of", "mean_shift"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("`scanbench run --trace`"));
+  EXPECT_THAT(outcome.err, HasSubstr("`scanbench run run/effective.yaml --trace --out room_trace`"));
   EXPECT_THAT(here({"film", "run", "--of", "map", "--pipeline", "iefp"}).err, HasSubstr("did you mean 'iepf'?"));
   EXPECT_THAT(here({"film", "run", "--of", "drvie"}).err, HasSubstr("did you mean 'drive'?"));
   EXPECT_THAT(here({"film", "run", "--fps", "0"}).err, HasSubstr("allowed: a whole number 1 .. 60"));

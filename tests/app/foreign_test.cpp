@@ -73,6 +73,19 @@ TEST_F(ForeignPrograms, RunAgainFromTheEffectiveScenarioGiveTheSameBytes) {
   EXPECT_THAT(differences(results(folder_ / "a"), results(folder_ / "b")), testing::IsEmpty());
 }
 
+TEST_F(ForeignPrograms, HaveTheirVersionAndParametersOnThePageOfABenchmark) {
+  scenario("{program: [python3, '" + example("split_lines.py") + "'], params: {min_points: 7}}");
+  const auto suite = folder_.write("suite.yaml",
+                                   "schema: 1\nscenarios: [room.yaml]\nmetrics: [segments, {name: efficiency, params: "
+                                   "{matches: true}}, timing]\nbenchmark: {baseline: good}\nfigures: []\n");
+  const auto outcome = run({"run", suite, "--out", folder_ / "a", "--quiet"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(read(folder_ / "a/manifest.json"),
+              HasSubstr("\"extract split_lines of python3 split_lines.py, version 1.0: iterative end-point fit"));
+  EXPECT_THAT(read(folder_ / "a/report.md"),
+              HasSubstr("version 1.0 | all: max_gap_m 0.5, min_points 7, threshold_m 0.1 |"));
+}
+
 TEST_F(ForeignPrograms, AnEditedProgramIsRunAgainAndAnUnchangedOneIsNot) {
   const auto source = program("m.py", "return []");
   const auto file = scenario("{program: [python3, m.py]}");

@@ -55,7 +55,7 @@ TEST_F(Nightly, FailsWhenAParameterMakesAGateWorseAndPassesWhenItIsRestored) {
   const std::string html = page();
   EXPECT_THAT(html, HasSubstr("baseline 0001"));
   EXPECT_THAT(html, HasSubstr("threshold_m: 0.1 -&gt; 2"));
-  EXPECT_THAT(html, HasSubstr("in the last good night: room/iepf/"));
+  EXPECT_THAT(html, AllOf(HasSubstr("iepf in room, seed "), HasSubstr(". Before: "), HasSubstr(". Now: ")));
   EXPECT_THAT(html, Not(HasSubstr("http")));  // self-contained
   const Outcome restored = night();
   EXPECT_EQ(restored.code, 0) << restored.out;
@@ -69,6 +69,14 @@ TEST_F(Nightly, KeepsTheNameOfItsSuiteInAnyFolder) {
   EXPECT_THAT(accepted.out, HasSubstr("baselines/suite/0001.json")) << accepted.err;
   ASSERT_EQ(night({"--out", "elsewhere"}).code, 0);
   EXPECT_THAT(read(folder_ / "elsewhere/nightly.html"), HasSubstr("baseline 0001"));
+}
+
+TEST_F(Nightly, ShowsTheScanOfTheLastGoodNightThatIsInAnotherFolder) {
+  ASSERT_EQ(night({"--out", "first"}).code, 0);
+  Args second = worsened_;
+  second.insert(second.end(), {"--out", "second"});
+  ASSERT_EQ(night(second).code, 1);
+  EXPECT_THAT(read(folder_ / "second/nightly.html"), AllOf(HasSubstr(". Before: "), HasSubstr(". Now: ")));
 }
 
 TEST_F(Nightly, WithoutAReferenceLeavesNoComparisonOfAnEarlierNight) {

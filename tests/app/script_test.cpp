@@ -63,6 +63,24 @@ TEST_F(Script, IsSilentWhereNothingIsOutOfDate) {
   EXPECT_EQ(outcome.err, "");
 }
 
+TEST_F(Script, BuildsThePeersWithThePackageOfTheProgram) {
+  folder_.write("peers/packages.txt", "# none\n");
+  program("bin/ninja", "echo \"ninja $*\" >>calls; echo 'ninja: no work to do.'");
+  program("bin/cmake", "echo \"cmake $*\" >>calls");
+  const auto outcome = call({"peers"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("the peers are in "));
+  const std::string build = (folder_ / "build").string();
+  EXPECT_THAT(read(folder_ / "calls"),
+              AllOf(HasSubstr("cmake --install " + build + "/release --component modules --prefix " + build +
+                              "/peers/package\ncmake -S " + (folder_ / "peers").string() + " -B " + build + "/peers"),
+                    HasSubstr("-DCMAKE_PREFIX_PATH=" + build + "/peers/package\nninja -C " + build + "/peers")));
+  program("bin/cmake", "echo 'find_package: no such package'; exit 1");
+  const auto failed = call({"peers"});
+  EXPECT_EQ(failed.code, 70);
+  EXPECT_THAT(failed.err, HasSubstr("find_package: no such package"));
+}
+
 TEST_F(Script, ShowsTheEndOfTheLogOfABuildThatFails) {
   program("bin/ninja", R"(
 case " $* " in

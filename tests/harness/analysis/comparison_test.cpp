@@ -60,6 +60,28 @@ TEST(Comparison, TakesDifferencesSeedBySeed) {
                                              "0.55 (by 0.05, 95 % interval "));
 }
 
+TEST(Comparison, CountsWorseGatesByPipelineAndNamesTheWorst) {
+  const auto value = [](double of_iepf, double of_lt) {
+    return
+        [=](const std::string& pipeline, const auto&, std::uint64_t) { return pipeline == "iepf" ? of_iepf : of_lt; };
+  };
+  const GateSpec both{{{"f1", 0.01}, {"recall", 0.01}}};
+  const Comparison c = compare(made_up_run({"iepf", "lt"}, {"f1", "recall"}, 4, value(0.8, 0.8)),
+                               made_up_run({"iepf", "lt"}, {"f1", "recall"}, 4, value(0.7, 0.5)), Gates(both));
+  EXPECT_THAT(verdict_sentence(c), HasSubstr("FAIL: 4 of 4 gates are worse: 2 of lt in room, 2 of iepf in room. The "
+                                             "worst: f1 of lt in room fell from 0.8 to 0.5"));
+}
+
+TEST(Comparison, NamesASettingThatDiffersInSeveralScenariosOnce) {
+  RunResults a = f1_run({0.9}), b = f1_run({0.9});
+  for (const char* scenario : {"attic", "cellar", "hall", "room"}) {
+    a.settings[scenario] = {{"sensor.noise_m", "0.01"}};
+    b.settings[scenario] = {{"sensor.noise_m", "0.05"}};
+  }
+  EXPECT_THAT(compare(a, b, Gates(kF1)).differing,
+              ElementsAre("attic, cellar, hall and 1 more: sensor.noise_m: 0.01 -> 0.05"));
+}
+
 TEST(Comparison, NeedsTheIntervalAndTheTolerance) {
   EXPECT_EQ(finding_of({0.9, 0.8, 0.7}, {0.895, 0.796, 0.694}), Finding::within);  // certain, but below 0.01
   EXPECT_EQ(finding_of({0.9, 0.8, 0.7}, {0.8, 0.9, 0.6}), Finding::uncertain);     // above, but seeds disagree

@@ -179,6 +179,14 @@ TEST(ResultTables, SayWhichAlignersHaveNotConverged) {
     EXPECT_THAT(text, HasSubstr("align: 1 max_iterations"));
 }
 
+TEST(ResultTables, GiveRemarksThatDifferInTheirNumbersOneRow) {
+  const std::vector<CellLine> cells{cell("a", 1, "ok", "align: 1 max_iterations"),
+                                    cell("a", 2, "ok", "align: 7 max_iterations"),
+                                    cell("a", 3, "ok", "align: 7 degenerate")};
+  EXPECT_THAT(markdown_remarks(cells),
+              AllOf(HasSubstr("for example align: 1 max_iterations | 2 |"), HasSubstr("align: 7 degenerate | 1 |")));
+}
+
 TEST(Display, ShowsThreeDigitsOfEveryValueAndNoValueAsZero) {
   const Display metres = display_for("m", 12.0);
   EXPECT_EQ(metres.unit, "m");

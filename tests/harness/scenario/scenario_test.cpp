@@ -213,6 +213,10 @@ TEST(ShippedSuites, LoadWithTheirSeeds) {
       std::cout << "SCANBENCH_DATA is not set: " << file << " is not read\n";
       continue;
     }
+    if (file.filename().string().starts_with("peers")) {
+      std::cout << "libraries are loaded by the program only: Peers.SuitesAreAccepted checks " << file << "\n";
+      continue;
+    }
     EXPECT_FALSE(load_suite(file).scenarios.empty());
   }
   EXPECT_FALSE(is_suite(source_dir() / "scenarios/abcdef.yaml"));

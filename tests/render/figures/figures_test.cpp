@@ -173,7 +173,7 @@ TEST(ScanOverlay, ShowsTheRequestedFrameAndOnePanelPerPipelineInTheMethodsColour
   const Case c = simulated(9);
   const auto scenes = Registry<Figure>::make("scan_overlay", {{"frame", std::int64_t{7}}})->draw(c.input({}));
   ASSERT_EQ(scenes.size(), 1u);
-  EXPECT_NE(scenes[0].scene.title.find("scan 7 of 0 to 8"), std::string::npos);
+  EXPECT_NE(scenes[0].scene.title.find("scan 7 (0 to 8)"), std::string::npos);
   ASSERT_EQ(scenes[0].scene.panels.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     std::size_t found = 0;
