@@ -14,6 +14,7 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/run/make_recording.hpp"
 #include "harness/scenario/effective.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
@@ -85,6 +86,7 @@ constexpr const char* kPolygons = "polygons";
 
 int export_polygons(const Options& options) {
   const fs::path out = options.out.empty() ? fs::path(options.run) / "export" : fs::path(options.out);
+  harness::require_all_cells(options.run);
   for (const auto& key : harness::load_manifest(options.run).cells) {
     const fs::path cell = harness::cell_path(options.run, key);
     if (!fs::exists(cell / "lines.csv")) continue;
@@ -112,6 +114,7 @@ std::vector<fs::path> folders_of(const fs::path& folder) {
 int export_recordings(const Options& options) {
   const fs::path folder = fs::path(options.run) / "recordings";
   if (!fs::exists(options.run)) throw ConfigError(options.run + ": no such folder");
+  harness::require_all_cells(options.run);
   if (!fs::exists(folder)) throw ConfigError(options.run + ": not a run folder: it has no recordings/");
   const std::string ending = options.format == "carmen" ? ".log" : options.format == "csv" ? ".csv" : ".txt";
   const fs::path out = options.out.empty() ? fs::path(options.run) / "export" : fs::path(options.out);

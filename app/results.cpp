@@ -1,9 +1,10 @@
-// The verbs score and report, which work on existing run folders.
+// The verbs score, report and unpack, which work on existing run folders.
 #include "app/results.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "app/inputs.hpp"
 #include "app/progress.hpp"
@@ -13,6 +14,7 @@
 #include "harness/report/run_report.hpp"
 #include "harness/run/runner.hpp"
 #include "harness/run/score.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_lock.hpp"
@@ -25,6 +27,7 @@ namespace fs = std::filesystem;
 
 int score(const fs::path& run, const std::vector<std::string>& files, bool quiet) {
   const auto scenarios = scenarios_for(run, files);
+  harness::require_all_cells(run);
   const harness::RunLock lock(run);
   harness::refuse_linked_folders(run);
   const InterruptGuard guard;
@@ -56,12 +59,43 @@ int report(const fs::path& run, bool scans) {
   return kGood;
 }
 
+/// "room/iepf/7".
+harness::CellKey cell_from(const std::string& text) {
+  const std::size_t second = text.rfind('/'), first = text.find('/');
+  const char* end = text.data() + text.size();
+  harness::CellKey key;
+  const char* seed = second == std::string::npos ? end : text.data() + second + 1;
+  const auto [stop, error] = std::from_chars(seed, end, key.seed);
+  if (first == second || seed == end || error != std::errc() || stop != end)
+    throw ConfigError("'" + text + "' names no cell; allowed: SCENARIO/PIPELINE/SEED");
+  key.scenario = text.substr(0, first);
+  key.pipeline = text.substr(first + 1, second - first - 1);
+  return key;
+}
+
+int unpack(const fs::path& run, const std::vector<std::string>& names, bool quiet) {
+  check_run_exists(run);
+  std::vector<harness::CellKey> cells;
+  for (const auto& name : names) cells.push_back(cell_from(name));
+  if (names.empty()) cells = harness::load_manifest(run).cells;
+  if (!harness::has_archives(run)) throw ConfigError(run.string() + " has no archives: its cells are files");
+  const harness::RunLock lock(run);
+  harness::refuse_linked_folders(run);
+  const InterruptGuard guard;
+  Progress progress(progress_style(quiet));
+  const std::size_t written =
+      harness::unpack_cells(run, cells, [&](double share) { progress.update(share, "unpack"); });
+  progress.finish();
+  if (!quiet) fmt::print("{} cell{} unpacked: {}\n", written, written == 1 ? "" : "s", (run / "cells").string());
+  return kGood;
+}
+
 }  // namespace
 
 void add_results(Context& context) {
   struct Options {
     std::string run;
-    std::vector<std::string> files;
+    std::vector<std::string> files, cells;
     bool quiet = false, scans = false;
   };
   auto options = std::make_shared<Options>();
@@ -82,6 +116,16 @@ void add_results(Context& context) {
                         "first; it holds at most 2000 scans of a recording and 24 MiB");
   report_verb->callback(
       [&context, options] { context.action = [options] { return report(options->run, options->scans); }; });
+
+  auto* unpack_verb = context.app.add_subcommand(
+      "unpack", "Writes the files of cells that a merged run keeps in archives (docs/cluster.md)");
+  unpack_verb->add_option("RUN", options->run, "a run folder")->required();
+  unpack_verb->add_option("CELL", options->cells,
+                          "SCENARIO/PIPELINE/SEED: only these; without any all, and the archives are removed");
+  unpack_verb->add_flag("-q,--quiet", options->quiet, "print only errors");
+  unpack_verb->callback([&context, options] {
+    context.action = [options] { return unpack(options->run, options->cells, options->quiet); };
+  });
 }
 
 }  // namespace scanbench::app

@@ -84,15 +84,17 @@ FinishedRun make_and_report(const MakeRun& make, harness::RunOptions options, co
     progress.update(total > 0 ? 0.95 * static_cast<double>(now.done) / total : 0.0, now.what);
   };
   FinishedRun finished;
-  options.finish = [&](const harness::RunResult& result) {
-    const InterruptGuard guard;
-    try {
-      finished.report = write_report(result, presentation.figures, progress, finished.figure_failure);
-    } catch (const ConfigError& error) {
-      if (result.exit_code() != kIncomplete) throw;  // else the report fails for the same reason
-      say(fmt::format("scanbench: {}\n", error.what()));
-    }
-  };
+  options.finish = {};
+  if (presentation.report)
+    options.finish = [&](const harness::RunResult& result) {
+      const InterruptGuard guard;
+      try {
+        finished.report = write_report(result, presentation.figures, progress, finished.figure_failure);
+      } catch (const ConfigError& error) {
+        if (result.exit_code() != kIncomplete) throw;  // else the report fails for the same reason
+        say(fmt::format("scanbench: {}\n", error.what()));
+      }
+    };
   finished.result = make(options);
   for (const auto& line : faults.repeated()) progress.note(line);
   progress.finish();

@@ -15,6 +15,7 @@ namespace scanbench::app {
 struct Presentation {
   bool quiet = false;   ///< no progress
   bool figures = true;  ///< draw the scenarios' figures
+  bool report = true;   ///< write the report, with the figures if wanted
 };
 
 struct FinishedRun {

@@ -26,6 +26,7 @@
 #include "harness/page/plain_text.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/store/cell_status.hpp"
+#include "harness/store/summary.hpp"
 #include "harness/sweep/shard.hpp"
 #include "harness/sweep/slurm.hpp"
 #include "harness/sweep/sweep_merge.hpp"
@@ -39,7 +40,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::vector<std::string> files, sets, seeds, sbatch;
-  std::string sweep, out;
+  std::string sweep, out, cells;
   int shards = harness::kShardsUnlessGiven, jobs = 1;
   bool quiet = false, json = false, numbers = false, journal = false, no_figures = false, dry_run = false;
 };
@@ -133,19 +134,26 @@ int report_missing(const std::string& sweep, const harness::MissingCells& missin
   return kIncomplete;
 }
 
+/// With more cells the report and the figures take longer than the merge.
+constexpr std::size_t kMostReportedCells = 10000;
+
 int merge(const Options& options, const std::vector<std::string>& argv) {
   const harness::SweepPlan plan = load(options.sweep);
   harness::RunOptions run;
   run.out = run_folder(options, plan);
   run.argv = argv;
   std::optional<harness::MissingCells> missing;
+  const harness::CellForm form = options.cells == "files"      ? harness::CellForm::files
+                                 : options.cells == "archives" ? harness::CellForm::archives
+                                                               : harness::CellForm::automatic;
   const auto make = [&](const harness::RunOptions& ready) {
-    harness::MergeResult merged = harness::merge_sweep(plan, ready);
+    harness::MergeResult merged = harness::merge_sweep(plan, ready, form);
     missing = std::move(merged.missing);
     return std::move(merged.run);
   };
+  const bool has_report = plan.cells.size() <= kMostReportedCells;
   const auto [result, report, figure_failure] =
-      make_and_report(make, run, {.quiet = options.quiet, .figures = !options.no_figures});
+      make_and_report(make, run, {.quiet = options.quiet, .figures = !options.no_figures, .report = has_report});
   if (missing) return report_missing(options.sweep, *missing);
   say(failed_text(result.cells));
   if (!figure_failure.empty()) say("scanbench: " + figure_failure + "\n");
@@ -154,6 +162,10 @@ int merge(const Options& options, const std::vector<std::string>& argv) {
     print_tables(*report);
     fmt::print("{}\n", (result.out / harness::kReportPage).string());
   }
+  if (!options.quiet && !has_report)
+    fmt::print("{}: {}; `scanbench figures {}` draws its figures, `scanbench report {}` writes its report\n",
+               (result.out / harness::kSummaryFile).string(), counted(plan.cells.size(), "cell"), result.out.string(),
+               result.out.string());
   return result.exit_code() == kGood && !figure_failure.empty() ? kCellsFailed : result.exit_code();
 }
 
@@ -264,6 +276,11 @@ void add_merge(Context& context, const std::shared_ptr<Options>& options) {
   verb->add_option("SWEEP", options->sweep, "the folder of a sweep")->required();
   verb->add_option("-o,--out", options->out, "the run folder (default: out/<name of the first file>)");
   verb->add_flag("--no-figures", options->no_figures, "draw no figures");
+  verb->add_option("--cells", options->cells,
+                   fmt::format("how the run keeps the files of its cells: files, or archives, from which `scanbench "
+                               "unpack` takes them (default: files up to {} cells)",
+                               harness::kMostCellsAsFiles))
+      ->check(one_of("form", {"files", "archives"}));
   verb->add_flag("-q,--quiet", options->quiet, "print only errors");
   verb->callback(
       [&context, options] { context.action = [options, argv = context.argv] { return merge(*options, argv); }; });

@@ -285,19 +285,17 @@ MergeResult MeanShift::merge(const MergeInput& input, Trace& trace) const {
   std::vector<int> map_line_of(pieces.size(), -1);
   for (std::size_t d = 0; d < drafts.size(); ++d)
     for (const int k : drafts[d].pieces) map_line_of[as_index(k)] = static_cast<int>(d);
-  LargestShare labels(n);
-  LargestShare clusters1(n);
-  LargestShare clusters2(n);
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    const double length = pieces[k].segment.length();
-    labels.add(pieces[k].line, map_line_of[k], length);
-    clusters1.add(pieces[k].line, first.cluster[k], length);
-    clusters2.add(pieces[k].line, last.cluster[k], length);
+  for (std::size_t k = 0; k < pieces.size(); ++k)
     trace.row(mean_shift::ClusterRow{static_cast<int>(k), first.cluster[k], last.cluster[k], map_line_of[k]});
-  }
-  result.labels = labels.winners();
-  result.cluster1 = clusters1.winners();
-  result.cluster2 = clusters2.winners();
+  const auto label_of_lines = [&](const std::vector<int>& label_of_pieces) {
+    LargestShare shares(n);
+    for (std::size_t k = 0; k < pieces.size(); ++k)
+      shares.add(pieces[k].line, label_of_pieces[k], pieces[k].segment.length());
+    return shares.winners();
+  };
+  result.labels = label_of_lines(map_line_of);
+  result.cluster1 = label_of_lines(first.cluster);
+  result.cluster2 = label_of_lines(last.cluster);
 
   for (const DraftLine& draft : drafts) {
     MapLine line;

@@ -15,6 +15,7 @@
 #include "harness/analysis/gates.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/json_file.hpp"
 #include "harness/store/recording_folder.hpp"
@@ -182,6 +183,11 @@ class Ranker {
 
 std::map<CellKey, double> load_scan_seconds(const std::filesystem::path& run, const std::vector<CellResults>& cells) {
   std::map<CellKey, double> seconds;
+  if (has_archives(run)) {
+    for (const auto& cell : load_archive_tables(run).cells)
+      if (std::isfinite(cell.scan_seconds)) seconds.emplace(cell.key, cell.scan_seconds);
+    return seconds;
+  }
   std::map<std::pair<std::string, std::uint64_t>, double> frames;
   for (const auto& cell : cells) {
     const std::filesystem::path file = cell_path(run, cell.key) / kTimingFile;

@@ -1,15 +1,17 @@
 // Reads the results of a run from its folder.
 #include "harness/analysis/run_results.hpp"
 
-#include <set>
+#include <map>
 #include <utility>
 
 #include "harness/analysis/selection.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_scenarios.hpp"
+#include "harness/store/summary.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
@@ -28,15 +30,48 @@ CellResults load_cell(const fs::path& run, const CellKey& key) {
   return cell;
 }
 
+/// The cells of an archived run, whose files are not there.
+std::vector<CellResults> load_archived_cells(const fs::path& run) {
+  const ArchiveTables tables = load_archive_tables(run);
+  std::map<std::pair<std::string, std::uint64_t>, std::string> recordings;
+  for (const auto& recording : tables.recordings)
+    recordings.emplace(std::pair(recording.scenario, recording.seed), recording.content_hash);
+  std::map<CellKey, std::size_t> places;
+  std::vector<CellResults> cells;
+  for (const auto& archived : tables.cells) {
+    places.emplace(archived.key, cells.size());
+    CellResults& cell = cells.emplace_back();
+    cell.key = archived.key;
+    cell.status = to_string(archived.record.outcome.status);
+    cell.message = archived.record.outcome.message;
+    const auto recording = recordings.find({cell.key.scenario, cell.key.seed});
+    if (recording != recordings.end()) cell.recording = recording->second;
+  }
+  for (auto& row : load_summary(run / kSummaryFile))
+    if (const auto place = places.find({row.scenario, row.pipeline, row.seed}); place != places.end())
+      cells[place->second].rows.push_back({.metric = std::move(row.metric),
+                                           .subject = std::move(row.subject),
+                                           .value = row.value,
+                                           .unit = std::move(row.unit),
+                                           .count = row.count,
+                                           .ci_low = {},
+                                           .ci_high = {}});
+  return cells;
+}
+
 }  // namespace
 
 RunResults load_run_results(const fs::path& run) {
   RunResults results;
   results.name = run.string();
-  results.folder = run;
   const Manifest manifest = load_manifest(run);
   results.provenance = load_provenance(run);
   results.settings = load_run_settings(run);
+  if (has_archives(run)) {
+    results.cells = load_archived_cells(run);
+    return results;
+  }
+  results.folder = run;
   std::map<std::pair<std::string, std::uint64_t>, std::string> recordings;
   for (const auto& key : manifest.cells) {
     CellResults cell = load_cell(run, key);

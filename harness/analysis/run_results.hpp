@@ -37,7 +37,8 @@ struct RunResults {
   std::vector<CellResults> cells;  ///< in the order of summary.csv
 };
 
-/// Throws ConfigError unless the folder is that of a run. Reads nothing outside it.
+/// Throws ConfigError unless the folder is that of a run. Reads nothing outside it. Of an archived run only the values
+/// are known, those of summary.csv without their intervals.
 RunResults load_run_results(const std::filesystem::path& run);
 
 }  // namespace scanbench::harness

@@ -116,6 +116,11 @@ void flush_folder(const fs::path& path) {
   if (!folder || ::fsync(folder.get()) != 0) refuse("write", path, errno);
 }
 
+void flush_file_system(const fs::path& path) {
+  const Descriptor folder(path, O_RDONLY | O_DIRECTORY);
+  if (!folder || ::syncfs(folder.get()) != 0) refuse("write", path, errno);
+}
+
 void make_folders(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
@@ -157,6 +162,13 @@ StagedFolder::StagedFolder(fs::path target, fs::path staging)
   clear();
 }
 
+StagedFolder StagedFolder::in_empty_folder(fs::path target, fs::path staging) {
+  StagedFolder folder;
+  folder.target_ = std::move(target);
+  folder.staging_ = std::move(staging);
+  return folder;
+}
+
 StagedFolder::StagedFolder(StagedFolder&& other) noexcept
     : target_(std::move(other.target_)), staging_(std::exchange(other.staging_, {})) {}
 
@@ -180,8 +192,7 @@ void StagedFolder::commit() {
 
 void StagedFolder::flush() const {
   // One call flushes all files of the folder: it takes 3 ms, while six calls of fsync take 20 ms.
-  const Descriptor folder(staging_, O_RDONLY | O_DIRECTORY);
-  if (!folder || ::syncfs(folder.get()) != 0) refuse("write", staging_, errno);
+  flush_file_system(staging_);
 }
 
 void StagedFolder::place() {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace scanbench::harness {
 
@@ -25,6 +26,9 @@ void remove_file(const std::filesystem::path& path);
 /// Writes the entries of a folder to disk: the names of what was made or renamed in it. Throws SystemError.
 void flush_folder(const std::filesystem::path& path);
 
+/// Writes everything on the file system of a folder to disk. Throws SystemError.
+void flush_file_system(const std::filesystem::path& folder);
+
 /// Makes a folder and its parents. Throws ConfigError.
 void make_folders(const std::filesystem::path& path);
 
@@ -44,6 +48,8 @@ class StagedFolder {
   explicit StagedFolder(std::filesystem::path target);
   /// Under construction at `staging`, a temporary name in the target's folder that nothing else uses.
   StagedFolder(std::filesystem::path target, std::filesystem::path staging);
+  /// The same in a folder that exists and is empty.
+  static StagedFolder in_empty_folder(std::filesystem::path target, std::filesystem::path staging);
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
   StagedFolder(StagedFolder&& other) noexcept;
@@ -54,6 +60,8 @@ class StagedFolder {
   const std::filesystem::path& target() const { return target_; }
   /// Removes all files written so far, for instance by a worker that crashed.
   void clear();
+  /// Gives the unfinished folder to the caller; returns its path.
+  std::filesystem::path release() { return std::exchange(staging_, {}); }
   void commit();
   /// The two parts of commit(), for several folders of one file system, which a single flush() of any of them writes to
   /// disk. The caller flushes the folders that contain the targets. Both throw SystemError.
@@ -61,6 +69,8 @@ class StagedFolder {
   void place();
 
  private:
+  StagedFolder() = default;
+
   std::filesystem::path target_;
   std::filesystem::path staging_;
 };

@@ -62,6 +62,17 @@ std::size_t InputFile::read(std::span<char> block) {
   }
 }
 
+std::size_t InputFile::read_at(std::uint64_t offset, std::span<char> block) const {
+  std::size_t filled = 0;
+  while (filled < block.size()) {
+    const ssize_t n = ::pread(fd_, block.data() + filled, block.size() - filled, static_cast<off_t>(offset + filled));
+    if (n == 0) break;
+    if (n < 0 && errno != EINTR) refuse(path_, "cannot be read", errno);
+    if (n > 0) filled += static_cast<std::size_t>(n);
+  }
+  return filled;
+}
+
 int InputFile::duplicate() const {
   const int copy = ::fcntl(fd_, F_DUPFD_CLOEXEC, 0);
   if (copy < 0) refuse(path_, "cannot be opened", errno);

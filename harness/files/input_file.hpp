@@ -24,6 +24,9 @@ class InputFile {
   void require_at_most(std::uint64_t max_bytes) const;
   /// Reads the next bytes into the block and returns their number: 0 at the end. Throws ConfigError.
   std::size_t read(std::span<char> block);
+  /// Fills the block with the bytes from `offset` on; returns their number, which is smaller only at the end of the
+  /// file. Throws ConfigError.
+  std::size_t read_at(std::uint64_t offset, std::span<char> block) const;
   /// A second descriptor of the open file, which the caller closes. Throws ConfigError.
   int duplicate() const;
 

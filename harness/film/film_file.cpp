@@ -18,6 +18,7 @@
 #include "harness/page/plain_text.hpp"
 #include "harness/report/recording_note.hpp"
 #include "harness/scenario/trace_choice.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/recording_folder.hpp"
@@ -64,6 +65,7 @@ std::unique_ptr<LoadedFilm> load_film(const fs::path& run, const Scenario& scena
                                       const FilmOptions& options) {
   const CellKey key{scenario.name, pipeline, scenario.seeds.front()};
   const fs::path cell = cell_path(run, key);
+  require_cell(run, key);
   if (!fs::exists(cell / kStatusFile) || load_status(cell).outcome.status != CellStatus::ok) return nullptr;
   const auto kind = Registry<render::FilmKind>::make(options.of);
   TraceChoice choice;

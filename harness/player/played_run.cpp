@@ -20,6 +20,7 @@
 #include "harness/report/line_verdicts.hpp"
 #include "harness/report/recording_note.hpp"
 #include "harness/report/scan_error.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/recording_folder.hpp"
@@ -236,6 +237,8 @@ Json played_run(const fs::path& run, const std::vector<Scenario>& scenarios, con
       static_cast<double>(limits.bytes) / static_cast<double>(std::max<std::size_t>(1, scenarios.size()));
   for (const Scenario& scenario : scenarios) {
     const fs::path folder = recording_path(run, scenario.name, scenario.seeds.front());
+    for (const PipelineSpec& pipeline : scenario.pipelines)
+      require_cell(run, {scenario.name, pipeline.name, scenario.seeds.front()});
     if (!fs::exists(folder)) continue;
     const Recording recording = load_recording(folder);
     if (recording.observed.sensor.geometry.beams() == 0 || recording.observed.frames.empty()) continue;

@@ -14,6 +14,7 @@
 #include "harness/files/csv.hpp"
 #include "harness/report/basin_chart.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/summary.hpp"
 #include "render/charts/facets.hpp"
@@ -347,6 +348,10 @@ class Drawer {
 std::vector<FigureFile> draw_benchmark_figures(const fs::path& run, const std::vector<Scenario>& scenarios,
                                                const BenchmarkSpec& spec, const FigureOptions& options,
                                                const std::function<void(double, const std::string&)>& progress) {
+  if (has_archives(run))
+    return {{spec.example, "",
+             "the figures of the benchmark need the files of all cells; `scanbench unpack " + run.string() +
+                 "` writes them"}};
   return Drawer(run, scenarios, spec, options).draw(progress);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 #include <tuple>
+#include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -130,13 +131,14 @@ ComparableRows comparable_rows(const Scenario& scenario, const std::vector<Summa
   std::vector<CellLine> cells = cells_of(scenario, rows, all_cells);
   std::erase_if(cells, [](const CellLine& cell) { return !cell.selected; });
   std::vector<std::uint64_t> seeds;
+  std::unordered_set<std::uint64_t> seen;
   for (const auto& cell : cells) {
     Coverage& coverage = results.coverage[cell.pipeline];
     ++coverage.all;
     coverage.ok += cell.status == kOk;
     if (cell.status != kOk) ++coverage.others[cell.status];
     if (cell.status == kOk && unconverged(cell)) ++coverage.unconverged;
-    if (std::ranges::count(seeds, cell.seed) == 0) seeds.push_back(cell.seed);
+    if (seen.insert(cell.seed).second) seeds.push_back(cell.seed);
   }
   for (const auto& pipeline : scenario.pipelines)
     if (results.coverage.contains(pipeline.name)) results.pipelines.push_back(pipeline.name);
@@ -153,9 +155,10 @@ ComparableRows comparable_rows(const Scenario& scenario, const std::vector<Summa
                       results.seeds.size(), seeds.size()));
     }
   }
+  const std::unordered_set<std::uint64_t> shown(results.seeds.begin(), results.seeds.end());
   for (const auto& row : rows)
     if (row.scenario == scenario.name && std::ranges::count(results.pipelines, row.pipeline) > 0 &&
-        std::ranges::count(results.seeds, row.seed) > 0)
+        shown.contains(row.seed))
       results.rows.push_back(row);
   average_over_common_lines(results);
   return results;

@@ -22,6 +22,7 @@
 #include "harness/report/recording_note.hpp"
 #include "harness/scenario/figure_pipelines.hpp"
 #include "harness/scenario/simulation_input.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/json_file.hpp"
@@ -51,6 +52,7 @@ std::vector<LoadedResult> finished_results(const fs::path& run, const Scenario& 
   std::vector<LoadedResult> results;
   for (const auto& pipeline : scenario.pipelines) {
     const fs::path cell = cell_path(run, {scenario.name, pipeline.name, seed});
+    require_cell(run, {scenario.name, pipeline.name, seed});
     if (!fs::exists(cell / kStatusFile) || load_status(cell).outcome.status != CellStatus::ok) continue;
     results.push_back({pipeline.name, load_result(cell), load_trace(cell, traces_drawn(scenario, pipeline.name))});
   }
@@ -168,7 +170,9 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& all, c
   const Scenario scenario = with_pipelines(all, options.pipelines);
   const std::uint64_t seed = scenario.seeds.front();
   const fs::path folder = recording_path(run, scenario.name, seed);
-  if (scenario.figures.empty() || !fs::exists(folder)) return {};
+  if (scenario.figures.empty()) return {};
+  if (!scenario.pipelines.empty()) require_cell(run, {scenario.name, scenario.pipelines.front().name, seed});
+  if (!fs::exists(folder)) return {};
   const Recording recording = load_recording(folder);
   check_frame(options.frame, recording, scenario);
   const std::vector<LoadedResult> results = finished_results(run, scenario, seed);

@@ -23,6 +23,7 @@
 #include "harness/report/report.hpp"
 #include "harness/report/scenario_tables.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/json_file.hpp"
 #include "harness/store/manifest.hpp"
@@ -70,6 +71,7 @@ std::string source_of(const fs::path& run, const Scenario& scenario, const Recor
 std::map<std::string, MethodRanking> rankings_by_scenario(const ReportInput& input) {
   std::map<std::string, std::vector<CellResults>> cells;
   std::map<CellKey, std::size_t> places;
+  std::vector<CellResults> all;  // without rows
   for (const auto& line : input.cells) {
     auto& of_scenario = cells[line.scenario];
     const CellKey key{line.scenario, line.pipeline, line.seed};
@@ -78,7 +80,9 @@ std::map<std::string, MethodRanking> rankings_by_scenario(const ReportInput& inp
     cell.key = key;
     cell.requested = line.selected;
     cell.status = line.status;
+    all.push_back(cell);
   }
+  const std::map<CellKey, double> seconds = load_scan_seconds(input.run, all);
   for (const auto& row : input.rows) {
     const auto place = places.find({row.scenario, row.pipeline, row.seed});
     if (place == places.end()) continue;
@@ -91,8 +95,7 @@ std::map<std::string, MethodRanking> rankings_by_scenario(const ReportInput& inp
   }
   std::map<std::string, MethodRanking> rankings;
   for (const auto& [scenario, of_scenario] : cells)
-    for (auto& ranking : rank_methods(of_scenario, load_scan_seconds(input.run, of_scenario)))
-      rankings.emplace(scenario, std::move(ranking));
+    for (auto& ranking : rank_methods(of_scenario, seconds)) rankings.emplace(scenario, std::move(ranking));
   return rankings;
 }
 
@@ -106,16 +109,15 @@ ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& 
   input.scenarios = scenarios;
   if (fs::exists(run / kSummaryFile)) input.rows = load_summary(run / kSummaryFile);
   const Manifest manifest = load_manifest(run);
+  const CellRecords records(run);
   for (const auto& key : manifest.cells) {
-    const fs::path cell = cell_path(run, key);
     CellLine line{key.scenario, key.pipeline, key.seed, "missing", "not run", 0.0, 0.0, was_selected(manifest, key)};
-    if (fs::exists(cell / kStatusFile)) {
-      const CellRecord record = load_status(cell);
+    if (const auto record = records.of(key)) {
       line.selected = true;
-      line.status = to_string(record.outcome.status);
-      line.message = plain_line(record.outcome.message);
-      line.wall_seconds = record.outcome.wall_seconds;
-      line.peak_memory_bytes = record.outcome.peak_memory_bytes;
+      line.status = to_string(record->outcome.status);
+      line.message = plain_line(record->outcome.message);
+      line.wall_seconds = record->outcome.wall_seconds;
+      line.peak_memory_bytes = record->outcome.peak_memory_bytes;
     }
     input.cells.push_back(std::move(line));
   }

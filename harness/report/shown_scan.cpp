@@ -16,6 +16,7 @@
 #include "harness/files/text_file.hpp"
 #include "harness/report/line_verdicts.hpp"
 #include "harness/report/scan_error.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/recording_folder.hpp"
@@ -107,6 +108,7 @@ struct ChosenCell {
     const PipelineSpec& pipeline = choose(scenario.pipelines, choice.pipeline, "pipeline", scenario.name);
     key = {scenario.name, pipeline.name, choice.seed.value_or(scenario.seeds.front())};
     const fs::path cell = cell_path(run, key);
+    require_cell(run, key);
     if (!fs::exists(cell / "status.json"))
       throw ConfigError(run.string() + ": the cell " + to_string(key) + " is missing");
     if (const auto& outcome = load_status(cell).outcome; outcome.status != CellStatus::ok)

@@ -79,9 +79,8 @@ void Execution::add(std::size_t cell) {
   ++group_of(cell).unfinished;
 }
 
-void Execution::work(const fs::path& folder, bool flush, double grace_seconds) {
+void Execution::work(const fs::path& folder, double grace_seconds) {
   folder_ = folder;
-  flush_ = flush;
   ::malloc_trim(0);  // each fork copies the page tables of what this process holds, freed or not
   try {
     run_all(grace_seconds);
@@ -95,15 +94,17 @@ void Execution::work(const fs::path& folder, bool flush, double grace_seconds) {
   interrupted_ = pool_->interrupted();
   terminated_ = pool_->terminated();
   for (auto& group : groups_) group.active.reset();
+  std::error_code ignored;
+  for (const auto& empty : std::exchange(empty_folders_, {})) fs::remove(empty, ignored);
 }
 
 void Execution::run_all(double grace_seconds) {
   while (!pool_->interrupted()) {
     while (pool_->running() < static_cast<std::size_t>(jobs_) && start_next()) {
     }
+    put_in_place_if_due();  // while the children run
     if (pool_->running() == 0) break;
     for (auto& finished : pool_->wait()) take(std::move(finished));
-    put_in_place_if_due();
     events_.pause();
   }
   const auto end = Clock::now() + std::chrono::duration<double>(grace_seconds);
@@ -142,7 +143,7 @@ void Execution::start_recording(std::size_t index) {
   ActiveGroup& group = *groups_[index].active;
   const PlannedGroup& planned = plan_.groups[index];
   try {
-    group.staged.emplace(recording_path(folder_, planned.scenario->name, planned.seed));
+    group.staged.emplace(stage_folder(recording_path(folder_, planned.scenario->name, planned.seed)));
   } catch (const ConfigError& e) {
     skip_cells(index, {.message = e.what(), .system_error = true});
     return;
@@ -179,7 +180,7 @@ void Execution::finish_recording(std::size_t index, WorkerOutcome outcome) {
       } catch (const ConfigError&) {
         // The old recording is damaged.
       }
-      if (group.staged) new_recordings_.push_back(index);
+      if (group.staged && !events_.copy_files) new_recordings_.push_back(index);
       ready_.insert(ready_.end(), cells.begin(), cells.end());
       return;
     } catch (const SystemError& e) {
@@ -266,10 +267,51 @@ void Execution::finish_cell(std::size_t cell, StagedFolder staged, WorkerOutcome
 /// Makes the unfinished folder of a cell. If that fails, marks the cell as missing.
 std::optional<StagedFolder> Execution::stage(std::size_t cell) {
   try {
-    return std::optional<StagedFolder>(std::in_place, cell_path(folder_, plan_.key(plan_.cells[cell])));
+    return stage_folder(cell_path(folder_, plan_.key(plan_.cells[cell])));
   } catch (const ConfigError& e) {
     mark_missing(cell, e.what());
     return std::nullopt;
+  }
+}
+
+StagedFolder Execution::stage_folder(const fs::path& target) {
+  if (!events_.copy_files) return StagedFolder(target);
+  if (!empty_folders_.empty()) {
+    fs::path folder = std::move(empty_folders_.back());
+    empty_folders_.pop_back();
+    return StagedFolder::in_empty_folder(target, std::move(folder));
+  }
+  const std::string name = "files" + std::to_string(folders_made_++);
+  return {folder_ / name, folder_ / ("." + name)};
+}
+
+/// Removes the files of a folder and keeps it. A folder that cannot be emptied is removed, as far as possible.
+void Execution::use_again(StagedFolder staged) {
+  std::error_code error;
+  for (fs::directory_iterator entry(staged.path(), error), end; !error && entry != end; entry.increment(error))
+    if (!fs::remove_all(entry->path(), error) || error) return;
+  if (!error) empty_folders_.push_back(staged.release());
+}
+
+/// Lets the owner copy the files of finished cells.
+void Execution::hand_over() {
+  for (Finished& cell : std::exchange(finished_, {})) {
+    Group& group = group_of(cell.cell);
+    std::string fault;
+    try {
+      const std::optional<StagedFolder>& recording = group.active->staged;
+      events_.copy_files(cell.cell, cell.result, cell.staged.path(), recording ? recording->path() : fs::path());
+    } catch (const ConfigError& e) {
+      fault = e.what();
+    }
+    use_again(std::move(cell.staged));
+    if (fault.empty())
+      end_cell(cell.cell, std::move(cell.result), cell.summary);
+    else
+      mark_missing(cell.cell, fault);
+    if (group.unfinished > 0) continue;
+    if (group.active->staged) use_again(std::move(*group.active->staged));
+    group.active.reset();
   }
 }
 
@@ -278,11 +320,15 @@ void Execution::put_in_place_if_due() {
   if (finished_.empty() || begun < due_) return;
   put_in_place();
   const auto ended = Clock::now();
-  due_ = ended + kFlushShare * (ended - begun);
+  if (!events_.copy_files) due_ = ended + kFlushShare * (ended - begun);
 }
 
 /// Puts finished recordings in place, then finished cells. Cells whose folder cannot be put in place are missing.
 void Execution::put_in_place() {
+  if (events_.copy_files) {
+    hand_over();
+    return;
+  }
   std::string fault;
   std::set<fs::path> parents;
   const auto place = [&](StagedFolder& staged) -> std::string {
@@ -296,9 +342,9 @@ void Execution::put_in_place() {
     return "";
   };
   try {
-    if (flush_ && !finished_.empty())
+    if (!finished_.empty())
       finished_.front().staged.flush();
-    else if (flush_ && !new_recordings_.empty())
+    else if (!new_recordings_.empty())
       groups_[new_recordings_.front()].active->staged->flush();
   } catch (const ConfigError& e) {
     fault = e.what();
@@ -314,8 +360,7 @@ void Execution::put_in_place() {
   for (auto& cell : ended)
     faults.push_back(active_group_of(cell.cell).fault.empty() ? place(cell.staged) : active_group_of(cell.cell).fault);
   try {
-    if (flush_)
-      for (const auto& parent : parents) flush_folder(parent);
+    for (const auto& parent : parents) flush_folder(parent);
   } catch (const ConfigError& e) {
     faults.assign(faults.size(), e.what());
   }

@@ -30,10 +30,16 @@ struct ExecutionEvents {
   std::function<void(std::size_t cell, CellResult result, const std::string& summary)> ended;
   std::function<void(const std::string& what)> began_recording;
   std::function<void()> pause;  ///< between two cells
+  /// If given, no folder is put in place: before `ended`, the owner copies the files of the cell, and those of its
+  /// recording, whose path is empty if it could not be made. If this throws ConfigError, the cell is missing.
+  std::function<void(std::size_t cell, const CellResult& result, const std::filesystem::path& files,
+                     const std::filesystem::path& recording)>
+      copy_files = {};
 };
 
 /// Recordings and cells get the folders that recording_path() and cell_path() name. Finished folders are put in place
-/// together, as often as a twentieth of the time allows, because each flush of the disk takes milliseconds.
+/// together, as often as a twentieth of the time allows, because each flush of the disk takes milliseconds. With
+/// `copy_files`, a few folders are used again and again, because removing one takes milliseconds on some file systems.
 class Execution {
  public:
   /// Blocks interrupts (worker.hpp), until release(). `plan` must remain.
@@ -43,9 +49,9 @@ class Execution {
   void add(std::size_t cell);
 
   /// Runs the cells at once, in a folder of this name. After an interrupt, it kills the children that still run after
-  /// `grace_seconds` and returns; the finished cells are in place. With `flush` false, nothing is flushed to disk,
-  /// because the caller flushes the whole folder. Throws what the events throw; then no child runs any more.
-  void work(const std::filesystem::path& folder, bool flush = true, double grace_seconds = 0.0);
+  /// `grace_seconds` and returns; the finished cells are in place. Throws what the events throw; then no child runs any
+  /// more.
+  void work(const std::filesystem::path& folder, double grace_seconds = 0.0);
 
   bool interrupted() const { return interrupted_; }
   bool terminated() const { return terminated_; }  ///< by SIGTERM
@@ -59,7 +65,7 @@ class Execution {
 
  private:
   struct ActiveGroup {
-    std::optional<StagedFolder> staged;  ///< until the recording is in place
+    std::optional<StagedFolder> staged;  ///< until the recording is in place, or its last cell was copied
     std::optional<Recording> recording;  ///< while cells need it, unless a child reads it
     std::string fault;                   ///< why the recording could not be put in place
   };
@@ -86,6 +92,9 @@ class Execution {
   void start_cell(std::size_t cell);
   void finish_cell(std::size_t cell, StagedFolder staged, WorkerOutcome outcome);
   std::optional<StagedFolder> stage(std::size_t cell);
+  StagedFolder stage_folder(const std::filesystem::path& target);
+  void use_again(StagedFolder staged);
+  void hand_over();
   void put_in_place();
   void put_in_place_if_due();
   void end_cell(std::size_t cell, CellResult result, const std::string& summary);
@@ -101,7 +110,8 @@ class Execution {
   ExecutionEvents events_;
   std::optional<WorkerPool> pool_{std::in_place};
   std::filesystem::path folder_;
-  bool flush_ = true;
+  std::vector<std::filesystem::path> empty_folders_;  ///< to be used again
+  std::size_t folders_made_ = 0;
   std::vector<Group> groups_;
   std::map<std::size_t, StagedFolder> running_;  ///< the unfinished folders of cells
   std::deque<std::size_t> ready_;

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "harness/files/system_error.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_file.hpp"
 #include "harness/store/run_folder.hpp"
@@ -97,7 +98,10 @@ RunTarget::RunTarget(fs::path out, bool resume) : out_(fs::absolute(out).lexical
   lock_.emplace(out_);
   remove_stale_siblings(out_);
   resumed_ = resume && !empty;
-  if (resumed_) refuse_linked_folders(out_);
+  if (resumed_) {
+    refuse_linked_folders(out_);
+    require_all_cells(out_);  // the files of its cells are what is resumed
+  }
   if (resumed_ || empty) remove_temporaries(out_);
   if (empty || resume) return;
   staged_.emplace(out_);

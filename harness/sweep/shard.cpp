@@ -32,7 +32,9 @@ class Shard {
                    {.ended = [this](std::size_t cell, CellResult result,
                                     const std::string& summary) { end_cell(cell, std::move(result), summary); },
                     .began_recording = [this](const std::string& what) { tell_progress(what, nullptr); },
-                    .pause = [] {}}) {
+                    .pause = [] {},
+                    .copy_files = [this](std::size_t cell, const CellResult& result, const fs::path& files,
+                                         const fs::path& recording) { archive(cell, result, files, recording); }}) {
     require_same_cells();
   }
 
@@ -50,12 +52,13 @@ class Shard {
     sweep_.cells = {};  // each child would get a copy
     for (const std::size_t cell : waiting_) execution_.add(cell);
     results_.resize(waiting_.size());
+    committed_.resize(waiting_.size());
     summary_.emplace(waiting_.size());
     tell_progress("", nullptr);
-    StagedFolder staged = stage_shard(sweep_.folder, options_.shard);
-    execution_.work(staged.path(), false, kGraceSeconds);
+    writer_.emplace(sweep_.folder, options_.shard);
+    execution_.work(writer_->path(), kGraceSeconds);
     result_.interrupted = execution_.interrupted() && !execution_.terminated();
-    commit(staged);
+    commit();
     execution_.release();
     return std::move(result_);
   }
@@ -88,47 +91,56 @@ class Shard {
     return addresses;
   }
 
+  std::size_t place_of(std::size_t cell) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(waiting_, cell) - waiting_.begin());
+  }
+
   void end_cell(std::size_t cell, CellResult result, const std::string& summary) {
-    const auto at = static_cast<std::size_t>(std::ranges::lower_bound(waiting_, cell) - waiting_.begin());
+    const std::size_t at = place_of(cell);
     summary_->set(at, summary);
     results_[at] = std::move(result);
     ++done_;
     tell_progress(to_string(results_[at].key), &results_[at]);
   }
 
+  void archive(std::size_t cell, const CellResult& result, const fs::path& files, const fs::path& recording) {
+    const PlannedCell& planned = plan_.cells[cell];
+    const CellKey key = plan_.key(planned);
+    if (!recording.empty() && !writer_->has_recording(key.scenario, key.seed))
+      writer_->add_recording(key.scenario, key.seed, read_folder(recording));
+    committed_[place_of(cell)] =
+        writer_->add_cell(key, plan_.address(planned), result.record.outcome, read_folder(files));
+  }
+
   void tell_progress(const std::string& what, const CellResult* cell) const {
     if (options_.progress) options_.progress({done_, waiting_.size(), what, cell});
   }
 
-  void commit(StagedFolder& staged) {
+  void commit() {
     std::vector<CommittedCell> cells;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
-      const PlannedCell& planned = plan_.cells[waiting_[i]];
       CellResult& result = results_[i];
-      result.key = plan_.key(planned);
-      if (result.done)
-        cells.push_back({.key = result.key,
-                         .address = plan_.address(planned),
-                         .status = result.record.outcome.status,
-                         .whole = "",
-                         .result = "",
-                         .summary_begin = 0,
-                         .summary_size = summary_->size(i)});
-      else if (result.record.outcome.message.empty())
+      result.key = plan_.key(plan_.cells[waiting_[i]]);
+      if (result.done) {
+        committed_[i].summary_size = summary_->size(i);
+        cells.push_back(std::move(committed_[i]));
+      } else if (result.record.outcome.message.empty()) {
         result.record.outcome.message = "stopped before it was run";
+      }
       result_.cells.push_back(std::move(result));
     }
-    if (cells.empty()) return;
-    commit_shard(staged, options_.shard, cells, summary_->text());
-    result_.committed = staged.target();
+    if (!cells.empty()) result_.committed = writer_->commit(cells, summary_->text());
+    writer_.reset();
   }
 
   SweepPlan sweep_;
   const ShardOptions& options_;
   RunPlan plan_;
   Execution execution_;
-  std::vector<std::size_t> waiting_;  ///< indices of the cells to run, ascending
-  std::vector<CellResult> results_;   ///< of those
+  std::vector<std::size_t> waiting_;      ///< indices of the cells to run, ascending
+  std::vector<CellResult> results_;       ///< of those
+  std::vector<CommittedCell> committed_;  ///< of those; empty ones until they have ended
+  std::optional<CommitWriter> writer_;
   std::optional<SummaryRows> summary_;
   ShardResult result_;
   std::size_t done_ = 0;

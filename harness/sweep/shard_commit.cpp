@@ -3,18 +3,18 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstring>
-#include <set>
 
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/special_values.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/files/folder.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/json_file.hpp"
+#include "harness/store/recording_folder.hpp"
 #include "harness/store/summary.hpp"
 
 namespace scanbench::harness {
@@ -25,12 +25,15 @@ using Json = nlohmann::ordered_json;
 using Columns = std::vector<std::string>;
 
 constexpr const char* kCommitFile = "commit.json";
+constexpr const char* kArchiveFile = "cells.tar";
 constexpr const char* kCellsFile = "cells.csv";
 constexpr const char* kRecordingsFile = "recordings.csv";
 constexpr const char* kTables[] = {kCellsFile, kRecordingsFile, "summary.csv"};
 
-const Columns kCellColumns{"scenario", "pipeline", "seed", "address", "status", "whole", "result", "summary_bytes"};
-const Columns kRecordingColumns{"scenario", "seed", "whole"};
+const Columns kCellColumns{
+    "scenario",          "pipeline",     "seed",   "address",       "status", "message", "wall_seconds", "cpu_seconds",
+    "peak_memory_bytes", "scan_seconds", "result", "summary_bytes", "offset", "bytes",   "sha256"};
+const Columns kRecordingColumns{"scenario", "seed", "content_hash", "offset", "bytes", "sha256"};
 
 /// metrics.csv without the times.
 std::string without_times(const std::string& csv) {
@@ -44,13 +47,30 @@ std::string without_times(const std::string& csv) {
   return rest;
 }
 
+std::string status_in(const std::string& bytes) {
+  const Json json = Json::parse(bytes, nullptr, false);
+  return json.is_object() ? json.value("status", "") : "";
+}
+
 /// The part of a file that must be equal each time it is made.
-std::string repeatable_hash(const fs::path& file, const std::string& hash) {
-  const std::string name = file.filename().string();
+std::string repeatable_part(const std::string& name, const std::string& bytes) {
   if (name == kTimingFile.name()) return "";
-  if (name == kMetricsFile.name()) return sha256_hex(without_times(read_file(file)));
-  if (name == kStatusFile.name()) return std::string(to_string(load_status(file.parent_path()).outcome.status));
-  return hash;
+  if (name == kMetricsFile.name()) return without_times(bytes);
+  if (name == kStatusFile.name()) return status_in(bytes);
+  return bytes;
+}
+
+std::string repeatable_hash(const FolderFiles& files) {
+  Sha256 hash;
+  for (const auto& [name, bytes] : files) hash.part(name, repeatable_part(name, bytes));
+  return hash.hex();
+}
+
+double sum_of_seconds(const std::string& timing) {
+  const CsvTable table(timing, kTimingFile.name(), {"seconds"});
+  double sum = 0.0;
+  for (std::size_t row = 0; row < table.rows(); ++row) sum += table.number(row, "seconds");
+  return sum;
 }
 
 std::string host_name() {
@@ -70,8 +90,59 @@ int number_in_name(const std::string& name) {
   return error == std::errc() && stop != name.data() + name.size() && *stop == '.' ? number : 0;
 }
 
+StagedFolder stage_shard(const fs::path& sweep, int number) {
+  const std::string unique = unique_name();
+  const fs::path target = shards_path(sweep) / (std::to_string(number) + "." + unique);
+  return {target, shards_path(sweep) / ("." + std::to_string(number) + ".tmp-" + unique)};
+}
+
+void part_fields(CsvWriter& csv, const ArchivePart& part) {
+  csv.seed(part.offset).seed(part.bytes).text(part.sha256);
+}
+
+ArchivePart part_from(const CsvTable& csv, std::size_t row) {
+  return {static_cast<std::uint64_t>(csv.integer(row, "offset")), static_cast<std::uint64_t>(csv.integer(row, "bytes")),
+          csv.text(row, "sha256")};
+}
+
+std::string cells_csv(const std::vector<CommittedCell>& cells) {
+  CsvWriter csv(kCellColumns);
+  for (const auto& cell : cells) {
+    csv.text(cell.key.scenario).text(cell.key.pipeline).seed(cell.key.seed).text(cell.address);
+    csv.text(to_string(cell.outcome.status)).text(cell.outcome.message).number(cell.outcome.wall_seconds);
+    csv.number(cell.outcome.cpu_seconds).number(cell.outcome.peak_memory_bytes).number(cell.scan_seconds);
+    csv.text(cell.result).integer(static_cast<long long>(cell.summary_size));
+    part_fields(csv, cell.part);
+    csv.end_row();
+  }
+  return csv.str();
+}
+
+std::vector<CommittedCell> cells_from(const CsvTable& csv) {
+  std::vector<CommittedCell> cells;
+  cells.reserve(csv.rows());
+  std::size_t begin = summary_header().size();
+  for (std::size_t r = 0; r < csv.rows(); ++r) {
+    CommittedCell& cell = cells.emplace_back();
+    cell.key = {csv.text(r, "scenario"), csv.text(r, "pipeline"), static_cast<std::uint64_t>(csv.integer(r, "seed"))};
+    cell.address = csv.text(r, "address");
+    cell.outcome = {.status = cell_status_from(csv.text(r, "status")),
+                    .message = csv.text(r, "message"),
+                    .wall_seconds = csv.number(r, "wall_seconds"),
+                    .cpu_seconds = csv.number(r, "cpu_seconds"),
+                    .peak_memory_bytes = csv.number(r, "peak_memory_bytes")};
+    cell.scan_seconds = csv.number(r, "scan_seconds");
+    cell.result = csv.text(r, "result");
+    cell.part = part_from(csv, r);
+    cell.summary_begin = begin;
+    cell.summary_size = static_cast<std::size_t>(csv.integer(r, "summary_bytes"));
+    begin += cell.summary_size;
+  }
+  return cells;
+}
+
 std::string checked_table(const fs::path& folder, const char* name, const Json& commit) {
-  const std::string bytes = read_file(folder / name);
+  std::string bytes = read_file(folder / name);
   if (sha256_hex(bytes) != commit.at(name).get<std::string>())
     throw ConfigError((folder / name).string() + " is cut off or has been changed since it was committed");
   return bytes;
@@ -80,87 +151,75 @@ std::string checked_table(const fs::path& folder, const char* name, const Json& 
 ShardCommit load_commit(const fs::path& folder) {
   const fs::path file = folder / kCommitFile;
   return with_json_of(file, [&](const Json& json) {
-    if (json.at("schema") != 1 || json.at("program") != "scanbench")
-      throw ConfigError(file.string() + ": not the commit of a shard");
-    ShardCommit commit{folder, json.at("shard").get<int>(), {}, {}};
+    if (json.at("schema") != 2 || json.at("program") != "scanbench")
+      throw ConfigError(file.string() + ": not the commit of a shard, or one of another version");
+    ShardCommit commit{folder, json.at("shard").get<int>(), json.at(kArchiveFile).get<std::string>(), {}, {}};
     checked_table(folder, "summary.csv", json);
-    const CsvTable cells(checked_table(folder, kCellsFile, json), folder / kCellsFile, kCellColumns);
-    std::size_t begin = summary_header().size();
-    for (std::size_t r = 0; r < cells.rows(); ++r) {
-      const auto bytes = static_cast<std::size_t>(cells.integer(r, "summary_bytes"));
-      commit.cells.push_back(
-          {{cells.text(r, "scenario"), cells.text(r, "pipeline"), static_cast<std::uint64_t>(cells.integer(r, "seed"))},
-           cells.text(r, "address"),
-           cell_status_from(cells.text(r, "status")),
-           cells.text(r, "whole"),
-           cells.text(r, "result"),
-           begin,
-           bytes});
-      begin += bytes;
-    }
+    commit.cells = cells_from(CsvTable(checked_table(folder, kCellsFile, json), folder / kCellsFile, kCellColumns));
     const CsvTable recordings(checked_table(folder, kRecordingsFile, json), folder / kRecordingsFile,
                               kRecordingColumns);
     for (std::size_t r = 0; r < recordings.rows(); ++r)
       commit.recordings.push_back({recordings.text(r, "scenario"),
                                    static_cast<std::uint64_t>(recordings.integer(r, "seed")),
-                                   recordings.text(r, "whole")});
+                                   recordings.text(r, "content_hash"), part_from(recordings, r)});
     return commit;
   });
 }
 
 }  // namespace
 
-FolderHashes hash_folder(const fs::path& folder) {
-  FolderHashes hashes;
-  Sha256 whole, result;
-  for (const auto& name : names_in(folder)) {
-    const std::string hash = sha256_of_file(folder / name);
-    whole.part(name, hash);
-    result.part(name, repeatable_hash(folder / name, hash));
-    hashes.files.emplace(name, hash);
-  }
-  hashes.whole = whole.hex();
-  hashes.result = result.hex();
-  return hashes;
+const CommittedRecording* ShardCommit::recording(const std::string& scenario, std::uint64_t seed) const {
+  const auto found = std::ranges::lower_bound(recordings, std::pair(scenario, seed), {}, [](const auto& recording) {
+    return std::pair(recording.scenario, recording.seed);
+  });
+  const bool is_listed = found != recordings.end() && found->scenario == scenario && found->seed == seed;
+  return is_listed ? &*found : nullptr;
 }
 
-StagedFolder stage_shard(const fs::path& sweep, int number) {
-  const std::string unique = unique_name();
-  const fs::path target = shards_path(sweep) / (std::to_string(number) + "." + unique);
-  return {target, shards_path(sweep) / ("." + std::to_string(number) + ".tmp-" + unique)};
+CommitWriter::CommitWriter(const fs::path& sweep, int number)
+    : number_(number), staged_(stage_shard(sweep, number)), archive_(staged_.path() / kArchiveFile) {}
+
+void CommitWriter::add_recording(const std::string& scenario, std::uint64_t seed, const FolderFiles& files) {
+  if (has_recording(scenario, seed)) return;
+  Recording recording;
+  const auto scan = files.find(kScanFile.name());
+  const Json json = Json::parse(scan == files.end() ? "{}" : scan->second, nullptr, false);
+  if (json.is_object()) recording.scans = json.value("frames", 0.0);
+  recording.committed = {scenario, seed, json.is_object() ? json.value("content_hash", "") : "",
+                         archive_.add(recording_path("", scenario, seed), files)};
+  recordings_.emplace(std::pair(scenario, seed), std::move(recording));
 }
 
-void commit_shard(StagedFolder& staged, int number, const std::vector<CommittedCell>& cells,
-                  const std::string& summary) {
-  const fs::path& folder = staged.path();
-  CsvWriter cell_table(kCellColumns), recording_table(kRecordingColumns);
-  std::set<std::pair<std::string, std::uint64_t>> recordings;
-  for (const auto& cell : cells) {
-    const FolderHashes hashes = hash_folder(cell_path(folder, cell.key));
-    cell_table.text(cell.key.scenario)
-        .text(cell.key.pipeline)
-        .seed(cell.key.seed)
-        .text(cell.address)
-        .text(to_string(cell.status))
-        .text(hashes.whole)
-        .text(hashes.result)
-        .integer(static_cast<long long>(cell.summary_size))
-        .end_row();
-    recordings.emplace(cell.key.scenario, cell.key.seed);
+CommittedCell CommitWriter::add_cell(const CellKey& key, const std::string& address, const WorkerOutcome& outcome,
+                                     const FolderFiles& files) {
+  CommittedCell cell{
+      .key = key, .address = address, .outcome = outcome, .scan_seconds = kNaN, .result = "", .part = {}};
+  const auto recording = recordings_.find({key.scenario, key.seed});
+  const auto timing = files.find(kTimingFile.name());
+  if (recording != recordings_.end() && recording->second.scans > 0 && timing != files.end())
+    cell.scan_seconds = sum_of_seconds(timing->second) / recording->second.scans;
+  cell.result = repeatable_hash(files);
+  cell.part = archive_.add(cell_path("", key), files);
+  return cell;
+}
+
+fs::path CommitWriter::commit(const std::vector<CommittedCell>& cells, const std::string& summary) {
+  CsvWriter recordings(kRecordingColumns);
+  for (const auto& [key, recording] : recordings_) {
+    recordings.text(key.first).seed(key.second).text(recording.committed.content_hash);
+    part_fields(recordings, recording.committed.part);
+    recordings.end_row();
   }
-  for (const auto& [scenario, seed] : recordings) {
-    const fs::path recording = recording_path(folder, scenario, seed);
-    if (!fs::exists(recording)) continue;  // it could not be made, and its cells are skipped
-    recording_table.text(scenario).seed(seed).text(hash_folder(recording).whole).end_row();
-  }
-  const std::string tables[] = {cell_table.str(), recording_table.str(), summary};
-  Json json{{"schema", 1}, {"program", "scanbench"}, {"shard", number}, {"host", host_name()}};
+  const std::string tables[] = {cells_csv(cells), recordings.str(), summary};
+  Json json{{"schema", 2}, {"program", "scanbench"}, {"shard", number_}, {"host", host_name()}};
+  json[kArchiveFile] = archive_.finish();
   for (std::size_t i = 0; i < std::size(tables); ++i) {
-    write_staged_file(folder / kTables[i], tables[i]);
+    write_staged_file(path() / kTables[i], tables[i]);
     json[kTables[i]] = sha256_hex(tables[i]);
   }
-  write_staged_file(folder / kCommitFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  staged.commit();
+  write_staged_file(path() / kCommitFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  staged_.commit();
+  return staged_.target();
 }
 
 ShardCommits load_commits(const fs::path& sweep, int number) {
@@ -178,36 +237,43 @@ ShardCommits load_commits(const fs::path& sweep, int number) {
   return commits;
 }
 
-bool CommitCheck::is_whole(const ShardCommit& commit, const CommittedCell& cell, FolderHashes* hashes) {
+CommitCheck::Archive& CommitCheck::archive_of(const ShardCommit& commit) {
+  const auto [known, is_new] = archives_.try_emplace(commit.folder.string());
+  if (!is_new) return known->second;
   try {
-    FolderHashes found = hash_folder(cell_path(commit.folder, cell.key));
-    if (found.whole != cell.whole) return false;
-    const bool has_recording = cell.status != CellStatus::skipped;
-    if (has_recording && recording(commit, cell.key.scenario, cell.key.seed) == nullptr) return false;
-    if (hashes != nullptr) *hashes = std::move(found);
-    return true;
+    known->second.is_whole = sha256_of_file(commit.archive()) == commit.archive_sha256;
+    known->second.reader.emplace(commit.archive());
   } catch (const ConfigError&) {
-    return false;
+    known->second.is_whole = false;
   }
+  return known->second;
 }
 
-const FolderHashes* CommitCheck::recording(const ShardCommit& commit, const std::string& scenario, std::uint64_t seed) {
-  const fs::path folder = recording_path(commit.folder, scenario, seed);
-  const auto [known, is_new] = recordings_.try_emplace(folder.string());
-  if (is_new) {
-    const auto committed = std::ranges::lower_bound(  // the table is sorted
-        commit.recordings, std::pair(scenario, seed), {},
-        [](const CommittedRecording& r) { return std::pair(r.scenario, r.seed); });
-    const bool is_listed =
-        committed != commit.recordings.end() && committed->scenario == scenario && committed->seed == seed;
-    try {
-      if (is_listed) known->second = hash_folder(folder);
-      if (!is_listed || known->second.whole != committed->whole) known->second = {};
-    } catch (const ConfigError&) {
-      known->second = {};
-    }
+bool CommitCheck::is_whole(const ShardCommit& commit, const CommittedCell& cell) {
+  const Archive& archive = archive_of(commit);
+  const bool has_recording = cell.outcome.status != CellStatus::skipped;
+  if (has_recording && !is_whole(commit, cell.key.scenario, cell.key.seed)) return false;
+  return archive.is_whole || (archive.reader && archive.reader->is_whole(cell.part));
+}
+
+bool CommitCheck::is_whole(const ShardCommit& commit, const std::string& scenario, std::uint64_t seed) {
+  Archive& archive = archive_of(commit);
+  const CommittedRecording* recording = commit.recording(scenario, seed);
+  if (recording == nullptr || !archive.reader) return false;
+  if (archive.is_whole) return true;
+  const auto [known, is_new] = archive.recordings.try_emplace(recording->part.offset);
+  if (is_new) known->second = archive.reader->is_whole(recording->part);
+  return known->second;
+}
+
+std::string differing_file(const FolderFiles& a, const FolderFiles& b) {
+  for (const auto& [name, bytes] : a) {
+    const auto other = b.find(name);
+    if (other == b.end() || repeatable_part(name, bytes) != repeatable_part(name, other->second)) return name;
   }
-  return known->second.whole.empty() ? nullptr : &known->second;
+  for (const auto& [name, bytes] : b)
+    if (!a.contains(name)) return name;
+  return kStatusFile.name();
 }
 
 }  // namespace scanbench::harness

@@ -1,4 +1,5 @@
-// What a shard leaves in the folder of its sweep: shards/<number>.<unique name>/, which appears whole or not at all.
+// What a shard leaves in the folder of its sweep: shards/<number>.<unique name>/, which appears whole or not at all. It
+// has one archive with the files of all cells and recordings, and tables of what is in it.
 //
 // Nothing else is written there, so shards may run at the same time on several machines with a shared file system, and
 // the same shard twice. No lock, database or process number is needed.
@@ -8,32 +9,27 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "harness/files/atomic_file.hpp"
+#include "harness/store/cell_archive.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/run_folder.hpp"
 
 namespace scanbench::harness {
 
-/// Hashes of the files in the folder of a cell or recording.
-struct FolderHashes {
-  std::map<std::string, std::string> files;  ///< SHA-256 by name
-  std::string whole;                         ///< of all names and hashes
-  /// Of what must be equal each time the cell is made: not timing.csv, the times and memory in status.json, and the
-  /// metrics t_*.
-  std::string result;
-};
-FolderHashes hash_folder(const std::filesystem::path& folder);
-
 struct CommittedCell {
   CellKey key;
   std::string address;
-  CellStatus status = CellStatus::failed;
-  std::string whole;   ///< FolderHashes::whole
-  std::string result;  ///< FolderHashes::result
+  WorkerOutcome outcome;
+  double scan_seconds = 0.0;  ///< of all stages, per scan; NaN: not known
+  /// SHA-256 of what must be equal each time the cell is made: not timing.csv, the times and memory in status.json, and
+  /// the metrics t_*.
+  std::string result;
+  ArchivePart part;
   std::size_t summary_begin = 0;
   std::size_t summary_size = 0;  ///< of its lines in the summary.csv of the shard
 };
@@ -41,23 +37,53 @@ struct CommittedCell {
 struct CommittedRecording {
   std::string scenario;
   std::uint64_t seed = 0;
-  std::string whole;
+  std::string content_hash;
+  ArchivePart part;
 };
 
 struct ShardCommit {
   std::filesystem::path folder;
   int shard = 0;
+  std::string archive_sha256;
   std::vector<CommittedCell> cells;
-  std::vector<CommittedRecording> recordings;
+  std::vector<CommittedRecording> recordings;  ///< by scenario and seed, ascending
+
+  std::filesystem::path archive() const { return folder / "cells.tar"; }
+  /// Null if it has none.
+  const CommittedRecording* recording(const std::string& scenario, std::uint64_t seed) const;
 };
 
-/// Where shard `number` is made before it is committed. The name is unique.
-StagedFolder stage_shard(const std::filesystem::path& sweep, int number);
+/// A commit under construction. Without commit() nothing remains.
+class CommitWriter {
+ public:
+  /// Throws SystemError, as do the other functions; after that a cell or recording is not in the archive.
+  CommitWriter(const std::filesystem::path& sweep, int number);
 
-/// Writes the tables of the commit into the staged folder, which has the cells, their recordings and the summary, and
-/// puts it in place. `cells` need key, address, status and summary. Throws SystemError.
-void commit_shard(StagedFolder& staged, int number, const std::vector<CommittedCell>& cells,
-                  const std::string& summary);
+  /// Its unfinished folder, for files that are removed before commit().
+  const std::filesystem::path& path() const { return staged_.path(); }
+  /// Adds a recording, before its cells, unless it is there already.
+  void add_recording(const std::string& scenario, std::uint64_t seed, const FolderFiles& files);
+  /// Adds a cell. The result has no summary yet.
+  CommittedCell add_cell(const CellKey& key, const std::string& address, const WorkerOutcome& outcome,
+                         const FolderFiles& files);
+  bool has_recording(const std::string& scenario, std::uint64_t seed) const {
+    return recordings_.contains({scenario, seed});
+  }
+  /// Writes the tables and puts the folder in place; returns it. `cells` have the sizes of their lines in `summary`, in
+  /// its order.
+  std::filesystem::path commit(const std::vector<CommittedCell>& cells, const std::string& summary);
+
+ private:
+  struct Recording {
+    CommittedRecording committed;
+    double scans = 0.0;
+  };
+
+  int number_;
+  StagedFolder staged_;
+  ArchiveWriter archive_;
+  std::map<std::pair<std::string, std::uint64_t>, Recording> recordings_;
+};
 
 /// The committed shards of a sweep, in the order of their names.
 struct ShardCommits {
@@ -65,19 +91,30 @@ struct ShardCommits {
   std::vector<std::pair<std::string, std::string>> damaged;  ///< name of the folder, and what is wrong
   std::size_t unfinished = 0;                                ///< folders of shards that run or were killed
 };
-/// Reads their tables, not the files of cells. Of all shards, or of shard `number`.
+/// Reads their tables, not the archives. Of all shards, or of shard `number`.
 ShardCommits load_commits(const std::filesystem::path& sweep, int number = 0);
 
-/// Reads the files of commits and compares their hashes.
+/// Reads archives and compares their hashes.
 class CommitCheck {
  public:
-  /// True if the files of the cell and of its recording are as they were committed; `hashes` gets those of the cell.
-  bool is_whole(const ShardCommit& commit, const CommittedCell& cell, FolderHashes* hashes = nullptr);
-  /// The hashes of a recording; null if it is damaged.
-  const FolderHashes* recording(const ShardCommit& commit, const std::string& scenario, std::uint64_t seed);
+  /// True if every byte of the archive is as it was committed.
+  bool is_whole(const ShardCommit& commit) { return archive_of(commit).is_whole; }
+  /// True if the files of the cell and of its recording are as they were committed.
+  bool is_whole(const ShardCommit& commit, const CommittedCell& cell);
+  bool is_whole(const ShardCommit& commit, const std::string& scenario, std::uint64_t seed);
 
  private:
-  std::map<std::string, FolderHashes> recordings_;  ///< by path; those that have been read
+  struct Archive {
+    bool is_whole = false;                ///< every byte is as it was written
+    std::optional<ArchiveReader> reader;  ///< none: the file does not exist
+    std::map<std::uint64_t, bool> recordings;
+  };
+  Archive& archive_of(const ShardCommit& commit);
+
+  std::map<std::string, Archive> archives_;  ///< by folder; those that have been read
 };
+
+/// The first file whose repeatable part differs between two folders, like "lines.csv".
+std::string differing_file(const FolderFiles& a, const FolderFiles& b);
 
 }  // namespace scanbench::harness

@@ -1,18 +1,22 @@
-// Chooses an undamaged commit of every cell, and links its files into a run folder.
+// Chooses an undamaged commit of every cell, and makes a run folder of their files or of their archives.
 #include "harness/sweep/sweep_merge.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <map>
 #include <set>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <unordered_map>
 
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/hash.hpp"
+#include "harness/files/input_file.hpp"
 #include "harness/files/system_error.hpp"
 #include "harness/run/runner.hpp"
+#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_scenarios.hpp"
@@ -37,23 +41,23 @@ bool depends_on_machine(CellStatus status) {
          status == CellStatus::skipped;
 }
 
-/// Files of both folders whose repeatable part differs, like "lines.csv"; timing.csv may differ.
-std::string differing_file(const FolderHashes& a, const FolderHashes& b) {
-  for (const auto& [name, hash] : a.files) {
-    const auto other = b.files.find(name);
-    if (other == b.files.end()) return name;
-    const bool may_differ = name == kTimingFile.name() || name == kStatusFile.name();
-    if (other->second != hash && !may_differ) return name;
-  }
-  for (const auto& [name, hash] : b.files)
-    if (!a.files.contains(name)) return name;
-  return kStatusFile.name();
+FolderFiles files_of(const ShardCommit& commit, const ArchivePart& part, const fs::path& folder) {
+  return ArchiveReader(commit.archive()).files(part, folder);
+}
+
+/// The name of a commit's archive in a run folder.
+std::string archive_name(const ShardCommit& commit) {
+  return commit.folder.filename().string() + ".tar";
 }
 
 class Merge {
  public:
-  Merge(const SweepPlan& plan, const RunOptions& options)
-      : plan_(plan), options_(options), commits_(load_commits(plan.folder)) {
+  Merge(const SweepPlan& plan, const RunOptions& options, CellForm form)
+      : plan_(plan),
+        options_(options),
+        as_archives_(form == CellForm::archives ||
+                     (form == CellForm::automatic && plan.cells.size() > kMostCellsAsFiles)),
+        commits_(load_commits(plan.folder)) {
     for (std::uint32_t c = 0; c < commits_.whole.size(); ++c)
       for (std::uint32_t i = 0; i < commits_.whole[c].cells.size(); ++i)
         sources_[commits_.whole[c].cells[i].address].push_back({c, i});
@@ -63,19 +67,22 @@ class Merge {
     MergeResult result;
     result.missing = choose();
     if (result.missing) return result;
+    choose_recordings();
     RunTarget target(options_.out, false);
-    Manifest manifest = begin(target.path());
-    link_all(target.path());
-    write_file_atomically(target.path() / kSummaryFile, summary());
+    try {
+      write(target);
+    } catch (...) {
+      target.abandon();
+      throw;
+    }
     result.run = outcome();
-    manifest.verified = std::move(hashes_);
-    const std::string state = "complete";
-    end_run(target, manifest, state, options_.finish != nullptr);
-    finish_run(result.run, state, options_);
+    finish_run(result.run, "complete", options_);
     return result;
   }
 
  private:
+  using RecordingKey = std::pair<std::string, std::uint64_t>;
+
   const ShardCommit& commit_of(const Source& source) const { return commits_.whole[source.commit]; }
   const CommittedCell& cell_of(const Source& source) const { return commit_of(source).cells[source.cell]; }
 
@@ -96,51 +103,79 @@ class Merge {
         shards.insert(cell.shard);
     }
     missing.shards.assign(shards.begin(), shards.end());
-    for (const auto& folder : damaged)
-      missing.notes.push_back(folder + " has a file that is cut off or has been changed since it was committed");
+    for (const auto& archive : damaged)
+      missing.notes.push_back(archive + " is cut off or has been changed since it was committed");
     return missing.count > 0 ? std::optional(missing) : std::nullopt;
   }
 
   std::optional<Source> choose(const SweepCell& cell, std::set<std::string>& damaged) {
     std::optional<Source> best;
-    FolderHashes best_hashes;
     const auto found = sources_.find(cell.address);
     if (found == sources_.end()) return std::nullopt;
     for (const Source& source : found->second) {
-      FolderHashes hashes;
-      if (!check_.is_whole(commit_of(source), cell_of(source), &hashes)) {
-        damaged.insert(cell_path(commit_of(source).folder, cell.key).string());
+      if (!check_.is_whole(commit_of(source), cell_of(source))) {
+        damaged.insert(commit_of(source).archive().string());
         continue;
       }
-      if (best && !is_better(source, *best)) {
-        require_equal(cell, *best, best_hashes, source, hashes);
-        continue;
-      }
-      best = source;
-      best_hashes = std::move(hashes);
+      if (best && !is_better(source, *best))
+        require_equal(cell, *best, source);
+      else
+        best = source;
     }
-    if (!best) return std::nullopt;
-    const fs::path folder = cell_path("", cell.key);
-    for (const auto& [name, hash] : best_hashes.files) hashes_.emplace((folder / name).generic_string(), hash);
     return best;
   }
 
   /// An attempt that was ok counts before one that the machine stopped.
   bool is_better(const Source& a, const Source& b) const {
-    return cell_of(a).status != cell_of(b).status && depends_on_machine(cell_of(b).status) &&
-           !depends_on_machine(cell_of(a).status);
+    const CellStatus first = cell_of(a).outcome.status, second = cell_of(b).outcome.status;
+    return first != second && depends_on_machine(second) && !depends_on_machine(first);
   }
 
-  void require_equal(const SweepCell& cell, const Source& a, const FolderHashes& a_hashes, const Source& b,
-                     const FolderHashes& b_hashes) const {
+  void require_equal(const SweepCell& cell, const Source& a, const Source& b) const {
     const CommittedCell& first = cell_of(a);
     const CommittedCell& second = cell_of(b);
-    const bool by_machine = first.status != second.status && depends_on_machine(second.status);
+    const bool by_machine = first.outcome.status != second.outcome.status && depends_on_machine(second.outcome.status);
     if (by_machine || first.result == second.result) return;
-    throw ConfigError("the cell " + to_string(cell.key) + " was committed twice with different " +
-                      differing_file(a_hashes, b_hashes) + ": " + commit_of(a).folder.string() + " and " +
-                      commit_of(b).folder.string() +
-                      "; equal cells must have equal bytes on every machine (times aside). Remove the wrong folder");
+    const fs::path folder = cell_path("", cell.key);
+    throw ConfigError(
+        "the cell " + to_string(cell.key) + " was committed twice with different " +
+        differing_file(files_of(commit_of(a), first.part, folder), files_of(commit_of(b), second.part, folder)) + ": " +
+        commit_of(a).folder.string() + " and " + commit_of(b).folder.string() +
+        "; equal cells must have equal bytes on every machine (times aside). Remove the wrong folder");
+  }
+
+  /// Takes each recording from the commit of its first cell; those of the others must be equal.
+  void choose_recordings() {
+    for (std::size_t i = 0; i < plan_.cells.size(); ++i) {
+      const CellKey& key = plan_.cells[i].key;
+      if (cell_of(chosen_[i]).outcome.status == CellStatus::skipped) continue;
+      const auto [known, is_new] = recordings_.try_emplace({key.scenario, key.seed}, chosen_[i].commit);
+      if (!is_new && known->second != chosen_[i].commit)
+        require_equal_recordings(commits_.whole[known->second], commit_of(chosen_[i]), known->first);
+    }
+  }
+
+  static void require_equal_recordings(const ShardCommit& a, const ShardCommit& b, const RecordingKey& key) {
+    const ArchivePart& first = a.recording(key.first, key.second)->part;
+    const ArchivePart& second = b.recording(key.first, key.second)->part;
+    if (first.sha256 == second.sha256) return;
+    const fs::path folder = recording_path("", key.first, key.second);
+    throw ConfigError("the recording " + key.first + "/" + std::to_string(key.second) +
+                      " was committed twice with different " +
+                      differing_file(files_of(a, first, folder), files_of(b, second, folder)) + ": " +
+                      a.folder.string() + " and " + b.folder.string() + "; remove the wrong folder");
+  }
+
+  void write(RunTarget& target) {
+    Manifest manifest = begin(target.path());
+    if (as_archives_)
+      write_archives(target.path());
+    else
+      write_files(target.path(), [](const CellKey&) { return true; });
+    write_file_atomically(target.path() / kSummaryFile, summary());
+    flush_file_system(target.path());
+    manifest.verified = std::move(hashes_);
+    end_run(target, manifest, "complete", options_.finish != nullptr);
   }
 
   Manifest begin(const fs::path& run) const {
@@ -156,58 +191,84 @@ class Merge {
     return manifest;
   }
 
-  void link_all(const fs::path& run) {
-    std::map<std::pair<std::string, std::uint64_t>, std::uint32_t> recordings;  // the commit of each
+  /// Writes the folders of the wanted cells and of their recordings.
+  template <class Wanted>
+  void write_files(const fs::path& run, Wanted wanted) {
+    std::map<std::uint32_t, ArchiveReader> readers;  // by commit
+    const auto write_folder = [&](std::uint32_t commit, const ArchivePart& part, const fs::path& folder) {
+      const auto reader = readers.try_emplace(commit, commits_.whole[commit].archive()).first;
+      make_folders(run / folder);
+      for (const auto& [name, bytes] : reader->second.files(part, folder)) {
+        write_staged_file(run / folder / name, bytes);
+        hashes_.emplace((folder / name).generic_string(), sha256_hex(bytes));
+      }
+    };
+    std::set<RecordingKey> written;
     for (std::size_t i = 0; i < plan_.cells.size(); ++i) {
-      const ShardCommit& commit = commit_of(chosen_[i]);
       const CellKey& key = plan_.cells[i].key;
-      link_folder(cell_path(commit.folder, key), cell_path(run, key));
-      if (cell_of(chosen_[i]).status == CellStatus::skipped) continue;
-      const auto [known, is_new] = recordings.try_emplace({key.scenario, key.seed}, chosen_[i].commit);
-      if (is_new)
-        link_recording(run, commit, key);
-      else if (known->second != chosen_[i].commit)
-        require_equal_recordings(commits_.whole[known->second], commit, key);
+      if (!wanted(key)) continue;
+      write_folder(chosen_[i].commit, cell_of(chosen_[i]).part, cell_path("", key));
+      const auto recording = recordings_.find({key.scenario, key.seed});
+      if (recording == recordings_.end() || !written.insert(recording->first).second) continue;
+      const ShardCommit& commit = commits_.whole[recording->second];
+      write_folder(recording->second, commit.recording(key.scenario, key.seed)->part,
+                   recording_path("", key.scenario, key.seed));
     }
   }
 
-  void link_recording(const fs::path& run, const ShardCommit& commit, const CellKey& key) {
-    link_folder(recording_path(commit.folder, key.scenario, key.seed), recording_path(run, key.scenario, key.seed));
-    const fs::path folder = recording_path("", key.scenario, key.seed);
-    for (const auto& [name, hash] : check_.recording(commit, key.scenario, key.seed)->files)
-      hashes_.emplace((folder / name).generic_string(), hash);
-  }
-
-  void require_equal_recordings(const ShardCommit& a, const ShardCommit& b, const CellKey& key) {
-    const FolderHashes* first = check_.recording(a, key.scenario, key.seed);
-    const FolderHashes* second = check_.recording(b, key.scenario, key.seed);
-    if (first->whole == second->whole) return;
-    throw ConfigError("the recording " + key.scenario + "/" + std::to_string(key.seed) +
-                      " was committed twice with different " + differing_file(*first, *second) + ": " +
-                      a.folder.string() + " and " + b.folder.string() + "; remove the wrong folder");
-  }
-
-  void link_folder(const fs::path& from, const fs::path& to) {
-    make_folders(to);
-    for (const auto& entry : fs::directory_iterator(from)) {
-      const fs::path target = to / entry.path().filename();
-      std::error_code error;
-      if (links_) fs::create_hard_link(entry.path(), target, error);
-      if (links_ && !error) continue;
-      links_ = false;
-      fs::copy_file(entry.path(), target, error);
-      if (error)
-        throw SystemError("cannot copy " + entry.path().string() + " to " + target.string() + ": " + error.message());
+  void write_archives(const fs::path& run) {
+    make_folders(run / "archives");
+    ArchiveTables tables;
+    std::set<std::uint32_t> commits;
+    tables.cells.reserve(plan_.cells.size());
+    for (std::size_t i = 0; i < plan_.cells.size(); ++i) {
+      const CommittedCell& cell = cell_of(chosen_[i]);
+      commits.insert(chosen_[i].commit);
+      tables.cells.push_back({plan_.cells[i].key,
+                              {cell.outcome, cell.address},
+                              cell.scan_seconds,
+                              archive_name(commit_of(chosen_[i])),
+                              cell.part});
     }
+    for (const auto& [key, c] : recordings_) {
+      const CommittedRecording& recording = *commits_.whole[c].recording(key.first, key.second);
+      tables.recordings.push_back(
+          {key.first, key.second, recording.content_hash, archive_name(commits_.whole[c]), recording.part});
+    }
+    for (const std::uint32_t c : commits) link_archive(run, commits_.whole[c]);
+    write_archive_tables(run, tables);
+    write_first_seeds(run);
+  }
+
+  void link_archive(const fs::path& run, const ShardCommit& commit) {
+    const fs::path target = archive_path(run, archive_name(commit));
+    std::error_code error;
+    fs::create_hard_link(commit.archive(), target, error);
+    if (error) fs::copy_file(commit.archive(), target, error);
+    if (error)
+      throw SystemError("cannot copy " + commit.archive().string() + " to " + target.string() + ": " + error.message());
+    if (check_.is_whole(commit)) hashes_.emplace("archives/" + archive_name(commit), commit.archive_sha256);
+  }
+
+  void write_first_seeds(const fs::path& run) {
+    std::map<std::string, std::uint64_t> first;
+    std::size_t cells = 0;
+    for (const SweepCell& cell : plan_.cells)
+      cells += first.try_emplace(cell.key.scenario, cell.key.seed).first->second == cell.key.seed ? 1 : 0;
+    if (cells > kMostCellsAsFiles) return;
+    write_files(run, [&](const CellKey& key) { return first.at(key.scenario) == key.seed; });
   }
 
   std::string summary() const {
     std::string text = summary_header();
-    std::map<std::uint32_t, std::string> tables;  // by commit
+    std::map<std::uint32_t, InputFile> tables;  // by commit
     for (const Source& source : chosen_) {
-      const auto [table, is_new] = tables.try_emplace(source.commit);
-      if (is_new) table->second = read_file(commit_of(source).folder / kSummaryFile);
-      text.append(table->second, cell_of(source).summary_begin, cell_of(source).summary_size);
+      const auto table = tables.try_emplace(source.commit, commit_of(source).folder / kSummaryFile).first;
+      const CommittedCell& cell = cell_of(source);
+      const std::size_t begin = text.size();
+      text.resize(begin + cell.summary_size);
+      if (table->second.read_at(cell.summary_begin, std::span(text).subspan(begin)) < cell.summary_size)
+        throw ConfigError(table->second.path().string() + " was cut off while it was read");
     }
     return text;
   }
@@ -215,33 +276,32 @@ class Merge {
   RunResult outcome() const {
     RunResult result;
     result.out = options_.out.lexically_normal();
+    result.cells.reserve(plan_.cells.size());
     for (std::size_t i = 0; i < plan_.cells.size(); ++i) {
       CellResult& cell = result.cells.emplace_back();
       cell.key = plan_.cells[i].key;
       cell.done = true;
-      cell.record.address = plan_.cells[i].address;
-      cell.record.outcome.status = cell_of(chosen_[i]).status;
-      if (cell.record.outcome.status != CellStatus::ok)
-        cell.record = load_status(cell_path(commit_of(chosen_[i]).folder, cell.key));
+      cell.record = {cell_of(chosen_[i]).outcome, plan_.cells[i].address};
     }
     return result;
   }
 
   const SweepPlan& plan_;
   const RunOptions& options_;
+  bool as_archives_;
   ShardCommits commits_;
   std::unordered_map<std::string_view, std::vector<Source>> sources_;  ///< by address
   std::vector<Source> chosen_;                                         ///< by cell of the plan
+  std::map<RecordingKey, std::uint32_t> recordings_;                   ///< the commit of each
   std::map<std::string, std::string> hashes_;                          ///< of the run's files, by path
   CommitCheck check_;
-  bool links_ = true;  ///< the file system has them
 };
 
 }  // namespace
 
-MergeResult merge_sweep(const SweepPlan& plan, const RunOptions& options) {
+MergeResult merge_sweep(const SweepPlan& plan, const RunOptions& options, CellForm form) {
   require_this_program(plan);
-  return Merge(plan, options).merge();
+  return Merge(plan, options, form).merge();
 }
 
 }  // namespace scanbench::harness

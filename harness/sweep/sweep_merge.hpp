@@ -20,15 +20,26 @@ struct MissingCells {
   std::vector<std::string> notes;  ///< damaged commits
 };
 
+/// How a run folder holds the files of its cells.
+enum class CellForm {
+  automatic,  ///< as files up to kMostCellsAsFiles cells, else as archives
+  files,      ///< cells/ and recordings/, as any run
+  archives,   ///< the archives of the shards, and tables of what is in them (store/archived_run.hpp)
+};
+/// 13 files per cell and recording make 130 000 files of 10^4 cells; a file system needs a minute for them.
+inline constexpr std::size_t kMostCellsAsFiles = 1000;
+
 struct MergeResult {
   std::optional<MissingCells> missing;  ///< then nothing has been written
   RunResult run;
 };
 
-/// Reads and checks all files of the committed cells and makes links to them, or copies where the file system has no
-/// links, in the run folder `options.out`; of the options, `argv` and `finish` count as well. The run has the bytes of
-/// run() with the same scenarios, but for times. Throws ConfigError if another program planned the sweep, if two
-/// commits of a cell or recording differ in what must be equal (the message names the file), and what RunTarget throws.
-MergeResult merge_sweep(const SweepPlan& plan, const RunOptions& options);
+/// Checks the archives of the shards and makes the run folder `options.out` of them; of the options, `argv` and
+/// `finish` count as well. As files, the run has the bytes of run() with the same scenarios, but for times. As
+/// archives, these are hard links or copies, and the cells of each scenario's first seed, which figures show, are files
+/// too if they are at most kMostCellsAsFiles. After a failure nothing remains. Throws ConfigError if another program
+/// planned the sweep, if two commits of a cell or recording differ in what must be equal (the message names the file),
+/// and what RunTarget throws.
+MergeResult merge_sweep(const SweepPlan& plan, const RunOptions& options, CellForm form = CellForm::automatic);
 
 }  // namespace scanbench::harness

@@ -91,6 +91,60 @@ TEST(SweepVerbs, WithoutSlurmSubmitSaysWhatElseRunsASweep) {
   EXPECT_THAT(outcome.err, HasSubstr("docs/cluster.md"));
 }
 
+/// The lines of a text without those that contain a word.
+std::string without(const std::string& text, const std::string& word) {
+  std::string rest;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find(word) == std::string::npos) rest += line + "\n";
+  return rest;
+}
+
+TEST(SweepVerbs, AnArchivedRunIsReportedComparedAndUnpacked) {
+  const Folder folder;
+  folder.write("room.yaml", room());
+  ASSERT_EQ(run({"plan", "room.yaml", "--seed", "1,2,3", "--out", "sweep", "-q"}, {}, folder.path()).code, 0);
+  for (const char* shard : {"1", "2", "3"})
+    ASSERT_EQ(run({"run", "--plan", "sweep", "--shard", shard, "-q"}, {}, folder.path()).code, 0);
+  const auto as_files = run({"merge", "sweep", "--out", "files", "--cells", "files"}, {}, folder.path());
+  const auto archived = run({"merge", "sweep", "--out", "archived", "--cells", "archives"}, {}, folder.path());
+  ASSERT_EQ(archived.code, 0) << archived.err;
+  EXPECT_EQ(without(archived.out, "report.html"), without(as_files.out, "report.html"));
+  for (const char* file : {"summary.csv", "figures/room_environment.svg"})
+    EXPECT_EQ(read(folder / "archived" / file), read(folder / "files" / file)) << file;
+  const auto tables = [&](const std::string& name) {
+    std::string page = read(folder / name / "report.md");
+    page.resize(std::min(page.size(), page.find("## How")));
+    return without(page, "# scanbench");
+  };
+  EXPECT_EQ(tables("archived"), tables("files"));
+
+  EXPECT_EQ(run({"report", "archived"}, {}, folder.path()).code, 0);
+  EXPECT_EQ(run({"figures", "archived", "-q"}, {}, folder.path()).code, 0);
+  const auto compared = run({"compare", "files", "archived"}, {}, folder.path());
+  EXPECT_EQ(compared.code, 0) << compared.out << compared.err;
+  EXPECT_EQ(run({"show", "archived", "--frame", "0"}, {}, folder.path()).code, 0) << "the first seed is unpacked";
+
+  const std::pair<Args, std::string> refused[] = {
+      {{"show", "archived", "--frame", "0", "--seed", "2"}, "`scanbench unpack archived room/"},
+      {{"score", "archived"}, "`scanbench unpack archived`"},
+      {{"export", "archived"}, "`scanbench unpack archived`"},
+      {{"run", "room.yaml", "--seed", "1,2,3", "--out", "archived", "--resume"}, "`scanbench unpack "},
+      {{"unpack", "archived", "room"}, "allowed: SCENARIO/PIPELINE/SEED"},
+      {{"unpack", "archived", "room/none/1"}, "archived has no cell room/none/1"},
+      {{"unpack", "files"}, "files has no archives"}};
+  for (const auto& [args, message] : refused) {
+    const auto outcome = run(args, {}, folder.path());
+    EXPECT_EQ(outcome.code, 2) << args[0];
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+  }
+  const auto unpacked = run({"unpack", "archived"}, {}, folder.path());
+  EXPECT_EQ(unpacked.code, 0) << unpacked.err;
+  EXPECT_FALSE(fs::exists(folder / "archived/archives"));
+  EXPECT_EQ(run({"score", "archived", "-q"}, {}, folder.path()).code, 0);
+  EXPECT_THAT(differences(results(folder / "archived"), results(folder / "files")), ::testing::IsEmpty());
+}
+
 /// Lines of the blocks of commands in a page.
 std::vector<std::string> commands_of(const fs::path& page) {
   std::vector<std::string> lines;

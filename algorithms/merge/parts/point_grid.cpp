@@ -1,22 +1,24 @@
 // Construction of the grid: sorts the points into columns.
 #include "algorithms/merge/parts/point_grid.hpp"
 
+#include <limits>
+
 #include "core/error.hpp"
 
 namespace scanbench::merge {
 
 PointGrid::PointGrid(std::span<const Vec3> points, double cell, double period)
     : inverse_cell_(1.0 / cell), period_(period) {
-  SCANBENCH_ASSERT(cell > 0 && period >= 0);
+  SCANBENCH_ASSERT(cell > 0 && period >= 0 && points.size() < std::numeric_limits<std::uint32_t>::max());
   struct Key {
     std::int64_t iy;
     std::int64_t ix;
-    std::size_t index;
+    std::uint32_t index;
     auto operator<=>(const Key&) const = default;
   };
   std::vector<Key> keys;
   keys.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) keys.push_back({cell_of(points[i].y()), cell_of(points[i].x()), i});
+  for (std::uint32_t i = 0; i < points.size(); ++i) keys.push_back({cell_of(points[i].y()), cell_of(points[i].x()), i});
   std::sort(keys.begin(), keys.end());
 
   x_.reserve(points.size());

@@ -50,7 +50,7 @@ class PointGrid {
         const double ox = std::max(0.0, std::abs(dx) - half.x());
         const double oy = std::max(0.0, std::abs(dy) - half.y());
         const double oz = std::max(0.0, std::abs(dz) - half.z());
-        if (ox * ox + oy * oy + oz * oz <= squared_radius) visit(index_[k], Vec3(dx, dy, dz));
+        if (ox * ox + oy * oy + oz * oz <= squared_radius) visit(std::size_t{index_[k]}, Vec3(dx, dy, dz));
       }
     });
   }
@@ -94,7 +94,7 @@ class PointGrid {
   std::vector<double> x_;
   std::vector<double> y_;
   std::vector<double> z_;
-  std::vector<std::size_t> index_;
+  std::vector<std::uint32_t> index_;
 };
 
 }  // namespace scanbench::merge

@@ -45,6 +45,20 @@ TEST(RunFiles, OfBenchmarksAreCheckedLikeAllOthers) {
   }
 }
 
+TEST(JsonFile, IsReadAsTheLibraryReadsItButForOneKey) {
+  const TemporaryFolder folder;
+  const std::string kept =
+      R"("a": [1, -2, 2.5, "t", true, null, [], {}, [[3], {"x": 4}]], "o": {"without": {"y": [5]}})";
+  const auto expected = nlohmann::ordered_json::parse("{" + kept + "}");
+  for (const char* other :
+       {R"("without": 1, )", R"("without": [{"a": [1]}, {}], )", R"("without": {"o": {"k": 2}}, )", ""}) {
+    const fs::path file = folder.write("x.json", "{" + std::string(other) + kept + "}");
+    EXPECT_EQ(load_json_object(file, "without"), expected);
+    EXPECT_EQ(load_json(file), nlohmann::ordered_json::parse("{" + std::string(other) + kept + "}"));
+  }
+  EXPECT_EQ(load_json(folder.write("y.json", "7")), nlohmann::ordered_json(7));
+}
+
 TEST(JsonFile, RefusesWhatIsNoRegularFile) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder.path() / "fifo").c_str(), 0600), 0);

@@ -1,30 +1,30 @@
-// Sweeps: a plan, shards that are run in any order, twice, cut off or stopped, and the run that is merged from them.
+// Sweeps: a plan, shards that are run in any order, stopped or out of disk, and the run that is merged from them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
+#include <map>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/system_error.hpp"
-#include "harness/run/make_recording.hpp"
 #include "harness/run/runner.hpp"
 #include "harness/scenario/effective.hpp"
-#include "harness/scenario/scenario_file.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/sweep/shard.hpp"
-#include "harness/sweep/shard_commit.hpp"
 #include "harness/sweep/slurm.hpp"
 #include "harness/sweep/sweep_merge.hpp"
 #include "harness/sweep/sweep_plan.hpp"
 #include "harness/sweep/sweep_status.hpp"
+#include "tests/harness/sweep/small_sweeps.hpp"
 #include "tests/support/inputs.hpp"
 #include "tests/support/runs.hpp"
 
@@ -32,51 +32,19 @@ namespace scanbench::harness {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::commits_of;
+using testing::cut;
+using testing::kLine;
+using testing::kSkip;
+using testing::plan_of;
+using testing::room;
+using testing::run_all;
+using testing::two_rooms;
+using testing::with_time_two;
+
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-/// A room with these pipelines; recordings are small.
-Scenario room(const std::string& name, const std::string& seeds, const std::string& pipelines) {
-  return parse_scenario("schema: 1\nname: " + name + R"(
-world: {segments: [[a, 0, 0, 10, 0], [b, 10, 0, 10, 8], [c, 10, 8, 0, 8], [d, 0, 8, 0, 0]]}
-sensor: {preset: sick_lms200}
-trajectory: {kind: waypoints, points_m: {A: [2, 2], B: [7, 5]}, scans: 3}
-seeds: )" + seeds + "\npipelines:\n" +
-                            pipelines + "metrics: [test_metrics]\nfigures: [test_traced]\n",
-                        "room.yaml");
-}
-
-const std::string kLine = "  - {name: line, extract: {module: test_line}}\n";
-const std::string kSkip = "  - {name: skip, extract: {module: test_line, params: {skip: 2}}}\n";
-
-std::vector<Scenario> two_rooms() {
-  return {room("one", "[3, 1, 2]", kLine + kSkip), room("two", "[5, 6]", kLine)};
-}
-
-SweepPlan plan_of(const std::vector<Scenario>& scenarios, const fs::path& out, int shards = 3) {
-  return plan_sweep(scenarios, {.out = out, .name = "rooms", .shards = shards});
-}
-
-void run_all(const SweepPlan& plan) {
-  for (int shard = 1; shard <= plan.shards; ++shard)
-    EXPECT_EQ(run_shard(plan.folder, {.shard = shard}).exit_code(), 0) << shard;
-}
-
-/// The folders that shards have committed, of all shards or of one.
-std::vector<fs::path> commits_of(const SweepPlan& plan, int shard = 0) {
-  std::vector<fs::path> folders;
-  for (const auto& commit : load_commits(plan.folder, shard).whole) folders.push_back(commit.folder);
-  return folders;
-}
-
-void append_to(const fs::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::app) << text;
-}
-
-void cut(const fs::path& file) {
-  fs::resize_file(file, fs::file_size(file) / 2);
-}
 
 TEST(Sweep, MergedFromShardsHasTheBytesOfARun) {
   const testing::TemporaryFolder folder;
@@ -190,86 +158,19 @@ TEST(Sweep, OneAddedCellRunsOneCell) {
   EXPECT_EQ(testing::artefacts(folder.path() / "merged"), testing::artefacts(folder.path() / "local"));
 }
 
-/// A shard as another attempt commits it at the same time: it does not see the first commit.
-void run_as_second_attempt(const SweepPlan& plan, int shard) {
-  const fs::path aside = plan.folder / "aside";
-  fs::rename(plan.folder / "shards", aside);
-  fs::create_directory(plan.folder / "shards");
-  run_shard(plan.folder, {.shard = shard});
-  for (const auto& entry : fs::directory_iterator(aside))
-    fs::rename(entry.path(), plan.folder / "shards" / entry.path().filename());
-  fs::remove(aside);
-}
-
-TEST(Sweep, TwoAttemptsAtOneShardMayBothCommit) {
+TEST(Sweep, OneAddedSeedRunsItsCellsOnly) {
   const testing::TemporaryFolder folder;
-  const SweepPlan plan = plan_of(two_rooms(), folder.path() / "s");
-  run_all(plan);
-  run_as_second_attempt(plan, 2);
-  EXPECT_EQ(commits_of(plan, 2).size(), 2u);
+  run_all(plan_of({room("one", "{first: 1, count: 8}", kLine)}, folder.path() / "s", 4));
+  const std::vector<Scenario> grown{room("one", "{first: 1, count: 9}", kLine)};
+  const SweepPlan plan = plan_of(grown, folder.path() / "s", 4);
+  EXPECT_EQ(plan.shards, 1);
+  EXPECT_THAT(sweep_status(plan).missing_shards, ElementsAre(1));
+  const ShardResult result = run_shard(plan.folder, {.shard = 1});
+  ASSERT_EQ(result.cells.size(), 1u);
+  EXPECT_EQ(to_string(result.cells[0].key), "one/line/9");
   ASSERT_FALSE(merge_sweep(plan, {.out = folder.path() / "merged"}).missing);
-  run(two_rooms(), {.out = folder.path() / "local"});
+  run(grown, {.out = folder.path() / "local"});
   EXPECT_EQ(testing::artefacts(folder.path() / "merged"), testing::artefacts(folder.path() / "local"));
-}
-
-/// Writes the tables of a commit again for the files that its folder has now: another machine made those bytes.
-void commit_again(const SweepPlan& plan, const fs::path& folder) {
-  const auto commits = load_commits(plan.folder).whole;
-  const auto old = std::ranges::find(commits, folder, &ShardCommit::folder);
-  ASSERT_NE(old, commits.end());
-  StagedFolder staged = stage_shard(plan.folder, old->shard);
-  for (const char* name : {"cells", "recordings"})
-    fs::copy(folder / name, staged.path() / name, fs::copy_options::recursive);
-  const std::string summary = read_file(folder / "summary.csv");
-  commit_shard(staged, old->shard, old->cells, summary);
-  fs::remove_all(folder);
-}
-
-TEST(Sweep, RefusesTwoCommitsOfACellWithDifferentBytes) {
-  const testing::TemporaryFolder folder;
-  const SweepPlan plan = plan_of({room("one", "[1]", kLine)}, folder.path() / "s", 1);
-  run_all(plan);
-  run_as_second_attempt(plan, 1);
-  const fs::path second = commits_of(plan)[1];
-  append_to(second / "cells/one/line/1/timing.csv", "extract,0,1\n");  // times differ on every machine
-  commit_again(plan, second);
-  EXPECT_FALSE(merge_sweep(plan, {.out = folder.path() / "merged"}).missing);
-  const fs::path last = commits_of(plan)[0];
-  append_to(last / "cells/one/line/1/lines.csv", "2,9,0,0,1,1,0,0,0,1,2,0\n");
-  commit_again(plan, last);
-  const std::string message = config_refusal([&] { merge_sweep(plan, {.out = folder.path() / "merged"}); });
-  EXPECT_THAT(message, HasSubstr("the cell one/line/1 was committed twice with different lines.csv"));
-  for (const fs::path& commit : commits_of(plan)) EXPECT_THAT(message, HasSubstr(commit.string()));
-}
-
-TEST(Sweep, NoticesFilesThatAreCutOffAndRunsTheirShardAgain) {
-  for (const char* file : {"cells/one/line/1/lines.csv", "recordings/one/1/ranges.npy"}) {
-    SCOPED_TRACE(file);
-    const testing::TemporaryFolder folder;
-    const SweepPlan plan = plan_of({room("one", "[1]", kLine + kSkip)}, folder.path() / "s", 1);
-    run_all(plan);
-    cut(commits_of(plan)[0] / file);
-    const MergeResult result = merge_sweep(plan, {.out = folder.path() / "run"});
-    ASSERT_TRUE(result.missing);
-    EXPECT_THAT(result.missing->shards, ElementsAre(1));
-    ASSERT_FALSE(result.missing->notes.empty());
-    EXPECT_THAT(result.missing->notes[0], HasSubstr("has a file that is cut off or has been changed"));
-    EXPECT_FALSE(run_shard(plan.folder, {.shard = 1}).cells.empty());
-    EXPECT_FALSE(merge_sweep(plan, {.out = folder.path() / "run"}).missing);
-  }
-  for (const char* file : {"commit.json", "cells.csv", "recordings.csv", "summary.csv"}) {
-    SCOPED_TRACE(file);
-    const testing::TemporaryFolder folder;
-    const SweepPlan plan = plan_of({room("one", "[1]", kLine)}, folder.path() / "s", 1);
-    run_all(plan);
-    cut(commits_of(plan)[0] / file);
-    const SweepStatus status = sweep_status(plan);
-    ASSERT_EQ(status.damaged.size(), 1u);
-    EXPECT_THAT(status.damaged[0].second, HasSubstr(file));
-    EXPECT_EQ(status.missing, 1u);
-    run_shard(plan.folder, {.shard = 1});
-    EXPECT_FALSE(merge_sweep(plan, {.out = folder.path() / "run"}).missing);
-  }
 }
 
 TEST(Sweep, RefusesAPlanThatWasEdited) {
@@ -311,11 +212,6 @@ TEST(Sweep, RefusesFoldersThatAreNoSweep) {
   EXPECT_THAT(config_refusal([&] { plan_of(two_rooms(), folder.path() / "thesis.tex"); }), HasSubstr("is a file"));
   EXPECT_THAT(config_refusal([&] { load_sweep(folder.path()); }), HasSubstr("it has no sweep.json"));
   EXPECT_THAT(testing::listing(folder.path()), ElementsAre("thesis.tex"));
-}
-
-/// Recordings with a scan of time 2, at which the modules of the tests misbehave.
-Recording with_time_two(const Scenario&, std::uint64_t seed, int) {
-  return testing::random_recording(seed, 5, 16, true);
 }
 
 TEST(Sweep, FailedCellsAreCommittedAndMerged) {
