@@ -141,15 +141,30 @@ static double sb_number(const char* object, const char* key, double fallback) {
   return strtod(at, NULL);
 }
 
+typedef struct {
+  int fd;
+  size_t first, end; /* of the bytes that were received and are not yet read */
+  char ahead[65536];
+} sb_input;
+
 /* 0 at the end of the socket, which is the end of the work. */
-static int sb_read(int fd, void* to, size_t bytes) {
+static int sb_read(sb_input* input, void* to, size_t bytes) {
   char* at = (char*)to;
   while (bytes > 0) {
-    const ssize_t n = read(fd, at, bytes);
+    const size_t held = input->end - input->first;
+    const size_t taken = held < bytes ? held : bytes;
+    if (taken > 0) {
+      memcpy(at, input->ahead + input->first, taken);
+      input->first += taken;
+      at += taken;
+      bytes -= taken;
+      continue;
+    }
+    const ssize_t n = read(input->fd, input->ahead, sizeof input->ahead);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return 0;
-    at += n;
-    bytes -= (size_t)n;
+    input->first = 0;
+    input->end = (size_t)n;
   }
   return 1;
 }
@@ -206,6 +221,8 @@ static int sb_serve(const sb_module* module) {
   const char* number = getenv("SCANBENCH_FD");
   if (number == NULL) sb_fail("this program is a module for scanbench, which starts it");
   const int fd = atoi(number);
+  static sb_input input;
+  input.fd = fd;
   char* header = NULL;
   double* numbers = NULL;
   double* params = (double*)sb_memory(NULL, (size_t)module->param_count * sizeof(double));
@@ -213,7 +230,7 @@ static int sb_serve(const sb_module* module) {
   sb_sensor sensor = {0};
   sb_result result = {0};
   char head[16];
-  while (sb_read(fd, head, sizeof head)) {
+  while (sb_read(&input, head, sizeof head)) {
     uint32_t length = 0;
     uint64_t count = 0;
     memcpy(&length, head + 4, 4);
@@ -221,7 +238,7 @@ static int sb_serve(const sb_module* module) {
     if (memcmp(head, "SBF1", 4) != 0) sb_fail("this is no frame of the protocol");
     header = (char*)sb_memory(header, (size_t)length + 1);
     numbers = (double*)sb_memory(numbers, (size_t)count * sizeof(double));
-    if (!sb_read(fd, header, length) || !sb_read(fd, numbers, (size_t)count * sizeof(double))) break;
+    if (!sb_read(&input, header, length) || !sb_read(&input, numbers, (size_t)count * sizeof(double))) break;
     header[length] = '\0';
     const char* call = sb_find(header, "call");
     const char* sheet = sb_find(header, "sensor");

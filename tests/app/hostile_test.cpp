@@ -233,7 +233,8 @@ TEST_F(Plugins, ThatAreProgramsAndCannotDescribeThemselvesAreRefusedBeforeTheRun
 /// The names of the checks that a module of the library of wrong ones fails.
 std::vector<std::string> failed_checks(const std::string& module, const std::string& out) {
   std::vector<std::string> names;
-  std::istringstream lines(out.substr(out.find(module + " (extract")));
+  const std::size_t at = out.find("\n" + module + " (");  // of the first module there is nothing before
+  std::istringstream lines(out.substr(at == std::string::npos ? 0 : at + 1));
   std::string line;
   std::getline(lines, line);
   while (std::getline(lines, line) && line.starts_with("  "))
@@ -259,6 +260,21 @@ TEST_F(Plugins, ConformPassesGoodModulesAndNamesTheBrokenChecksOfWrongOnes) {
   EXPECT_EQ(good.code, 0) << good.out;
   const auto in_c = run({"conform", "--program", places::plugin("my_lines").parent_path() / "my_lines_c"});
   EXPECT_EQ(in_c.code, 0) << in_c.out;
+}
+
+TEST_F(Plugins, ConformPassesAGoodModuleOfEachKindAndNamesTheBrokenCheckOfAWrongOne) {
+  const auto outcome = run({"conform", "--plugin", places::plugin("wrong_kinds")});
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  for (const std::string good : {"leaves", "collects", "unites"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(good + " ("));
+    EXPECT_THAT(failed_checks(good, outcome.out), testing::IsEmpty()) << good << "\n" << outcome.out;
+  }
+  using testing::ElementsAre;
+  EXPECT_THAT(failed_checks("believes", outcome.out),
+              ElementsAre("AScanWithoutReturnsDoesNotMatch", "TheMotionBetweenTwoScansOfARoomIsFound"));
+  EXPECT_THAT(failed_checks("leaves_one_out", outcome.out), testing::Contains("OneScanStaysWhereItIs"));
+  EXPECT_THAT(failed_checks("drifts", outcome.out), ElementsAre("TheSameScansGiveTheSameMap"));
+  EXPECT_THAT(failed_checks("keeps_the_first", outcome.out), ElementsAre("TheOrderOfTheSegmentsDoesNotMatter"));
 }
 
 /// The package of `cmake --install`, a build outside of the source tree, and a run.
