@@ -113,8 +113,10 @@ void add_run(Context& context) {
                  "nothing");
   verb->add_flag("--no-figures", options->no_figures, "draw no figures");
   add_foreign_options(*verb, options->foreign, false);
-  verb->add_flag("--sandbox", options->sandbox,
-                 "run programs under bubblewrap: no network, read-only but for the cell's folder");
+  verb->add_flag(
+      "--sandbox", options->sandbox,
+      "run programs under bubblewrap (no network, read-only but for the cell's folder) and libraries without "
+      "network");
   verb->add_flag("-q,--quiet", options->quiet, "print only errors");
   verb->add_flag("--json", options->json, "print the cells' outcomes as JSON");
   for (auto* option : verb->get_options())

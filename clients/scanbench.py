@@ -330,6 +330,8 @@ def serve(module_class):
                 module = module_class(header["params"])
             else:
                 answer, result = _CALLS[header["call"]](module, arrays, sensor)
+        except MemoryError:
+            answer, result = {"error": "MemoryError", "reason": "out_of_memory"}, {}
         except Exception as error:
             traceback.print_exc()
             answer, result = {"error": f"{type(error).__name__}: {error}"}, {}

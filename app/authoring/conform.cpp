@@ -11,10 +11,13 @@
 #include "app/foreign.hpp"
 #include "core/error.hpp"
 #include "core/modules.hpp"
+#include "harness/conform/aligner_checks.hpp"
 #include "harness/conform/check.hpp"
 #include "harness/conform/description_checks.hpp"
 #include "harness/conform/extractor_checks.hpp"
+#include "harness/conform/mapper_checks.hpp"
 #include "harness/conform/matcher_checks.hpp"
+#include "harness/conform/merger_checks.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/run/worker.hpp"
 #include "harness/scenario/modules.hpp"
@@ -75,12 +78,11 @@ int check_module(const harness::ForeignSource& source) {
              [&](conform::Findings& findings) { conform::check_description(module.info, module.params, findings); })
           ? 0
           : 1;
-  if (module.kind == LineExtractor::kKind)
-    failures += count_failures(choice, conform::extractor_checks());
-  else if (module.kind == ScanMatcher::kKind)
-    failures += count_failures(choice, conform::matcher_checks());
-  else
-    fmt::print("  there are no further checks for the kind {}\n", module.kind);
+  if (module.kind == LineExtractor::kKind) failures += count_failures(choice, conform::extractor_checks());
+  if (module.kind == ScanMatcher::kKind) failures += count_failures(choice, conform::matcher_checks());
+  if (module.kind == Aligner::kKind) failures += count_failures(choice, conform::aligner_checks());
+  if (module.kind == Mapper::kKind) failures += count_failures(choice, conform::mapper_checks());
+  if (module.kind == SegmentMerger::kKind) failures += count_failures(choice, conform::merger_checks());
   return failures;
 }
 

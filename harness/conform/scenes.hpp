@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <deque>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/index.hpp"
+#include "core/modules.hpp"
 #include "core/rng.hpp"
 #include "core/scan.hpp"
 #include "core/special_values.hpp"
@@ -121,6 +125,89 @@ inline OwnedScan turned(const OwnedScan& scan, double angle) {
   const ScanGeometry& g = scan.sensor.geometry;
   result.sensor.geometry = ScanGeometry(g.angle_min() + angle, g.angle_step(), g.beams());
   return result;
+}
+
+/// One line from the first to the last point of each run of beams that hit the same wall.
+inline ScanLines lines_of(const OwnedScan& scan) {
+  ScanLines result{{}, std::vector<int>(scan.ranges.size(), -1)};
+  const Scan view = scan.view();
+  for (std::size_t i = 0; i < scan.ids.size();) {
+    std::size_t end = i + 1;
+    while (end < scan.ids.size() && scan.ids[end] == scan.ids[i]) ++end;
+    const int first = static_cast<int>(i), last = static_cast<int>(end) - 1;
+    if (scan.ids[i] >= 0 && last > first && view.valid(first) && view.valid(last)) {
+      LineFeature line;
+      line.segment = {view.point(first), view.point(last)};
+      line.line = line_through(line.segment.a, line.segment.b);
+      line.first_beam = first;
+      line.last_beam = last;
+      for (std::size_t k = i; k < end; ++k)
+        if (view.valid(static_cast<int>(k))) {
+          result.labels[k] = static_cast<int>(result.lines.size());
+          ++line.points;
+        }
+      result.lines.push_back(line);
+    }
+    i = end;
+  }
+  return result;
+}
+
+/// Scans with their lines, which it owns.
+class Series {
+ public:
+  void add(OwnedScan scan) {
+    ScanLines lines = lines_of(scan);
+    held_.emplace_back(std::move(scan), std::move(lines));
+  }
+  std::vector<Observation> observations() const {
+    std::vector<Observation> result;
+    for (const Held& h : held_) result.push_back({h.view, h.lines});
+    return result;
+  }
+  std::size_t size() const { return held_.size(); }
+  const OwnedScan& scan(std::size_t k) const { return held_[k].scan; }
+
+ private:
+  struct Held {
+    Held(OwnedScan s, ScanLines l) : scan(std::move(s)), view(scan.view()), lines(std::move(l)) {}
+    Held(const Held&) = delete;
+    Held& operator=(const Held&) = delete;
+    OwnedScan scan;
+    Scan view;
+    ScanLines lines;
+  };
+  std::deque<Held> held_;
+};
+
+/// Stops of a sensor on an arc through a room.
+inline Pose2 stop(int k) {
+  return {0.15 * k - 1.0, 0.05 * k, 0.08 * k};
+}
+
+/// Scans of a room from the first stops, with noise of 1 cm.
+inline Series drive(int scans) {
+  Series series;
+  for (int k = 0; k < scans; ++k)
+    series.add(
+        with_noise(cast(ring_sensor(361), box(-4, -3, 5, 3.5), stop(k)), 0.01, 5, static_cast<std::uint32_t>(k)));
+  return series;
+}
+
+/// The poses of the first stops, all moved.
+inline std::vector<Pose2> stops(int scans, const Pose2& motion = {}) {
+  std::vector<Pose2> poses;
+  for (int k = 0; k < scans; ++k) poses.push_back(motion * stop(k));
+  return poses;
+}
+
+inline bool is_near(const Segment& a, const Segment& b, double tolerance) {
+  return (a.a - b.a).norm() <= tolerance && (a.b - b.b).norm() <= tolerance;
+}
+
+/// A trace that takes everything, which must not change a result.
+inline Trace listening_trace() {
+  return Trace({.stage = [](Stage) {}, .row = [](const TraceSchema&, std::span<const double>) {}});
 }
 
 }  // namespace scanbench::conform

@@ -2,8 +2,11 @@
 #include "harness/foreign/confine.hpp"
 
 #include <dirent.h>
+#include <sched.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -43,9 +46,9 @@ std::string group_of(pid_t pid) {
   return "/sys/fs/cgroup/pids/scanbench-" + std::to_string(pid);
 }
 
-bool write_number(const std::string& path, long number) {
+bool write_text(const std::string& path, const std::string& text) {
   std::ofstream file(path);
-  file << number << std::flush;
+  file << text << std::flush;
   return file.good();
 }
 
@@ -53,25 +56,46 @@ bool write_number(const std::string& path, long number) {
 bool enter_group() {
   const std::string group = group_of(::getpid());
   if (::mkdir(group.c_str(), 0755) != 0 && errno != EEXIST) return false;
-  return write_number(group + "/pids.max", kMostProcesses) && write_number(group + "/cgroup.procs", ::getpid());
+  return write_text(group + "/pids.max", std::to_string(kMostProcesses)) &&
+         write_text(group + "/cgroup.procs", std::to_string(::getpid()));
+}
+
+/// Tries it in a child process, because a process cannot return to the network.
+bool can_leave_network() {
+  const pid_t pid = ::fork();
+  if (pid == 0) ::_exit(leave_network() ? 0 : 1);
+  int status = 1;
+  return pid > 0 && ::waitpid(pid, &status, 0) == pid && status == 0;
 }
 
 }  // namespace
+
+bool leave_network() {
+  if (::unshare(CLONE_NEWNET) == 0) return true;  // allowed to root
+  const std::string user = std::to_string(::getuid()), group = std::to_string(::getgid());
+  if (::unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) return false;
+  // The same user in the new namespace, or a program that this process starts could not have its own.
+  write_text("/proc/self/setgroups", "deny");
+  write_text("/proc/self/gid_map", group + " " + group + " 1");
+  return write_text("/proc/self/uid_map", user + " " + user + " 1");
+}
 
 void remove_confinement(pid_t pid) {
   ::rmdir(group_of(pid).c_str());
 }
 
-std::vector<std::string> active_confinement(bool sandbox) {
-  std::vector<std::string> names{"RLIMIT_CORE", "RLIMIT_FSIZE"};
+std::vector<std::string> active_confinement(bool programs_in_sandbox, bool libraries_in_sandbox) {
+  std::vector<std::string> names{"RLIMIT_CORE", "RLIMIT_FSIZE", "PR_SET_NO_NEW_PRIVS"};
   const bool grouped = ::getuid() == 0 && ::access("/sys/fs/cgroup/pids", W_OK) == 0;
   if (::getuid() != 0) names.emplace_back("RLIMIT_NPROC");
   if (grouped) names.emplace_back("cgroup pids.max");
-  if (sandbox) names.emplace_back("bubblewrap");
+  if (programs_in_sandbox) names.emplace_back("bubblewrap (programs)");
+  if (libraries_in_sandbox && can_leave_network()) names.emplace_back("network namespace (libraries)");
   return names;
 }
 
 void confine() {
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   lower(RLIMIT_CORE, 0);
   lower(RLIMIT_FSIZE, kLargestFile);
   lower(RLIMIT_NPROC, tasks_of_user() + kMostProcesses);

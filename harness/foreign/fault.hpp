@@ -9,7 +9,7 @@ namespace scanbench::harness {
 /// A program broke the protocol, ended, did not answer in time or could not be started; a library could not be loaded.
 class ForeignFault : public std::runtime_error {
  public:
-  enum class Kind { other, ended, timeout };
+  enum class Kind { other, ended, timeout, memory };
   explicit ForeignFault(const std::string& what, Kind kind = Kind::other) : std::runtime_error(what), kind_(kind) {}
   Kind kind() const { return kind_; }
 

@@ -21,6 +21,7 @@
 #include "harness/foreign/fault.hpp"
 #include "harness/foreign/hello.hpp"
 #include "harness/foreign/library.hpp"
+#include "harness/foreign/output_tail.hpp"
 #include "harness/foreign/program.hpp"
 
 namespace scanbench::harness {
@@ -99,8 +100,7 @@ std::string described_by_child(const fs::path& library) {
   remove_confinement(pid);
   ::close(report[0]);
   ::close(printed[0]);
-  const std::string tail =
-      texts[1].empty() ? "" : "\n" + texts[1].substr(texts[1].size() - std::min<std::size_t>(texts[1].size(), 2000));
+  const std::string tail = texts[1].empty() ? "" : "\n" + output_tail(texts[1]);
   if (!in_time) throw ForeignFault(name + " could not be loaded within " + std::to_string(kSeconds) + " s" + tail);
   if (WIFSIGNALED(status))
     throw ForeignFault(name + " ended its process while it was loaded, by signal " + std::to_string(WTERMSIG(status)) +

@@ -6,6 +6,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -18,16 +19,19 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 
 #include "core/number_text.hpp"
 #include "harness/foreign/confine.hpp"
 #include "harness/foreign/fault.hpp"
+#include "harness/foreign/output_tail.hpp"
 
 namespace scanbench::harness {
 namespace {
 
 constexpr int kProgramSocket = 3;             // the descriptor that SCANBENCH_FD names
-constexpr std::size_t kOutputTail = 2000;     // bytes kept of what a program prints
+constexpr std::size_t kOutputKept = 4096;     // bytes kept of what a program prints
+constexpr std::size_t kAhead = 1 << 16;       // bytes of an answer that one recv() takes
 constexpr double kPatience = 0.5;             // seconds that a program has to end after its socket is closed
 constexpr double kLongestWait = 3600 * 24.0;  // of one poll(), s
 
@@ -39,29 +43,29 @@ double now_seconds() {
 
 double used_by_programs = 0.0;  // a clock, like those of the system: one per process
 
-double cpu_seconds_of(pid_t pid) {
-  clockid_t clock{};
+double seconds_on(clockid_t clock) {
   timespec t{};
-  if (::clock_getcpuclockid(pid, &clock) != 0 || ::clock_gettime(clock, &t) != 0) return 0.0;
+  if (::clock_gettime(clock, &t) != 0) return 0.0;
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Adds what the program uses during a call to the clock. In a sandbox the program is out of sight: the duration of the
-/// call counts.
-class CpuMeter {
- public:
-  CpuMeter(pid_t pid, bool in_sandbox) : pid_(pid), in_sandbox_(in_sandbox), before_(reading()) {}
-  CpuMeter(const CpuMeter&) = delete;
-  CpuMeter& operator=(const CpuMeter&) = delete;
-  ~CpuMeter() { used_by_programs += std::max(0.0, reading() - before_); }
+/// The interpreter that the first line of a script names; empty for other files.
+std::string interpreter_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string line;
+  if (file.find('/') == std::string::npos || !std::getline(in, line) || !line.starts_with("#!")) return {};
+  const std::size_t first = line.find_first_not_of(" \t", 2);
+  if (first == std::string::npos) return {};
+  return line.substr(first, line.find_first_of(" \t\r", first) - first);
+}
 
- private:
-  double reading() const { return in_sandbox_ ? now_seconds() : cpu_seconds_of(pid_); }
-
-  pid_t pid_;
-  bool in_sandbox_;
-  double before_;
-};
+/// Why the system does not execute a program, in words.
+std::string refusal_of(const std::string& file, int error) {
+  const std::string interpreter = error == ENOENT ? interpreter_of(file) : "";
+  if (!interpreter.empty()) return file + ": its interpreter " + interpreter + " does not exist";
+  return file + ": " + std::strerror(error) + (file == "bwrap" ? "; the sandbox needs bubblewrap" : "") +
+         (file.find('/') == std::string::npos ? " (it was sought in PATH)" : "");
+}
 
 /// The environment of a program: as here, but Python orders sets alike in every run, and one thread is used.
 void set_environment() {
@@ -122,8 +126,12 @@ double called_programs_cpu_seconds() {
 }
 
 Program::Program(const ForeignSource& source, const ForeignSetting& setting, ProgramOutput output)
-    : text_(source.text()), in_sandbox_(setting.sandbox) {
+    : text_(source.text()), in_sandbox_(setting.sandbox), ahead_(kAhead) {
   start(setting.sandbox ? in_sandbox(source.program, setting) : source.program, output);
+  end_ = static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0));
+  // In a sandbox the program is out of sight: the duration of the calls counts.
+  if (in_sandbox_ || ::clock_getcpuclockid(pid_, &clock_) != 0) clock_ = CLOCK_MONOTONIC;
+  accounted_seconds_ = seconds_on(clock_);
 }
 
 void Program::start(const std::vector<std::string>& argv, ProgramOutput output) {
@@ -156,9 +164,7 @@ void Program::start(const std::vector<std::string>& argv, ProgramOutput output) 
     reaped_ = true;
     ::close(socket_);
     if (output_ >= 0) ::close(output_);
-    refuse(argv.front() + ": " + std::strerror(error) +
-           (argv.front() == "bwrap" ? "; the sandbox needs bubblewrap" : "") +
-           (argv.front().find('/') == std::string::npos ? " (it was sought in PATH)" : ""));
+    refuse(refusal_of(argv.front(), error));
   }
 }
 
@@ -170,7 +176,8 @@ Program::~Program() {
   }
   if (own_group_) ::kill(-pid_, SIGKILL);
   if (own_group_) remove_confinement(pid_);
-  if (output_ >= 0) ::close(output_);
+  for (const int fd : {output_, end_})
+    if (fd >= 0) ::close(fd);
 }
 
 bool Program::has_ended(double seconds) {
@@ -193,7 +200,7 @@ void Program::drain_output() {
     const ssize_t n = ::read(output_, block.data(), block.size());
     if (n <= 0) break;
     output_text_.append(block.data(), static_cast<std::size_t>(n));
-    if (output_text_.size() > 2 * kOutputTail) output_text_.erase(0, output_text_.size() - kOutputTail);
+    if (output_text_.size() > 2 * kOutputKept) output_text_.erase(0, output_text_.size() - kOutputKept);
   }
 }
 
@@ -211,17 +218,17 @@ void Program::wait_for(short events) {
     const double left = std::min(deadline_ - now_seconds(), kLongestWait);
     if (left <= 0)
       throw ForeignFault("did not answer within " + number_text(allowed_) + " s", ForeignFault::Kind::timeout);
-    std::array<pollfd, 2> fds{{{socket_, events, 0}, {output_, POLLIN, 0}}};
+    std::array<pollfd, 3> fds{{{socket_, events, 0}, {end_, POLLIN, 0}, {output_, POLLIN, 0}}};  // negative: ignored
     const timespec timeout{static_cast<time_t>(left), static_cast<long>(1e9 * (left - std::floor(left)))};
-    const int ready = ::ppoll(fds.data(), output_ < 0 ? 1 : 2, &timeout, nullptr);
-    if (ready > 0 && output_ >= 0 && fds[1].revents != 0) {
-      drain_output();
-      if ((fds[1].revents & POLLHUP) != 0 && fds[0].revents == 0) {
-        const timespec pause{0, 1000000};  // a closed output is always ready
-        ::nanosleep(&pause, nullptr);
-      }
+    if (::ppoll(fds.data(), fds.size(), &timeout, nullptr) <= 0) continue;
+    if (fds[2].revents != 0) drain_output();
+    if (fds[0].revents != 0) return;
+    // Another process that it has left may keep the socket open, so that its end does not close it.
+    if (fds[1].revents != 0) throw ForeignFault(ending(), ForeignFault::Kind::ended);
+    if ((fds[2].revents & POLLHUP) != 0) {
+      const timespec pause{0, 1000000};  // a closed output is always ready
+      ::nanosleep(&pause, nullptr);
     }
-    if (fds[0].revents != 0 && ready > 0) return;
   }
 }
 
@@ -251,29 +258,56 @@ void Program::send_all(const std::string& header, std::span<const std::span<cons
   }
 }
 
+/// Waits for bytes and takes what one recv() gives.
+std::size_t Program::receive_some(char* to, std::size_t most) {
+  while (true) {
+    const ssize_t n = ::recv(socket_, to, most, MSG_DONTWAIT);
+    if (n > 0) return static_cast<std::size_t>(n);
+    if (n < 0 && (errno == EAGAIN || errno == EINTR))
+      wait_for(POLLIN);
+    else
+      throw ForeignFault(ending(), ForeignFault::Kind::ended);
+  }
+}
+
 void Program::receive(char* to, std::size_t bytes) {
   while (bytes > 0) {
-    const ssize_t n = ::recv(socket_, to, bytes, MSG_DONTWAIT);
-    if (n < 0 && (errno == EAGAIN || errno == EINTR)) {
-      wait_for(POLLIN);
-      continue;
+    if (first_ahead_ == end_ahead_) {
+      first_ahead_ = end_ahead_ = 0;
+      if (bytes < kAhead) end_ahead_ = receive_some(ahead_.data(), kAhead);
     }
-    if (n <= 0) throw ForeignFault(ending(), ForeignFault::Kind::ended);
+    std::size_t n = std::min(bytes, end_ahead_ - first_ahead_);
+    if (n > 0) {
+      std::memcpy(to, ahead_.data() + first_ahead_, n);
+      first_ahead_ += n;
+    } else {
+      n = receive_some(to, bytes);
+    }
     to += n;
-    bytes -= static_cast<std::size_t>(n);
+    bytes -= n;
   }
+}
+
+/// Adds what the program has used since the last call to the clock of this process. What it does after an answer
+/// counts with the next call.
+void Program::account_cpu() {
+  const double now = seconds_on(clock_);
+  used_by_programs += std::max(0.0, now - accounted_seconds_);
+  accounted_seconds_ = now;
 }
 
 void Program::refuse_unrequested() const {
   std::array<char, 4096> block{};
+  std::size_t count = end_ahead_ - first_ahead_;
   const ssize_t n = ::recv(socket_, block.data(), block.size(), MSG_DONTWAIT | MSG_PEEK);
-  if (n > 0)
-    throw ForeignFault("sent " + std::to_string(n) + (static_cast<std::size_t>(n) == block.size() ? " or more" : "") +
+  if (n > 0) count += static_cast<std::size_t>(n);
+  if (count > 0)
+    throw ForeignFault("sent " + std::to_string(count) + (n == static_cast<ssize_t>(block.size()) ? " or more" : "") +
                        " bytes that nobody requested");
 }
 
 Answer Program::exchange(const std::string& header, std::span<const std::span<const double>> parts) {
-  const CpuMeter meter(pid_, in_sandbox_);
+  if (clock_ == CLOCK_MONOTONIC) accounted_seconds_ = seconds_on(clock_);
   refuse_unrequested();
   send_all(header, parts);
   std::array<char, kFrameHead> first{};
@@ -285,7 +319,10 @@ Answer Program::exchange(const std::string& header, std::span<const std::span<co
   receive(reinterpret_cast<char*>(numbers.data()), numbers.size() * sizeof(double));
   Answer answer(text, std::move(numbers));
   if (const auto error = answer.header().find("error"); error != answer.header().end())
-    throw ForeignFault("reports an error: " + (error->is_string() ? error->get<std::string>() : error->dump()));
+    throw ForeignFault(
+        "reports an error: " + output_tail(error->is_string() ? error->get<std::string>() : error->dump()),
+        answer.header().value("reason", nlohmann::json()) == "out_of_memory" ? ForeignFault::Kind::memory
+                                                                             : ForeignFault::Kind::other);
   const auto id = answer.header().find("id");
   if (id == answer.header().end() || !id->is_number_integer() || id->get<long>() != id_)
     throw ForeignFault("answered to call " + (id == answer.header().end() ? "(none)" : id->dump()) +
@@ -299,11 +336,13 @@ Answer Program::call(std::string header, std::span<const std::span<const double>
   deadline_ = now_seconds() + seconds;
   const auto place = [&](const std::string& what) {
     drain_output();
-    const std::string tail = output_text_.substr(output_text_.size() - std::min(output_text_.size(), kOutputTail));
+    const std::string tail = output_tail(output_text_);
     return "the program `" + text_ + "` " + what + (tail.empty() ? "" : "\n" + tail);
   };
   try {
-    return exchange(header, parts);
+    Answer answer = exchange(header, parts);
+    account_cpu();
+    return answer;
   } catch (const ForeignFault& fault) {
     throw ForeignFault(place(fault.what()), fault.kind());
   }

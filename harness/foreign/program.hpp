@@ -2,7 +2,9 @@
 #pragma once
 
 #include <sys/types.h>
+#include <time.h>
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,6 +43,8 @@ class Program {
   void refuse_unrequested() const;
   void send_all(const std::string& header, std::span<const std::span<const double>> parts);
   void receive(char* to, std::size_t bytes);
+  std::size_t receive_some(char* to, std::size_t most);
+  void account_cpu();
   void wait_for(short events);
   void drain_output();
   std::string ending();
@@ -51,6 +55,7 @@ class Program {
   pid_t pid_ = -1;
   int socket_ = -1;
   int output_ = -1;
+  int end_ = -1;  ///< a descriptor of the process, readable when it has ended; -1 if the kernel has none
   bool own_group_ = false;
   bool reaped_ = false;
   int wait_status_ = 0;
@@ -58,6 +63,11 @@ class Program {
   double allowed_ = 0.0;   ///< seconds of the present call
   double deadline_ = 0.0;  ///< of the present call
   std::string output_text_;
+  std::vector<char> ahead_;  ///< bytes that were received and are not yet read: [first_ahead_, end_ahead_)
+  std::size_t first_ahead_ = 0;
+  std::size_t end_ahead_ = 0;
+  clockid_t clock_{};               ///< of the CPU time of the program
+  double accounted_seconds_ = 0.0;  ///< of clock_, up to the end of the last call
 };
 
 /// CPU time that programs have used during the calls of this process [s]. A stopwatch adds it to that of the caller.

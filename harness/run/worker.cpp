@@ -29,6 +29,7 @@
 #include "harness/files/system_error.hpp"
 #include "harness/foreign/confine.hpp"
 #include "harness/foreign/fault.hpp"
+#include "harness/foreign/output_tail.hpp"
 #include "harness/run/descendants.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -160,7 +161,8 @@ std::string perform(const std::function<std::string()>& task) {
   } catch (const ForeignFault& e) {
     const bool ended = e.kind() == ForeignFault::Kind::ended;
     const bool late = e.kind() == ForeignFault::Kind::timeout;
-    return shortened(std::string(ended ? "e" : late ? "t" : "f") + e.what());
+    const bool memory = e.kind() == ForeignFault::Kind::memory;
+    return shortened(std::string(ended ? "e" : late ? "t" : memory ? "m" : "f") + e.what());
   } catch (const InternalError& e) {
     return shortened(std::string("finternal error: ") + e.what());
   } catch (const std::exception& e) {
@@ -323,7 +325,7 @@ struct WorkerPool::Worker {
           break;
         case 'm':
           result.status = CellStatus::out_of_memory;
-          result.message = "an allocation failed under the memory limit";
+          if (result.message.empty()) result.message = "an allocation failed under the memory limit";
           break;
         default:
           result.status = CellStatus::failed;
@@ -336,8 +338,7 @@ struct WorkerPool::Worker {
       result.status = CellStatus::crashed;
       result.message = "ended without a result, exit code " + std::to_string(WEXITSTATUS(wait_status));
     }
-    if (!output_text.empty())
-      result.message += "\n" + output_text.substr(output_text.size() - std::min(output_text.size(), kTail));
+    if (!output_text.empty()) result.message += "\n" + output_tail(output_text);
     return result;
   }
 

@@ -40,6 +40,7 @@ std::unique_ptr<Interface> make_module(const ModuleChoice& choice, const Foreign
   if (choice.source) {
     confine();
     if (!choice.source->program.empty()) return run_program<Interface>(*choice.source, choice.params, setting);
+    if (setting.sandbox) leave_network();  // where the system allows it: the manifest says
     load_library(choice.source->library);
   }
   return Registry<Interface>::make(choice.module, choice.params);

@@ -83,7 +83,7 @@ struct Limits {
   double seconds = 600.0;  ///< per cell, wall time
   double memory_bytes =
       4.0 * 1024 * 1024 * 1024;  ///< per cell; a recording that needs more is refused before it starts
-  bool sandbox = false;          ///< programs run under bubblewrap
+  bool sandbox = false;          ///< programs run under bubblewrap, libraries without network
 };
 
 struct Scenario {

@@ -20,7 +20,7 @@ struct LimitParams {
                             "memory of a cell; a recording that needs more is refused before it starts"),
                       field("sandbox", &LimitParams::sandbox,
                             "programs run under bubblewrap: without network, the file system read-only but for the "
-                            "cell's folder")};
+                            "cell's folder; libraries without network")};
   }
 };
 

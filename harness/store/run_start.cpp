@@ -16,19 +16,19 @@ namespace {
 /// The limits of cells that are active in this run.
 std::vector<std::string> isolation_of(const std::vector<Scenario>& scenarios) {
   std::vector<std::string> active{"process groups", "death with parent", "adopted orphans", "RLIMIT_AS", "RLIMIT_CPU"};
-  bool foreign = false, sandbox = false;
+  bool foreign = false, programs = false, libraries = false;
   for (const auto& scenario : scenarios)
     for (const auto& pipeline : scenario.pipelines)
       for (const auto& slot : pipeline.slots) {
         if (!slot.source) continue;
         foreign = true;
-        sandbox = sandbox || scenario.limits.sandbox;
+        (slot.source->program.empty() ? libraries : programs) |= scenario.limits.sandbox;
       }
   if (!foreign) {
     active.emplace_back("RLIMIT_CORE");
     return active;
   }
-  for (std::string& name : active_confinement(sandbox)) active.push_back(std::move(name));
+  for (std::string& name : active_confinement(programs, libraries)) active.push_back(std::move(name));
   return active;
 }
 

@@ -120,7 +120,7 @@ TEST_F(ForeignPrograms, InTheSandboxCanWriteOnlyToTheFolderOfTheirCell) {
   EXPECT_EQ(outcome.code, 3) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("Read-only file system: '" + outside.string() + "'"));
   EXPECT_FALSE(fs::exists(outside));
-  EXPECT_THAT(read(folder_ / "a/manifest.json"), HasSubstr("\"bubblewrap\""));
+  EXPECT_THAT(read(folder_ / "a/manifest.json"), HasSubstr("\"bubblewrap (programs)\""));
   ASSERT_EQ(run({"run", file, "--out", folder_ / "b", "--quiet", "--no-figures"}).code, 3);
   EXPECT_TRUE(fs::exists(outside)) << "without the sandbox nothing keeps the program from writing";
 }

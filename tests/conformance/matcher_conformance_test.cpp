@@ -7,6 +7,7 @@
 
 #include "core/modules.hpp"
 #include "core/registry.hpp"
+#include "harness/conform/matcher_checks.hpp"
 #include "tests/support/aligning.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/scan_builder.hpp"
@@ -79,6 +80,16 @@ class MatcherConformance : public ::testing::TestWithParam<std::string> {
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(MatcherConformance);
 INSTANTIATE_TEST_SUITE_P(All, MatcherConformance, ::testing::ValuesIn(Registry<ScanMatcher>::names()),
                          [](const auto& test) { return test.param; });
+
+TEST_P(MatcherConformance, TheChecksOfConformArePassed) {
+  const auto& entry = *Registry<ScanMatcher>::find(GetParam());
+  for (const auto& check : conform::matcher_checks()) {
+    SCOPED_TRACE(check.name);
+    conform::Findings findings;
+    check.run({entry.params, entry.make}, findings);
+    for (const auto& fault : findings.faults()) ADD_FAILURE() << fault;
+  }
+}
 
 TEST_P(MatcherConformance, AScanWithoutReturnsOrBeamsDoesNotMatch) {
   const OwnedScan full = seen(room(), {});

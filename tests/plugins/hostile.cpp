@@ -1,11 +1,15 @@
 // A module that does what a module must not do.
 #include <fcntl.h>
+#include <netinet/in.h>
 #include <signal.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,7 +34,8 @@ enum class How {
   close_descriptors,
   kill_parent,
   kill_itself,
-  daemon
+  daemon,
+  network
 };
 
 [[noreturn]] void storm() {
@@ -104,6 +109,16 @@ void misbehave(How how) {
       return;
     case How::daemon:
       leave_daemon();
+      return;
+    case How::network: {
+      const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
+      sockaddr_in here{};
+      here.sin_family = AF_INET;
+      here.sin_port = htons(9);
+      here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+      const bool reached = ::connect(fd, reinterpret_cast<const sockaddr*>(&here), sizeof here) == 0;
+      throw std::runtime_error(reached ? "reached the network" : std::strerror(errno));
+    }
   }
 }
 
@@ -124,7 +139,8 @@ class Hostile final : public LineExtractor {
                                 {How::close_descriptors, "close_descriptors"},
                                 {How::kill_parent, "kill_parent"},
                                 {How::kill_itself, "kill_itself"},
-                                {How::daemon, "daemon"}},
+                                {How::daemon, "daemon"},
+                                {How::network, "network"}},
                                "what it does")};
     }
   };

@@ -1,0 +1,14 @@
+// Checks of segment mergers.
+#pragma once
+
+#include <vector>
+
+#include "core/modules.hpp"
+#include "harness/conform/check.hpp"
+
+namespace scanbench::conform {
+
+/// All of them; each makes its own instances.
+const std::vector<Check<SegmentMerger>>& merger_checks();
+
+}  // namespace scanbench::conform
