@@ -59,7 +59,7 @@ inline std::vector<Segment> box(double x0, double y0, double x1, double y1) {
 inline OwnedScan cast(const SensorModel& sensor, const std::vector<Segment>& walls,
                       const Pose2& world_from_sensor = {}) {
   OwnedScan scan{sensor, {}, {}};
-  const Vec2 o = world_from_sensor.translation();
+  const Vec2& o = world_from_sensor.translation();
   for (int i = 0; i < sensor.geometry.beams(); ++i) {
     const Vec2 u = world_from_sensor.rotate(sensor.geometry.direction(i));
     double nearest = kInf;
@@ -112,6 +112,7 @@ inline std::vector<Segment> random_room(std::uint64_t seed) {
     const double turn = between(0, kPi);
     const double size = between(0.2, 0.5);
     std::vector<Vec2> corners;
+    corners.reserve(4);
     for (int c = 0; c < 4; ++c)
       corners.emplace_back(centre + size * Vec2(std::cos(turn + c * kPi / 2), std::sin(turn + c * kPi / 2)));
     for (const Segment& s : polygon(corners)) walls.push_back(s);
@@ -173,6 +174,7 @@ class Series {
     Held(OwnedScan s, ScanLines l) : scan(std::move(s)), view(scan.view()), lines(std::move(l)) {}
     Held(const Held&) = delete;
     Held& operator=(const Held&) = delete;
+    ~Held() = default;
     OwnedScan scan;
     Scan view;
     ScanLines lines;
@@ -197,6 +199,7 @@ inline Series drive(int scans) {
 /// The poses of the first stops, all moved.
 inline std::vector<Pose2> stops(int scans, const Pose2& motion = {}) {
   std::vector<Pose2> poses;
+  poses.reserve(static_cast<std::size_t>(scans));
   for (int k = 0; k < scans; ++k) poses.push_back(motion * stop(k));
   return poses;
 }

@@ -8,7 +8,6 @@
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 
 #include "core/number_text.hpp"
@@ -98,7 +98,9 @@ void set_environment() {
   ::close_range(kProgramSocket + 1, ~0U, CLOSE_RANGE_CLOEXEC);
   set_environment();
   std::vector<char*> arguments;
-  for (const auto& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));  // as execvp() wants it
+  arguments.reserve(argv.size() + 1);
+  for (const auto& argument : argv)
+    arguments.push_back(const_cast<char*>(argument.c_str()));  // NOLINT(*-const-cast): execvp() does not write there
   arguments.push_back(nullptr);
   ::execvp(arguments[0], arguments.data());
   const int error = errno;
@@ -128,6 +130,7 @@ double called_programs_cpu_seconds() {
 Program::Program(const ForeignSource& source, const ForeignSetting& setting, ProgramOutput output)
     : text_(source.text()), in_sandbox_(setting.sandbox), ahead_(kAhead) {
   start(setting.sandbox ? in_sandbox(source.program, setting) : source.program, output);
+  // NOLINTNEXTLINE(*-prefer-member-initializer): of the process that was started above
   end_ = static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0));
   // In a sandbox the program is out of sight: the duration of the calls counts.
   if (in_sandbox_ || ::clock_getcpuclockid(pid_, &clock_) != 0) clock_ = CLOCK_MONOTONIC;
@@ -236,9 +239,11 @@ void Program::send_all(const std::string& header, std::span<const std::span<cons
   FrameHead head{static_cast<std::uint32_t>(header.size()), 0};
   for (const auto& part : parts) head.numbers += part.size();
   std::array<char, kFrameHead> first = encode_head(head);
+  // NOLINTBEGIN(*-const-cast): sendmsg() does not write there
   std::vector<iovec> pieces{{first.data(), first.size()}, {const_cast<char*>(header.data()), header.size()}};
   for (const auto& part : parts)
     if (!part.empty()) pieces.push_back({const_cast<double*>(part.data()), part.size_bytes()});
+  // NOLINTEND(*-const-cast)
   std::size_t next = 0;
   while (next < pieces.size()) {
     msghdr message{};

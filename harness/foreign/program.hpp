@@ -2,9 +2,9 @@
 #pragma once
 
 #include <sys/types.h>
-#include <time.h>
 
 #include <cstddef>
+#include <ctime>
 #include <span>
 #include <string>
 #include <string_view>

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <iterator>
@@ -20,7 +21,6 @@
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "core/error.hpp"
@@ -41,11 +41,11 @@
 namespace scanbench::harness {
 namespace {
 
-constexpr std::size_t kTail = 4096;               // bytes kept of what a child prints
-constexpr std::size_t kMessageLimit = 16 * 1024;  // bytes kept of an exception's message
-constexpr std::size_t kReportLimit = 8 << 20;     // bytes that a child may report
-constexpr int kBlocksAtOnce = 64;                 // read of one pipe before the others get their turn
-constexpr double kKillDeadline = 5.0;             // seconds to wait for a killed child to end
+constexpr std::size_t kTail = 4096;                            // bytes kept of what a child prints
+constexpr std::size_t kMessageLimit = std::size_t{16} * 1024;  // bytes kept of an exception's message
+constexpr std::size_t kReportLimit = 8 << 20;                  // bytes that a child may report
+constexpr int kBlocksAtOnce = 64;                              // read of one pipe before the others get their turn
+constexpr double kKillDeadline = 5.0;                          // seconds to wait for a killed child to end
 constexpr int kInterrupts[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t interrupt_seen = 0;

@@ -47,8 +47,9 @@ class WorkerPool {
   std::vector<Finished> wait();
   /// Blocks until a child has ended or the time is over, whatever interrupts come.
   std::vector<Finished> wait_despite_interrupts(double seconds);
-  bool interrupted() const;
-  bool terminated() const;  ///< interrupted by SIGTERM
+  // Members, because signals are watched while a pool exists.
+  bool interrupted() const;  // NOLINT(*-convert-member-functions-to-static)
+  bool terminated() const;   // NOLINT(*-convert-member-functions-to-static): interrupted by SIGTERM
   void kill_all();
 
  private:
