@@ -94,9 +94,9 @@ TEST(WallRows, DecimalsOfAnyLengthAreTheDoublesOfTheCLibrary) {
     if (number.front() == '0' && number.size() > 1) number.front() = '1';
     if (const std::size_t point = 1 + below(18); point < number.size()) number.insert(point, ".");
     if (rng.uniform() < 0.5) number.insert(0, "-");
-    const std::string text = kHead + plain_row("a", number);
-    ASSERT_TRUE(has_canonical_rows(text)) << number;
-    const double read = parse_world(text, "w").walls[0].segment.a.x();
+    const auto rows = take_wall_rows(kHead + plain_row("a", number));
+    ASSERT_TRUE(rows) << number;
+    const double read = rows->walls[0].segment.a.x();
     const double expected = std::strtod(number.c_str(), nullptr);
     ASSERT_EQ(std::memcmp(&read, &expected, sizeof read), 0) << number;
   }
