@@ -82,24 +82,45 @@ int length(const BeamRun& run) {
   return run.last < run.first ? 0 : run.last - run.first + 1;
 }
 
-/// Sweeps the walls with indices [first, first + count); count is a multiple of 4.
-void sweep_walls(const WallView& walls, int first, int count, const BeamFan& fan, const BeamScale& scale,
-                 const BeamHits& hits) {
-  for (int k = first; k < first + count; k += kLanes) {
-    const WallRuns w = wall_runs(walls, k, fan, scale);
-    for (int i = 0; i < kLanes; ++i) {
-      const double id = walls.id[k + i];
-      if (i > 0 && id == walls.id[k + i - 1]) continue;  // padding of a leaf
-      const BeamRuns runs = beam_runs(w.from[i], w.width[i], scale.period, scale.beams);
-      if (length(runs.runs[0]) + length(runs.runs[1]) == 0) continue;
-      const SweptWall wall(w, i, id);
-      for (const BeamRun& run : runs.runs) sweep_run(wall, run, fan, hits);
-    }
+/// kLanes walls, and the beams that they cover.
+struct WallGroup {
+  WallRuns walls;
+  LaneRuns runs;
+};
+
+WallGroup wall_group(const WallView& view, int first, const BeamFan& fan, const BeamScale& scale) {
+  const WallRuns walls = wall_runs(view, first, fan, scale);
+  return {walls, lane_runs(walls.from, walls.width, scale)};
+}
+
+void sweep_group(const WallGroup& group, const double* ids, const BeamFan& fan, const BeamHits& hits) {
+  for (int i = 0; i < kLanes; ++i) {
+    if (i > 0 && ids[i] == ids[i - 1]) continue;  // padding of a leaf
+    if (group.runs.is_empty(i)) continue;
+    const SweptWall wall(group.walls, i, ids[i]);
+    sweep_run(wall, group.runs.run(i), fan, hits);
+    if (group.runs.last_behind[i] >= 0) sweep_run(wall, group.runs.run_behind(i), fan, hits);
   }
 }
 
+/// Sweeps the walls with indices [first, first + count); count is a multiple of 4.
+void sweep_walls(const WallView& walls, int first, int count, const BeamFan& fan, const BeamScale& scale,
+                 const BeamHits& hits) {
+  for (int k = first; k < first + count; k += kLanes)
+    sweep_group(wall_group(walls, k, fan, scale), walls.id + k, fan, hits);
+}
+
+// Computes the runs of several groups before their sweeps: a group is a long chain of operations, and a processor
+// overlaps the chains of neighbours.
 void sweep_all(const WallView& walls, const BeamFan& fan, const BeamHits& hits) {
-  sweep_walls(walls, 0, walls.walls, fan, BeamScale(fan), hits);
+  constexpr int kAtOnce = 16;
+  const BeamScale scale(fan);
+  for (int first = 0; first < walls.walls; first += kAtOnce) {
+    const int count = walls.walls - first < kAtOnce ? walls.walls - first : kAtOnce;
+    WallGroup groups[kAtOnce / kLanes];
+    for (int k = 0; k < count; k += kLanes) groups[k / kLanes] = wall_group(walls, first + k, fan, scale);
+    for (int k = 0; k < count; k += kLanes) sweep_group(groups[k / kLanes], walls.id + first + k, fan, hits);
+  }
 }
 
 /// Four boxes as a sensor sees them.

@@ -32,10 +32,35 @@ struct BeamScale {
   Doubles width(Doubles arc) const { return arc * (beams_per_rad > 0 ? beams_per_rad : -beams_per_rad) + 2 * margin; }
 };
 
+/// The two runs of beam_runs() for several arcs, without a branch: beams first .. last and 0 .. last_behind.
+struct LaneRuns {
+  int first[kLanes], last[kLanes], last_behind[kLanes];
+
+  BeamRun run(int lane) const { return {first[lane], last[lane]}; }
+  BeamRun run_behind(int lane) const { return {0, last_behind[lane]}; }
+  bool is_empty(int lane) const { return last[lane] < first[lane] && last_behind[lane] < 0; }
+};
+
+inline LaneRuns lane_runs(Doubles from, Doubles width, const BeamScale& scale) {
+  const double last_beam = scale.beams - 1;
+  const Longs once_around = ~(width < scale.period);
+  from = from < 0.0 ? from + scale.period : from;
+  from = from < 0.0 ? from + scale.period : from;
+  const Doubles to = from + width;
+  const Doubles nearest = (from + 0x1p52) - 0x1p52;
+  const Doubles from_up = nearest < from ? nearest + 1.0 : nearest;
+  const Longs is_one = once_around | (to < scale.period);
+  LaneRuns runs;
+  store_whole(runs.first, once_around ? all(0.0) : from_up);
+  store_whole(runs.last, once_around ? all(last_beam) : min(to, all(last_beam)));
+  store_whole(runs.last_behind, is_one ? all(-1.0) : min(to - scale.period, all(last_beam)));
+  return runs;
+}
+
 /// kLanes walls as a sensor sees them.
 struct WallRuns {
   Doubles ax, ay, bx, by;  ///< ends relative to the sensor
-  Doubles from, width;     ///< beams, for beam_runs()
+  Doubles from, width;     ///< beams, for LaneRuns
   Doubles ux, uy, rise;    ///< along d the inverse range is at most ux dx + uy dy + rise
 };
 
