@@ -44,37 +44,40 @@ void finish(const BeamHits& hits, int count, double range_max, double walls, dou
 }
 
 /// One of the walls of a WallRuns, the same in every lane.
+template <class D>
 struct SweptWall {
-  WideDoubles ax, ay, bx, by, ux, uy, rise, id;
+  D ax, ay, bx, by, ux, uy, rise, id;
 
   SweptWall(const WallRuns& w, int i, double id_)
-      : ax(every<WideDoubles>(w.ax[i])),
-        ay(every<WideDoubles>(w.ay[i])),
-        bx(every<WideDoubles>(w.bx[i])),
-        by(every<WideDoubles>(w.by[i])),
-        ux(every<WideDoubles>(w.ux[i])),
-        uy(every<WideDoubles>(w.uy[i])),
-        rise(every<WideDoubles>(w.rise[i])),
-        id(every<WideDoubles>(id_)) {}
+      : ax(every<D>(w.ax[i])),
+        ay(every<D>(w.ay[i])),
+        bx(every<D>(w.bx[i])),
+        by(every<D>(w.by[i])),
+        ux(every<D>(w.ux[i])),
+        uy(every<D>(w.uy[i])),
+        rise(every<D>(w.rise[i])),
+        id(every<D>(id_)) {}
 };
 
-// Groups of beams begin at multiples of kWideLanes. Beams of the first and last group that are not in the run are
+// Groups of beams begin at multiples of their size. Beams of the first and last group that are not in the run are
 // harmless, because the exact expression gives no hit.
-void sweep_run(const SweptWall& wall, const BeamRun& run, const BeamFan& fan, const BeamHits& hits) {
+template <class D>
+void sweep_run(const SweptWall<D>& wall, const BeamRun& run, const BeamFan& fan, const BeamHits& hits) {
+  constexpr int kGroup = sizeof(D) / sizeof(double);
   const double* const fan_dx = fan.dx;
   const double* const fan_dy = fan.dy;
   double* const ranges = hits.range;
   double* const surfaces = hits.surface;
-  for (int i = run.first & -kWideLanes; i <= run.last; i += kWideLanes) {
-    const WideDoubles dx = load_wide(fan_dx + i);
-    const WideDoubles dy = load_wide(fan_dy + i);
-    NearestLanes<WideDoubles> nearest{load_wide(ranges + i), {}};
-    const WideDoubles inverse = wall.ux * dx + wall.uy * dy + wall.rise;
+  for (int i = run.first & -kGroup; i <= run.last; i += kGroup) {
+    const D dx = load_as<D>(fan_dx + i);
+    const D dy = load_as<D>(fan_dy + i);
+    NearestLanes<D> nearest{load_as<D>(ranges + i), {}};
+    const D inverse = wall.ux * dx + wall.uy * dy + wall.rise;
     if (mask_bits(inverse * (nearest.range + 2 * kTie) >= 1.0) == 0) continue;  // hidden in all lanes
-    nearest.surface = load_wide(surfaces + i);
+    nearest.surface = load_as<D>(surfaces + i);
     nearest.offer(exact_wall_range(wall.ax, wall.ay, wall.bx, wall.by, dx, dy), wall.id);
-    store_wide(ranges + i, nearest.range);
-    store_wide(surfaces + i, nearest.surface);
+    store_as(ranges + i, nearest.range);
+    store_as(surfaces + i, nearest.surface);
   }
 }
 
@@ -97,9 +100,15 @@ void sweep_group(const WallGroup& group, const double* ids, const BeamFan& fan, 
   for (int i = 0; i < kLanes; ++i) {
     if (i > 0 && ids[i] == ids[i - 1]) continue;  // padding of a leaf
     if (group.runs.is_empty(i)) continue;
-    const SweptWall wall(group.walls, i, ids[i]);
-    sweep_run(wall, group.runs.run(i), fan, hits);
-    if (group.runs.last_behind[i] >= 0) sweep_run(wall, group.runs.run_behind(i), fan, hits);
+    const BeamRun run = group.runs.run(i);
+    // A run of few beams is swept by the smaller groups.
+    if (run.last - (run.first & -kLanes) < kLanes) {
+      sweep_run(SweptWall<Doubles>(group.walls, i, ids[i]), run, fan, hits);
+    } else {
+      sweep_run(SweptWall<WideDoubles>(group.walls, i, ids[i]), run, fan, hits);
+    }
+    if (group.runs.last_behind[i] >= 0)
+      sweep_run(SweptWall<WideDoubles>(group.walls, i, ids[i]), group.runs.run_behind(i), fan, hits);
   }
 }
 

@@ -42,6 +42,16 @@ template <class D>
 inline D every(double v) {
   return v - D{};
 }
+template <class D>
+inline D load_as(const double* p) {
+  D v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+template <class D>
+inline void store_as(double* p, D v) {
+  __builtin_memcpy(p, &v, sizeof v);
+}
 inline WideDoubles load_wide(const double* p) {
   return *reinterpret_cast<const LooseWide*>(p);
 }
