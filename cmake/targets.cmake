@@ -102,7 +102,7 @@ function(scanbench_kernels target)
   if(arg_AVX512)
     list(APPEND isas v4)
     set(flags_v4 -mavx512f -mavx512bw -mavx512cd -mavx512dq -mavx512vl -mpopcnt)
-    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_CLANG_TIDY)
       # g++ 12 warns of its own intrinsics, whose unused operand is undefined on purpose (GCC bug 105593).
       list(APPEND flags_v4 -Wno-maybe-uninitialized -Wno-uninitialized)
     endif()

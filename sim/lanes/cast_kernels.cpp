@@ -101,12 +101,9 @@ void sweep_group(const WallGroup& group, const double* ids, const BeamFan& fan, 
     if (i > 0 && ids[i] == ids[i - 1]) continue;  // padding of a leaf
     if (group.runs.is_empty(i)) continue;
     const BeamRun run = group.runs.run(i);
-    // A run of few beams is swept by the smaller groups.
-    if (run.last - (run.first & -kLanes) < kLanes) {
-      sweep_run(SweptWall<Doubles>(group.walls, i, ids[i]), run, fan, hits);
-    } else {
-      sweep_run(SweptWall<WideDoubles>(group.walls, i, ids[i]), run, fan, hits);
-    }
+    const bool is_short = run.last - (run.first & -kLanes) < kLanes;  // for it, the smaller groups do
+    is_short ? sweep_run(SweptWall<Doubles>(group.walls, i, ids[i]), run, fan, hits)
+             : sweep_run(SweptWall<WideDoubles>(group.walls, i, ids[i]), run, fan, hits);
     if (group.runs.last_behind[i] >= 0)
       sweep_run(SweptWall<WideDoubles>(group.walls, i, ids[i]), group.runs.run_behind(i), fan, hits);
   }

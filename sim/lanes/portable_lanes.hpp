@@ -14,9 +14,9 @@ inline WideDoubles to_double(WideWords whole) {
 /// Natural logarithm of positive, normal, finite numbers.
 inline WideDoubles log_lanes(WideDoubles x) {
   // frexp: x = m 2^e with m in [0.5, 1).
-  const WideWords word = reinterpret_cast<WideWords>(x);
+  const auto word = reinterpret_cast<WideWords>(x);
   WideDoubles e = to_double(word >> 52) - 1022.0;
-  WideDoubles m = reinterpret_cast<WideDoubles>((word & 0x000fffffffffffffULL) | 0x3fe0000000000000ULL);
+  auto m = reinterpret_cast<WideDoubles>((word & 0x000fffffffffffffULL) | 0x3fe0000000000000ULL);
   const WideLongs small = m < 0.70710678118654752440;
   m = small ? m * 2.0 : m;
   e = small ? e - 1.0 : e;

@@ -59,8 +59,8 @@ int list_returns(const double* true_ranges, int count, double range_min, double 
 /// The readings of one group of beams; returns the number of normals that it uses.
 int observe_group(const double* true_ranges, const GaussianReading& noise, const double* normals, double* readings) {
   const WideDoubles range = load_wide(true_ranges);
-  const WideDoubles near = every<WideDoubles>(-kNoHit);
-  const WideDoubles far = every<WideDoubles>(kNoHit);
+  const auto near = every<WideDoubles>(-kNoHit);
+  const auto far = every<WideDoubles>(kNoHit);
   const WideLongs too_close = range < noise.range_min_m;
   const WideLongs returns = (range >= noise.range_min_m) & (range <= noise.range_max_m);
   int used = 0;

@@ -50,7 +50,7 @@ inline LaneRuns lane_runs(Doubles from, Doubles width, const BeamScale& scale) {
   const Doubles nearest = (from + 0x1p52) - 0x1p52;
   const Doubles from_up = nearest < from ? nearest + 1.0 : nearest;
   const Longs is_one = once_around | (to < scale.period);
-  LaneRuns runs;
+  LaneRuns runs{};
   store_whole(runs.first, once_around ? all(0.0) : from_up);
   store_whole(runs.last, once_around ? all(last_beam) : min(to, all(last_beam)));
   store_whole(runs.last_behind, is_one ? all(-1.0) : min(to - scale.period, all(last_beam)));
