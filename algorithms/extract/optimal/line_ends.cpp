@@ -144,7 +144,7 @@ std::array<UncertainEnd, 2> ends_at_junction(const FittedReadings& line, const F
   const std::size_t of_line = as_index(ends[0].longest), of_next = as_index(ends[1].longest);
   const ShortenedByNumber lines = shortened_lines(line.fit, ends[0]), nexts = shortened_lines(next.fit, ends[1]);
   const Junction junction(line.readings, next.readings, ends[0].longest, ends[1].longest, noise);
-  const double cuts = static_cast<double>((of_line + 1) * (of_next + 1) - 1);
+  const auto cuts = static_cast<double>((of_line + 1) * (of_next + 1) - 1);
   std::array<double, kLongestTail + 1> ratio_of_next{};
   for (std::size_t j = 0; j <= of_next; ++j)
     if (nexts[j].valid) ratio_of_next[j] = likelihood_ratio(nexts[j].gain) / cuts;

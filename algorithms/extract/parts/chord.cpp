@@ -25,7 +25,7 @@ Farthest farthest_from_chord(std::span<const Vec2> points, const PointRun& run) 
   SCANBENCH_ASSERT(run.last - run.first >= 2);
   const auto first = as_index(run.first);
   const auto last = as_index(run.last);
-  const Vec2 a = points[first];
+  const Vec2& a = points[first];
   const Vec2 chord = points[last] - a;
   const double length2 = chord.squaredNorm();
   Farthest far;

@@ -19,9 +19,10 @@ double farthest(const double* points, int count, const double a[2], const double
   Longs best_index{};
   Longs here = {0, 2, 1, 3};  // the order of lanes for which pairs need no instruction across the register's halves
   int k = 0;
-  for (; k + kLanes <= count; k += kLanes) {
-    const Doubles first = *reinterpret_cast<const LooseDoubles*>(points + 2 * k);
-    const Doubles second = *reinterpret_cast<const LooseDoubles*>(points + 2 * k + kLanes);
+  const double* p = points;
+  for (; k + kLanes <= count; k += kLanes, p += 2 * kLanes) {
+    const Doubles first = *reinterpret_cast<const LooseDoubles*>(p);
+    const Doubles second = *reinterpret_cast<const LooseDoubles*>(p + kLanes);
     const Doubles x = __builtin_shufflevector(first, second, 0, 4, 2, 6);
     const Doubles y = __builtin_shufflevector(first, second, 1, 5, 3, 7);
     const Doubles across = chord[0] * (y - a[1]) - chord[1] * (x - a[0]);
@@ -38,8 +39,8 @@ double farthest(const double* points, int count, const double a[2], const double
       most = best[lane];
       at = best_index[lane];
     }
-  for (; k < count; ++k) {
-    const double across = chord[0] * (points[2 * k + 1] - a[1]) - chord[1] * (points[2 * k] - a[0]);
+  for (; k < count; ++k, p += 2) {
+    const double across = chord[0] * (p[1] - a[1]) - chord[1] * (p[0] - a[0]);
     const double distance = across < 0 ? -across : across;
     if (distance > most) {
       most = distance;
