@@ -20,6 +20,14 @@ std::string csv_field(std::string_view text) {
   return quoted + "\"";
 }
 
+namespace {
+
+bool ends_field(char c) {
+  return c == ',' || c == '\n' || c == '\r' || c == '"';
+}
+
+}  // namespace
+
 CsvWriter::CsvWriter(const std::vector<std::string>& columns) : columns_(columns.size()) {
   for (const auto& column : columns) text(column);
   end_row();
@@ -102,7 +110,7 @@ CsvTable::CsvTable(std::string bytes, std::filesystem::path file, const std::vec
 CsvTable::Field CsvTable::read_field(std::size_t& next, std::size_t& line) {
   if (next >= bytes_.size() || bytes_[next] != '"') {
     const std::size_t begin = next;
-    next = std::min(bytes_.find_first_of(",\r\n\"", begin), bytes_.size());
+    while (next < bytes_.size() && !ends_field(bytes_[next])) ++next;
     return {begin, next - begin};
   }
   // The text is never longer than what it replaces.
