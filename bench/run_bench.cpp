@@ -126,8 +126,8 @@ class WholeRuns {
     std::string arguments = "'" + file.string() + "' --no-figures --seed 1";
     for (int seed = 2; seed <= kCells; ++seed) arguments += "," + std::to_string(seed);
     Timed work{"the cells' own work"}, processor{"whole run, processor time"}, one{"1 job"}, two{"2 jobs"};
-    // Each run has a folder of its own until the last has ended: after many files are removed, ext4 takes longer to make
-    // new ones.
+    // Each run has a folder of its own until the last has ended: after many files are removed, ext4 takes longer to
+    // make new ones.
     for (int round = 0; round < rounds_; ++round) {
       const fs::path by_one = new_out(), by_two = new_out();
       const Spent alone = spent_by(program_, arguments, by_one);
@@ -153,7 +153,17 @@ class WholeRuns {
     print_row("suites/extractors.yaml with one seed, wall time", one, two, 1.9);
   }
 
-  void abcdef() { against_former("whole run of scenarios/abcdef.yaml", "'" + kScenarios + "abcdef.yaml'", false, 2.5); }
+  /// Former programs do not know the metric raster_truth.
+  void abcdef() {
+    const fs::path file = folder_ / "abcdef.yaml";
+    write(file, scenario(kScenarios + "worlds/borges15.yaml", 200,
+                         "  - {name: sef, extract: {module: sef, params: {variant: points, threshold_m: 0.40}}}\n"
+                         "  - {name: lt, extract: {module: line_tracking, params: {threshold_m: 0.10}}}\n"
+                         "  - {name: iepf, extract: {module: iepf, params: {threshold_m: 0.10}}}\n",
+                         "borges2000, segments") +
+                    "figures: [environment, scan_overlay]\n");
+    against_former("scenarios/abcdef.yaml without raster_truth, whole run", "'" + file.string() + "'", false, 2.5);
+  }
 
   void many_walls_and_segments() {
     write(folder_ / "walls.yaml", many_walls());
