@@ -287,12 +287,12 @@ std::size_t WorkerPool::running() const {
   return workers_.size();
 }
 
-bool WorkerPool::interrupted() const {
+bool WorkerPool::interrupted() const {  // NOLINT(*-convert-member-functions-to-static)
   take_pending_signals();
   return interrupt_seen != 0;
 }
 
-bool WorkerPool::terminated() const {
+bool WorkerPool::terminated() const {  // NOLINT(*-convert-member-functions-to-static)
   return run_is_terminated();
 }
 

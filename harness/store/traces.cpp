@@ -17,7 +17,7 @@ Trace Journal::begin(std::string_view slot, int frame) {
   slot_ = slot;
   frame_ = frame;
   stage_.clear();
-  if (!choice_.wants(slot_)) return Trace();
+  if (!choice_.wants(slot_)) return {};
   return Trace({.stage = [this](Stage begun) { stage_ = to_string(begun); },
                 .row = [this](const TraceSchema& schema, std::span<const double> v) { write(schema.name, v); }});
 }
