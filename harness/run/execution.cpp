@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <initializer_list>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "core/registry.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/files/system_error.hpp"
 #include "harness/run/cell_work.hpp"
@@ -19,6 +21,7 @@
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/summary.hpp"
 #include "harness/store/written_hashes.hpp"
+#include "metrics/metric.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
@@ -61,6 +64,7 @@ void Execution::add(std::size_t cell) {
 
 void Execution::work(const fs::path& folder, double grace_seconds) {
   folder_ = folder;
+  prepare_metrics();
   ::malloc_trim(0);  // each fork copies the page tables of what this process holds, freed or not
   try {
     run_all(grace_seconds);
@@ -76,6 +80,26 @@ void Execution::work(const fs::path& folder, double grace_seconds) {
   for (auto& group : groups_) group.active.reset();
   std::error_code ignored;
   for (const auto& empty : std::exchange(empty_folders_, {})) fs::remove(empty, ignored);
+}
+
+/// A library that a metric needs is loaded here once, and not in each of several cells, most of which take less time.
+void Execution::prepare_metrics() const {
+  std::map<std::string, std::size_t> cells;  // by family
+  std::map<std::string, const ModuleChoice*> families;
+  for (const Group& group : groups_)
+    for (const std::size_t cell : group.cells)
+      for (const ModuleChoice& choice : scenario_of(cell).metrics) {
+        ++cells[choice.module];
+        families[choice.module] = &choice;
+      }
+  for (const auto& [name, choice] : families) {
+    if (cells[name] < 2) continue;
+    try {
+      Registry<metrics::MetricFamily>::make(name, choice->params)->prepare();
+    } catch (const ConfigError&) {
+      // The cells say what is missing.
+    }
+  }
 }
 
 void Execution::run_all(double grace_seconds) {

@@ -86,6 +86,7 @@ class Execution {
     StagedFolder staged;
   };
 
+  void prepare_metrics() const;
   void run_all(double grace_seconds);
   void take(WorkerPool::Finished finished);
   bool start_next();
