@@ -6,9 +6,10 @@ namespace scanbench {
 enum class Isa {
   baseline,  ///< any x86-64
   v3,        ///< AVX2, as in x86-64-v3
+  v4,        ///< AVX-512 F, BW, CD, DQ and VL, as in x86-64-v4
 };
 
-/// The best that the processor has. Both give equal bytes.
-Isa best_isa();
+/// The best that the processor has, at most `limit`: kernels with a build for AVX-512 pass v4. All give equal bytes.
+Isa best_isa(Isa limit = Isa::v3);
 
 }  // namespace scanbench

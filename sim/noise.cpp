@@ -11,6 +11,7 @@
 #include "core/geometry/portable_math.hpp"
 #include "core/rng.hpp"
 #include "sim/lanes/draw_kernels.hpp"
+#include "sim/lanes/reading_kernels.hpp"
 
 namespace scanbench::sim {
 namespace {
@@ -55,12 +56,36 @@ double reading(const SensorModel& sensor, double true_range_m, double cos_incide
   return range <= sensor.range_max_m ? range : kInf;
 }
 
-// Pads a list of beams to a multiple of 4.
+// Pads a list of beams to a multiple of 8.
 void fill_up(std::vector<std::uint32_t>& beams) {
-  while (beams.size() % 4 != 0) beams.push_back(beams.back());
+  while (beams.size() % 8 != 0) beams.push_back(beams.back());
 }
 
-// One number for each of `beams`, whose size is a multiple of 4.
+const DrawKernels& draw_kernels_for(Isa isa) {
+  switch (isa) {
+    case Isa::v4:
+      return v4::kDrawKernels;
+    case Isa::v3:
+      return v3::kDrawKernels;
+    case Isa::baseline:
+      break;
+  }
+  return baseline::kDrawKernels;
+}
+
+const ReadingKernels& reading_kernels_for(Isa isa) {
+  switch (isa) {
+    case Isa::v4:
+      return v4::kReadingKernels;
+    case Isa::v3:
+      return v3::kReadingKernels;
+    case Isa::baseline:
+      break;
+  }
+  return baseline::kReadingKernels;
+}
+
+// One number for each of `beams`, whose size is a multiple of 8.
 template <class Kernel>
 void draw(Kernel kernel, std::uint64_t seed, RngStream stream, std::uint32_t frame,
           const std::vector<std::uint32_t>& beams, std::vector<double>& numbers) {
@@ -91,7 +116,7 @@ double observed_range(const SensorModel& sensor, double true_range_m, double cos
 }
 
 ScanNoise::ScanNoise(const SensorModel& sensor, std::uint64_t seed, Isa isa)
-    : sensor_(sensor), seed_(seed), kernels_(isa == Isa::v3 ? v3::kDrawKernels : baseline::kDrawKernels) {}
+    : sensor_(sensor), seed_(seed), kernels_(draw_kernels_for(isa)), reading_kernels_(reading_kernels_for(isa)) {}
 
 bool ScanNoise::needs_incidence(const SensorNoise& noise) {
   return noise.dropout_probability > 0 || noise.dropout_grazing > 0;
@@ -109,28 +134,47 @@ std::span<const double> ScanNoise::bearing_errors(std::uint32_t frame, std::size
 }
 
 // Beams that return nothing need no random numbers: `beams_` becomes the list of the others.
-std::size_t ScanNoise::list_returns(std::span<const double> true_ranges, std::span<double> readings) {
-  const std::size_t n = true_ranges.size();
-  beams_.resize(n + 4);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double range = true_ranges[i];
-    const bool too_close = range < sensor_.range_min_m;
-    beams_[count] = static_cast<std::uint32_t>(i);
-    count += !too_close && range <= sensor_.range_max_m ? 1 : 0;
-    readings[i] = too_close ? -kInf : kInf;
-  }
-  beams_.resize(count);
+std::size_t ScanNoise::list_returns(std::span<const double> true_ranges) {
+  beams_.resize(true_ranges.size() + 8);
+  const int count = reading_kernels_.list_returns(true_ranges.data(), static_cast<int>(true_ranges.size()),
+                                                  sensor_.range_min_m, sensor_.range_max_m, beams_.data());
+  beams_.resize(static_cast<std::size_t>(count));
   if (count > 0) fill_up(beams_);
-  return count;
+  return static_cast<std::size_t>(count);
+}
+
+bool ScanNoise::is_gaussian_alone(std::span<const double> losses) const {
+  const SensorNoise& noise = sensor_.noise;
+  return noise.sigma_m > 0 && noise.sigma_relative == 0 && noise.relative_from_m == 0 && noise.quantum_m == 0 &&
+         noise.spurious_probability == 0 && !needs_incidence(noise) && losses.empty();
+}
+
+void ScanNoise::draw_normals(std::uint32_t frame) {
+  draw(kernels_.normals, seed_, RngStream::range, frame, beams_, normals_);
+}
+
+void ScanNoise::observe_gaussian(std::uint32_t frame, std::span<const double> true_ranges, std::span<double> readings) {
+  list_returns(true_ranges);
+  draw_normals(frame);
+  normals_.resize(beams_.size() + 8);  // the kernel reads whole groups
+  reading_kernels_.observe(true_ranges.data(), static_cast<int>(true_ranges.size()),
+                           {.range_min_m = sensor_.range_min_m,
+                            .range_max_m = sensor_.range_max_m,
+                            .sigma_m = sensor_.noise.gaussian_sigma(0.0)},
+                           normals_.data(), readings.data());
 }
 
 void ScanNoise::observe(std::uint32_t frame, std::span<const double> true_ranges, std::span<const double> cos_incidence,
                         std::span<double> readings, std::span<const double> losses) {
+  if (is_gaussian_alone(losses)) {
+    observe_gaussian(frame, true_ranges, readings);
+    return;
+  }
   const SensorNoise& noise = sensor_.noise;
-  const std::size_t count = list_returns(true_ranges, readings);
-  const bool gaussian = noise.sigma_m > 0 || noise.sigma_relative > 0;
-  if (gaussian) draw(kernels_.normals, seed_, RngStream::range, frame, beams_, normals_);
+  for (std::size_t i = 0; i < true_ranges.size(); ++i)
+    readings[i] = true_ranges[i] < sensor_.range_min_m ? -kInf : kInf;
+  const std::size_t count = list_returns(true_ranges);
+  if (noise.sigma_m > 0 || noise.sigma_relative > 0) draw_normals(frame);
   if (needs_incidence(noise) || !losses.empty())
     draw(kernels_.uniforms, seed_, RngStream::dropout, frame, beams_, dropouts_);
   struct ScanDraws {

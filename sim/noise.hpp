@@ -14,6 +14,7 @@
 namespace scanbench::sim {
 
 struct DrawKernels;
+struct ReadingKernels;
 
 /// Address of one reading: its recording, frame and beam.
 struct BeamAddress {
@@ -47,7 +48,7 @@ double observed_range(const SensorModel& sensor, double true_range_m, double cos
 class ScanNoise {
  public:
   /// `sensor` must outlive this. `isa` is for tests.
-  ScanNoise(const SensorModel& sensor, std::uint64_t seed, Isa isa = best_isa());
+  ScanNoise(const SensorModel& sensor, std::uint64_t seed, Isa isa = best_isa(Isa::v4));
 
   /// True if readings depend on the angle of incidence.
   static bool needs_incidence(const SensorNoise& noise);
@@ -61,11 +62,17 @@ class ScanNoise {
                std::span<double> readings, std::span<const double> losses = {});
 
  private:
-  std::size_t list_returns(std::span<const double> true_ranges, std::span<double> readings);
+  /// Lists the beams that return something in `beams_`, padded, and returns their number.
+  std::size_t list_returns(std::span<const double> true_ranges);
+  bool is_gaussian_alone(std::span<const double> losses) const;
+  /// Draws the normals of the listed beams.
+  void draw_normals(std::uint32_t frame);
+  void observe_gaussian(std::uint32_t frame, std::span<const double> true_ranges, std::span<double> readings);
 
   const SensorModel& sensor_;
   std::uint64_t seed_;
   const DrawKernels& kernels_;
+  const ReadingKernels& reading_kernels_;
   std::vector<std::uint32_t> beams_;
   std::vector<double> normals_, dropouts_, bearings_;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/number_text.hpp"
 #include "harness/files/text_file.hpp"
@@ -66,6 +67,37 @@ std::optional<double> plain_number(std::string_view text) {
   return parse_number(text);
 }
 
+/// Removes a number and the `end` behind it from the text, if the number has at most 15 digits and no exponent; nothing
+/// for other numbers, which plain_number() may read. Its digits and the power of ten are exact in a double, so that the
+/// quotient is rounded once and is the nearest double (Clinger, "How to read floating point numbers accurately", PLDI
+/// 1990, section 4).
+std::optional<double> take_short_decimal(std::string_view& text, std::string_view end) {
+  constexpr std::size_t kMaxDigits = 15;
+  constexpr double kPowers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  const bool is_negative = text.starts_with('-');
+  std::size_t at = is_negative ? 1 : 0;
+  const std::size_t first = at;
+  std::int64_t digits = 0;
+  const auto take_digits = [&] {
+    const std::size_t stop = std::min(text.size(), first + kMaxDigits + 1);  // a point may be among the digits
+    for (; at < stop && is_digit(text[at]); ++at) digits = 10 * digits + (text[at] - '0');
+  };
+  take_digits();
+  const std::size_t whole = at - first;
+  if (whole == 0 || whole > kMaxDigits || (whole > 1 && text[first] == '0')) return std::nullopt;
+  std::size_t decimals = 0;
+  if (at < text.size() && text[at] == '.') {
+    const std::size_t point = at++;
+    take_digits();
+    decimals = at - point - 1;
+    if (decimals == 0) return std::nullopt;
+  }
+  if (text.substr(at, end.size()) != end) return std::nullopt;
+  text.remove_prefix(at + end.size());
+  const double value = static_cast<double>(digits) / kPowers[decimals];
+  return is_negative ? -value : value;
+}
+
 /// Appends the wall of a line without its indentation, "- [label, x1, y1, x2, y2]"; false if it has another form.
 bool read_row(std::string_view row, std::vector<Wall>& walls) {
   constexpr std::string_view kBegin = "- [";
@@ -76,8 +108,12 @@ bool read_row(std::string_view row, std::vector<Wall>& walls) {
   if (!label) return false;
   double v[4];
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto text = take_until(row, i < 3 ? ", " : "]");
-    const auto number = text ? plain_number(*text) : std::nullopt;
+    const std::string_view end = i < 3 ? ", " : "]";
+    auto number = take_short_decimal(row, end);
+    if (!number) {
+      const auto text = take_until(row, end);
+      number = text ? plain_number(*text) : std::nullopt;
+    }
     if (!number) return false;
     v[i] = *number;
   }

@@ -6,7 +6,7 @@
 namespace scanbench::sim {
 
 /// Beams from one origin, sorted by angle: beam i points within `slack_rad` of start_rad + i * step_rad, world frame.
-/// Arrays have `padded` elements, a multiple of 4; those after the last beam are copies of it.
+/// Arrays have `padded` elements, a multiple of 8; those after the last beam are copies of it.
 struct BeamFan {
   double origin_x;
   double origin_y;

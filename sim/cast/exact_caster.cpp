@@ -28,17 +28,17 @@ constexpr int kSweepAllWalls = 64;
 // Scans of fewer beams are cast ray by ray through the tree.
 constexpr int kFewBeams = 4;
 
-// An array of numbers, aligned to half a cache line and padded to a multiple of 4.
+// An array of numbers, aligned to a cache line and padded to a multiple of 8.
 class LaneArray {
  public:
   LaneArray() = default;
   LaneArray(int count, double value)
-      : blocks_(static_cast<std::size_t>(count) / 4, Block{value, value, value, value}) {}
+      : blocks_(static_cast<std::size_t>(count) / 8, Block{value, value, value, value, value, value, value, value}) {}
   double* data() { return reinterpret_cast<double*>(blocks_.data()); }
 
  private:
-  struct alignas(32) Block {
-    double numbers[4];
+  struct alignas(64) Block {
+    double numbers[8];
   };
   std::vector<Block> blocks_;
 };
@@ -48,7 +48,7 @@ class ScanScratch {
  public:
   explicit ScanScratch(const ScanGeometry& beams)
       : beams_(beams),
-        padded_((beams.beams() + 3) / 4 * 4),
+        padded_((beams.beams() + 7) / 8 * 8),
         sensor_x_(padded_, 0.0),
         sensor_y_(padded_, 0.0),
         dx_(padded_, 0.0),
@@ -155,10 +155,22 @@ HitBuffers part(const HitBuffers& out, std::size_t first, std::size_t count) {
           .surfaces = part(out.surfaces, first, count)};
 }
 
+const CastKernels& kernels_for(Isa isa) {
+  switch (isa) {
+    case Isa::v4:
+      return v4::kCastKernels;
+    case Isa::v3:
+      return v3::kCastKernels;
+    case Isa::baseline:
+      break;
+  }
+  return baseline::kCastKernels;
+}
+
 class ExactCaster : public Caster {
  public:
   ExactCaster(const World& world, Isa isa)
-      : kernels_(isa == Isa::v3 ? v3::kCastKernels : baseline::kCastKernels),
+      : kernels_(kernels_for(isa)),
         surfaces_(world),
         tree_(surfaces_.walls),
         circle_tree_(diagonals(surfaces_.circles)) {}
@@ -271,7 +283,7 @@ class ExactCaster : public Caster {
 }  // namespace
 
 std::unique_ptr<Caster> make_exact_caster(const World& world, Isa isa) {
-  SCANBENCH_ASSERT(isa == Isa::baseline || best_isa() == Isa::v3);
+  SCANBENCH_ASSERT(isa <= best_isa(Isa::v4));
   return std::make_unique<ExactCaster>(world, isa);
 }
 

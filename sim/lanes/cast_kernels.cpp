@@ -10,29 +10,30 @@ namespace scanbench::sim::SCANBENCH_ISA {
 namespace {
 
 void rotate(const double* x, const double* y, double cos, double sin, int count, double* out_x, double* out_y) {
-  for (int i = 0; i < count; i += kLanes) {
-    const Doubles vx = load(x + i);
-    const Doubles vy = load(y + i);
-    store(out_x + i, cos * vx - sin * vy);
-    store(out_y + i, sin * vx + cos * vy);
+  for (int i = 0; i < count; i += kWideLanes) {
+    const WideDoubles vx = load_wide(x + i);
+    const WideDoubles vy = load_wide(y + i);
+    store_wide(out_x + i, cos * vx - sin * vy);
+    store_wide(out_y + i, sin * vx + cos * vy);
   }
 }
 
 void clear(const BeamHits& hits, int count, double unhit) {
-  for (int i = 0; i < count; i += kLanes) {
-    store(hits.range + i, all(unhit));
-    store(hits.surface + i, all(-1.0));
+  for (int i = 0; i < count; i += kWideLanes) {
+    store_wide(hits.range + i, every<WideDoubles>(unhit));
+    store_wide(hits.surface + i, every<WideDoubles>(-1.0));
   }
 }
 
 void finish(const BeamHits& hits, int count, double range_max, double walls, double* ranges, std::int32_t* wall_ids) {
   int i = 0;
-  for (; i + kLanes <= count; i += kLanes) {
-    const Doubles range = load(hits.range + i);
-    const Doubles surface = load(hits.surface + i);
-    const Longs in_reach = range <= range_max;
-    if (ranges != nullptr) store(ranges + i, in_reach ? range : all(kNoHit));
-    if (wall_ids != nullptr) store_whole(wall_ids + i, (in_reach & (surface < walls)) ? surface : all(-1.0));
+  for (; i + kWideLanes <= count; i += kWideLanes) {
+    const WideDoubles range = load_wide(hits.range + i);
+    const WideDoubles surface = load_wide(hits.surface + i);
+    const WideLongs in_reach = range <= range_max;
+    if (ranges != nullptr) store_wide(ranges + i, in_reach ? range : every<WideDoubles>(kNoHit));
+    if (wall_ids != nullptr)
+      store_whole(wall_ids + i, (in_reach & (surface < walls)) ? surface : every<WideDoubles>(-1.0));
   }
   for (; i < count; ++i) {
     const bool in_reach = hits.range[i] <= range_max;
@@ -44,36 +45,36 @@ void finish(const BeamHits& hits, int count, double range_max, double walls, dou
 
 /// One of the walls of a WallRuns, the same in every lane.
 struct SweptWall {
-  Doubles ax, ay, bx, by, ux, uy, rise, id;
+  WideDoubles ax, ay, bx, by, ux, uy, rise, id;
 
   SweptWall(const WallRuns& w, int i, double id_)
-      : ax(all(w.ax[i])),
-        ay(all(w.ay[i])),
-        bx(all(w.bx[i])),
-        by(all(w.by[i])),
-        ux(all(w.ux[i])),
-        uy(all(w.uy[i])),
-        rise(all(w.rise[i])),
-        id(all(id_)) {}
+      : ax(every<WideDoubles>(w.ax[i])),
+        ay(every<WideDoubles>(w.ay[i])),
+        bx(every<WideDoubles>(w.bx[i])),
+        by(every<WideDoubles>(w.by[i])),
+        ux(every<WideDoubles>(w.ux[i])),
+        uy(every<WideDoubles>(w.uy[i])),
+        rise(every<WideDoubles>(w.rise[i])),
+        id(every<WideDoubles>(id_)) {}
 };
 
-// Groups of beams begin at multiples of kLanes. Beams of the first and last group that are not in the run are harmless,
-// because the exact expression gives no hit.
+// Groups of beams begin at multiples of kWideLanes. Beams of the first and last group that are not in the run are
+// harmless, because the exact expression gives no hit.
 void sweep_run(const SweptWall& wall, const BeamRun& run, const BeamFan& fan, const BeamHits& hits) {
   const double* const fan_dx = fan.dx;
   const double* const fan_dy = fan.dy;
   double* const ranges = hits.range;
   double* const surfaces = hits.surface;
-  for (int i = run.first & -kLanes; i <= run.last; i += kLanes) {
-    const Doubles dx = load(fan_dx + i);
-    const Doubles dy = load(fan_dy + i);
-    NearestLanes nearest{load(ranges + i), {}};
-    const Doubles inverse = wall.ux * dx + wall.uy * dy + wall.rise;
+  for (int i = run.first & -kWideLanes; i <= run.last; i += kWideLanes) {
+    const WideDoubles dx = load_wide(fan_dx + i);
+    const WideDoubles dy = load_wide(fan_dy + i);
+    NearestLanes<WideDoubles> nearest{load_wide(ranges + i), {}};
+    const WideDoubles inverse = wall.ux * dx + wall.uy * dy + wall.rise;
     if (mask_bits(inverse * (nearest.range + 2 * kTie) >= 1.0) == 0) continue;  // hidden in all lanes
-    nearest.surface = load(surfaces + i);
+    nearest.surface = load_wide(surfaces + i);
     nearest.offer(exact_wall_range(wall.ax, wall.ay, wall.bx, wall.by, dx, dy), wall.id);
-    store(ranges + i, nearest.range);
-    store(surfaces + i, nearest.surface);
+    store_wide(ranges + i, nearest.range);
+    store_wide(surfaces + i, nearest.surface);
   }
 }
 

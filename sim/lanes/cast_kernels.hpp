@@ -21,9 +21,9 @@ struct NearestSurface {
 
 /// The kernels of casting, for one kind of processor.
 struct CastKernels {
-  /// Rotates a sensor's beams into the world: `count` numbers each, a multiple of 4.
+  /// Rotates a sensor's beams into the world: `count` numbers each, a multiple of 8.
   void (*rotate)(const double* x, const double* y, double cos, double sin, int count, double* out_x, double* out_y);
-  /// Clears the hits; `unhit` is unhit_range(), surfaces beyond it do not count. `count` numbers, a multiple of 4.
+  /// Clears the hits; `unhit` is unhit_range(), surfaces beyond it do not count. `count` numbers, a multiple of 8.
   void (*clear)(const BeamHits& hits, int count, double unhit);
   /// Writes the results of `count` beams. Beyond `range_max` the range is +inf and the id -1. A surface with an index
   /// below `walls` is a wall, and its index the id; other surfaces get -1. An array may be null.
@@ -41,6 +41,9 @@ namespace baseline {
 extern const CastKernels kCastKernels;
 }
 namespace v3 {
+extern const CastKernels kCastKernels;
+}
+namespace v4 {
 extern const CastKernels kCastKernels;
 }
 

@@ -14,7 +14,7 @@ struct DrawAddress {
   const std::uint32_t* beams;
 };
 
-/// The kernels of random numbers, for one kind of processor. `count` is a multiple of 4; pad the list with any beams.
+/// The kernels of random numbers, for one kind of processor. `count` is a multiple of 8; pad the list with any beams.
 struct DrawKernels {
   /// Uniform in (0, 1).
   void (*uniforms)(const DrawAddress& address, int count, double* out);
@@ -26,6 +26,9 @@ namespace baseline {
 extern const DrawKernels kDrawKernels;
 }
 namespace v3 {
+extern const DrawKernels kDrawKernels;
+}
+namespace v4 {
 extern const DrawKernels kDrawKernels;
 }
 

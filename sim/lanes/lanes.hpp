@@ -1,9 +1,11 @@
 // The vector type of the kernels in sim/lanes/: a few doubles that are processed at once.
 //
-// Every source file of this folder is compiled twice: for any x86-64 (namespace baseline, two lanes of SSE2) and for
-// processors with AVX2 (namespace v3, four lanes). Each lane does the same IEEE operations in the same order, so both
-// give equal bytes. Headers of this folder contain nothing that the linker could merge between the two builds: no
-// standard library, no Eigen, only functions of the two namespaces.
+// Every source file of this folder is compiled three times: for any x86-64 (namespace baseline, two lanes of SSE2), for
+// processors with AVX2 (namespace v3, four lanes) and with AVX-512 (namespace v4). There, what concerns boxes and
+// walls, of which four belong together, has four lanes too, and what concerns beams has the eight lanes of the types
+// that are called wide. Each lane does the same IEEE operations in the same order, so all builds give equal bytes.
+// Headers of this folder contain nothing that the linker could merge between the two builds: no standard library, no
+// Eigen, only functions of the two namespaces.
 #pragma once
 
 #include <immintrin.h>
@@ -19,11 +21,33 @@ inline constexpr int kLanes = 4;
 #else
 inline constexpr int kLanes = 2;
 #endif
+#ifdef __AVX512F__
+inline constexpr int kWideLanes = 8;
+#else
+inline constexpr int kWideLanes = kLanes;
+#endif
 
 typedef double Doubles __attribute__((vector_size(8 * kLanes)));            // NOLINT(modernize-use-using)
 typedef long long Longs __attribute__((vector_size(8 * kLanes)));           // NOLINT(modernize-use-using)
 typedef unsigned long long Words __attribute__((vector_size(8 * kLanes)));  // NOLINT(modernize-use-using)
 typedef double LooseDoubles __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));  // NOLINT
+
+typedef double WideDoubles __attribute__((vector_size(8 * kWideLanes)));            // NOLINT(modernize-use-using)
+typedef long long WideLongs __attribute__((vector_size(8 * kWideLanes)));           // NOLINT(modernize-use-using)
+typedef unsigned long long WideWords __attribute__((vector_size(8 * kWideLanes)));  // NOLINT(modernize-use-using)
+typedef double LooseWide __attribute__((vector_size(8 * kWideLanes), aligned(8), may_alias));  // NOLINT
+
+/// The same number in all lanes of Doubles or WideDoubles.
+template <class D>
+inline D every(double v) {
+  return v - D{};
+}
+inline WideDoubles load_wide(const double* p) {
+  return *reinterpret_cast<const LooseWide*>(p);
+}
+inline void store_wide(double* p, WideDoubles v) {
+  *reinterpret_cast<LooseWide*>(p) = v;
+}
 
 inline Doubles load(const double* p) {
   return *reinterpret_cast<const LooseDoubles*>(p);
@@ -86,6 +110,33 @@ inline Words multiply_low_halves(Words a, Words b) {
 }
 inline void store_whole(int* p, Doubles v) {
   _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_cvttpd_epi32(v));
+}
+#endif
+
+#ifdef __AVX512F__
+inline WideDoubles abs(WideDoubles v) {
+  return reinterpret_cast<WideDoubles>(reinterpret_cast<WideLongs>(v) & 0x7fffffffffffffffLL);
+}
+inline WideLongs opposite(WideDoubles a, WideDoubles b) {
+  return reinterpret_cast<WideLongs>((reinterpret_cast<WideWords>(a) ^ reinterpret_cast<WideWords>(b)) >> 63) != 0;
+}
+inline WideDoubles max(WideDoubles a, WideDoubles b) {
+  return _mm512_max_pd(a, b);
+}
+inline WideDoubles min(WideDoubles a, WideDoubles b) {
+  return _mm512_min_pd(a, b);
+}
+inline WideDoubles sqrt(WideDoubles a) {
+  return _mm512_sqrt_pd(a);
+}
+inline int mask_bits(WideLongs mask) {
+  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask));
+}
+inline WideWords multiply_low_halves(WideWords a, WideWords b) {
+  return reinterpret_cast<WideWords>(_mm512_mul_epu32(reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(b)));
+}
+inline void store_whole(int* p, WideDoubles v) {
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm512_cvttpd_epi32(v));
 }
 #endif
 

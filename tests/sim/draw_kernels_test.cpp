@@ -1,6 +1,7 @@
 // Random numbers drawn in lanes against those drawn one by one, bit for bit, on every processor's kernels.
 #include "sim/lanes/draw_kernels.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -20,6 +21,7 @@ namespace {
 std::vector<const DrawKernels*> kernels_of_this_processor() {
   std::vector<const DrawKernels*> kernels{&baseline::kDrawKernels};
   if (best_isa() == Isa::v3) kernels.push_back(&v3::kDrawKernels);
+  if (best_isa(Isa::v4) == Isa::v4) kernels.push_back(&v4::kDrawKernels);
   return kernels;
 }
 
@@ -84,7 +86,7 @@ TEST(ScanNoise, ReadsWhatObservedRangeReadsBeamByBeam) {
   std::vector<double> cosines(kBeams);
   std::vector<double> readings(kBeams);
   for (const SensorModel& sensor : sensors())
-    for (const Isa isa : {Isa::baseline, best_isa()}) {
+    for (const Isa isa : {Isa::baseline, best_isa(), best_isa(Isa::v4)}) {
       ScanNoise noise(sensor, 11, isa);
       for (std::uint32_t frame = 0; frame < 50; ++frame) {
         for (std::size_t i = 0; i < kBeams; ++i) {
@@ -99,6 +101,32 @@ TEST(ScanNoise, ReadsWhatObservedRangeReadsBeamByBeam) {
           ASSERT_EQ(bearings.empty() ? 0.0 : bearings[i], bearing_error(sensor.noise, address));
         }
       }
+    }
+}
+
+// These scans are read in lanes: the last group may be incomplete, and limits belong to the range of the sensor.
+TEST(ScanNoise, AGaussianErrorAloneIsTheSameInScansOfAnyLength) {
+  SensorModel sensor = sensors()[1];
+  sensor.noise.sigma_m = 0.5;
+  const double low = sensor.range_min_m, high = sensor.range_max_m;
+  const double special[] = {0.0,
+                            low,
+                            std::nextafter(low, 0.0),
+                            std::nextafter(low, high),
+                            high,
+                            std::nextafter(high, 100.0),
+                            std::nextafter(high, 0.0),
+                            std::numeric_limits<double>::infinity()};
+  CounterRng rng(5, RngStream::resampling);
+  for (const Isa isa : {Isa::baseline, best_isa(), best_isa(Isa::v4)})
+    for (std::uint32_t beams = 1; beams < 40; ++beams) {
+      ScanNoise noise(sensor, 3, isa);
+      std::vector<double> ranges(beams), readings(beams);
+      for (double& range : ranges)
+        range = rng.uniform() < 0.5 ? special[static_cast<std::size_t>(8 * rng.uniform())] : 22 * rng.uniform();
+      noise.observe(beams, ranges, {}, readings);
+      for (std::uint32_t i = 0; i < beams; ++i)
+        ASSERT_EQ(readings[i], observed_range(sensor, ranges[i], 0.0, {3, beams, i})) << beams << " " << ranges[i];
     }
 }
 

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -81,6 +83,23 @@ TEST(WallRows, ReadsNumbersToTheNearestDouble) {
       parse_world(kHead + plain_row("a", "0.1") + plain_row("b", "-12345678901234567890e-18"), "w");
   EXPECT_EQ(world.walls[0].segment.a.x(), 0.1);
   EXPECT_EQ(world.walls[1].segment.a.x(), -12.345678901234567890);
+}
+
+TEST(WallRows, DecimalsOfAnyLengthAreTheDoublesOfTheCLibrary) {
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    CounterRng rng(9, RngStream::pose, i);
+    const auto below = [&](double n) { return static_cast<std::size_t>(n * rng.uniform()); };
+    std::string number;
+    for (std::size_t k = 1 + below(18); k > 0; --k) number += static_cast<char>('0' + below(10));
+    if (number.front() == '0' && number.size() > 1) number.front() = '1';
+    if (const std::size_t point = 1 + below(18); point < number.size()) number.insert(point, ".");
+    if (rng.uniform() < 0.5) number.insert(0, "-");
+    const auto rows = take_wall_rows(kHead + plain_row("a", number));
+    ASSERT_TRUE(rows) << number;
+    const double read = rows->walls[0].segment.a.x();
+    const double expected = std::strtod(number.c_str(), nullptr);
+    ASSERT_EQ(std::memcmp(&read, &expected, sizeof read), 0) << number;
+  }
 }
 
 TEST(WallRows, LeavesEveryOtherFormToTheParser) {
