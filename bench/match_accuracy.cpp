@@ -1,6 +1,7 @@
 // How near matched poses come to their bounds: scans in pairs, a step of up to 0.3 m and 10 degrees apart, in the
 // worlds of bench/accuracy and in vector maps; the guess is off by 5 cm along each axis and 2 degrees, signs at random.
-// And whether matchers know a corridor without end. Prints Markdown tables.
+// And whether matchers know a corridor without end. Prints Markdown tables. --oracle adds rows of an oracle that knows
+// which beams see which wall: its MSE over the bound differs from 1 only because the pairs are a sample.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
+#include "bench/accuracy/pose_oracle.hpp"
 #include "bench/accuracy/scenes.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
@@ -38,6 +40,7 @@ struct Options {
   double start_m = 0.05;
   double start_deg = 2.0;
   bool corridor = false;
+  bool oracle = false;
   bool worst = false;
 };
 
@@ -67,6 +70,17 @@ std::vector<FrameMatch> match_pairs(const ScanMatcher& matcher, const Recording&
     const Pose2 guess = wrong_by_a_start_error(poses[k].inverse() * poses[k + 1], options, seed, k / 2);
     matches.push_back({static_cast<int>(k) + 1, static_cast<int>(k),
                        matcher.match({reference, lines[k]}, {current, lines[k + 1]}, guess, silent)});
+  }
+  return matches;
+}
+
+std::vector<FrameMatch> oracle_pairs(const metrics::MetricInput& input) {
+  const metrics::Surfaces surfaces = metrics::join_walls(input.truth->walls);
+  std::vector<FrameMatch> matches;
+  for (std::size_t k = 0; k + 1 < input.observed.frames.size(); k += 2) {
+    const Match none{Status::no_match, {}, Eigen::Matrix3d::Zero()};
+    matches.push_back(
+        {static_cast<int>(k) + 1, static_cast<int>(k), oracle_match(input, surfaces, k, k + 1).value_or(none)});
   }
   return matches;
 }
@@ -147,8 +161,15 @@ void measure(const Scene& scene, double sigma_m, const Options& options) {
         scores[name].add(input);
         if (options.worst) print_worst(input);
       }
+      if (!options.oracle) continue;
+      PipelineResult result;
+      result.lines = lines;
+      const metrics::MetricInput input{recording.observed, &*recording.truth, result};
+      result.matches = oracle_pairs(input);
+      scores["oracle"].add(input);
     }
   for (const std::string& name : options.matchers) scores[name].print(scene.name, sigma_m, name);
+  if (options.oracle) scores["oracle"].print(scene.name, sigma_m, "oracle");
 }
 
 /// Pairs in a corridor of 2 m whose ends are beyond the sensor's range.
@@ -219,6 +240,8 @@ bool read(std::span<char*> args, Options& options) {
     const auto left = args.size() - i - 1;
     if (arg == "--corridor") {
       options.corridor = true;
+    } else if (arg == "--oracle") {
+      options.oracle = true;
     } else if (arg == "--worst") {
       options.worst = true;
     } else if (arg == "--seeds" && left >= 2) {
@@ -242,7 +265,7 @@ bool read(std::span<char*> args, Options& options) {
     } else {
       fmt::print(stderr,
                  "{}: not understood; allowed: --corridor, --maps FOLDER, --seeds FIRST COUNT, --sigma CM, --pairs N, "
-                 "--start CM DEGREES, --scene PART_OF_NAME, --extractor NAME, --matcher NAME, --worst\n",
+                 "--start CM DEGREES, --scene PART_OF_NAME, --extractor NAME, --matcher NAME, --oracle, --worst\n",
                  arg);
       return false;
     }

@@ -84,6 +84,8 @@ function(scanbench_executable name)
   scanbench_flags(${name})
   # The linker's build id is a hash of everything, so of the commit too, which the version of the code leaves out.
   target_link_options(${name} PRIVATE LINKER:--build-id=none)
+  # Symbols are resolved at the start and not again in each of a run's child processes.
+  target_link_options(${name} PRIVATE LINKER:-z,now)
   list(TRANSFORM arg_ROOMS PREPEND scanbench_ OUTPUT_VARIABLE rooms)
   target_link_libraries(${name} PRIVATE ${rooms})
   set_target_properties(${name} PROPERTIES LINK_LIBRARY_OVERRIDE

@@ -71,6 +71,9 @@ class MetricFamily {
  public:
   static constexpr std::string_view kKind = "metrics";
   virtual ~MetricFamily() = default;
+  /// Loads what every evaluation in this process, and in those that it forks, would load again. Called before cells
+  /// run. Starts no thread. Throws ConfigError if a library is not installed.
+  virtual void prepare() const {}
   virtual std::vector<MetricDescription> describe() const = 0;
   /// False if the family is not defined for this input (no truth, no map): its metrics are then absent, not zero.
   virtual bool applies(const MetricInput& input) const = 0;

@@ -36,6 +36,7 @@ constexpr int kMinReadings = 3;    // fewest readings of a line; two readings ar
 struct Line {
   PointRun run;
   std::optional<BeamLine> fit;
+  std::optional<BeamLine> unaveraged;  // of greatest likelihood for this run, as far as it is known
 };
 
 // The extraction of one scan: its returns, the lines found so far, and the walls that they imply for each return.
@@ -43,6 +44,7 @@ class Extraction {
  public:
   Extraction(const Scan& scan, const SensorNoise& noise, int max_lines)
       : scan_(scan), noise_(noise), max_lines_(max_lines), model_(scan, noise) {
+    readings_.reserve(model_.size());
     for (std::size_t i = 0; i < model_.size(); ++i) readings_.push_back({model_.direction(i), model_.ranges()[i]});
   }
 
@@ -52,7 +54,7 @@ class Extraction {
     segment();
     trace.stage(Stage::fit);
     // The effect of bearing noise depends on the obliqueness of the walls, which is known only after the first pass.
-    if (noise_.bearing_sigma_rad > 0) {
+    if (noise_.bearing_rad2 > 0) {
       fit();
       set_walls_from_lines();
       segment();
@@ -77,7 +79,7 @@ class Extraction {
     cost_ = best.cost;
     lines_.clear();
     for (const PointRun& run : best.lines)
-      if (run.size() >= kMinReadings) lines_.push_back({run, {}});
+      if (run.size() >= kMinReadings) lines_.push_back({run, {}, {}});
   }
 
   std::span<const BeamReading> readings(const PointRun& run) const {
@@ -109,8 +111,8 @@ class Extraction {
     const double u = line.theta.dot(d);
     if (!(u > 0)) return kInf;
     const double r = 1.0 / u;
-    const double e = (model_.ranges()[as_index(i)] - r) / reading_sigma(noise_, r, r * r * cross(line.theta, d));
-    return e * e;
+    const double e = model_.ranges()[as_index(i)] - r;
+    return e * e / noise_.variance(r, r * r * cross(line.theta, d));
   }
 
   // Where two walls meet, the intersection of their lines determines which beam sees which wall. The cut with the least
@@ -146,34 +148,57 @@ class Extraction {
     return true;
   }
 
-  // The line or reading that follows an end. It is unknown across missing beams.
-  std::optional<Adjacent> adjacent(std::size_t k, bool last) const {
+  FittedReadings fitted(const Line& line) const { return {*line.fit, readings(line.run)}; }
+
+  // Does nothing separate the last reading of line k from the first of line k + 1, and are both lines fitted?
+  bool is_junction(std::size_t k) const {
+    if (k + 1 >= lines_.size() || !lines_[k].fit || !lines_[k + 1].fit) return false;
+    const int last = lines_[k].run.last;
+    return lines_[k + 1].run.first == last + 1 && are_neighbours(last, last + 1);
+  }
+
+  bool are_neighbours(int i, int j) const {
+    return std::abs(model_.points().beams[as_index(j)] - model_.points().beams[as_index(i)]) <= 1;
+  }
+
+  // An end that no line follows. It is certain across missing beams, and next to a line that could not be fitted.
+  UncertainEnd open_end(std::size_t k, End end) const {
     const PointRun& run = lines_[k].run;
-    const int own = last ? run.last : run.first;
-    const int next = own + (last ? 1 : -1);
-    if (next < 0 || next >= static_cast<int>(model_.size())) return std::nullopt;
-    if (std::abs(model_.points().beams[as_index(next)] - model_.points().beams[as_index(own)]) > 1) return std::nullopt;
-    const std::size_t other = last ? k + 1 : k - 1;
-    if (other >= lines_.size() || next < lines_[other].run.first || next > lines_[other].run.last)
-      return Adjacent{.line = {}, .readings = {}, .range_m = model_.ranges()[as_index(next)]};
-    if (!lines_[other].fit) return std::nullopt;
-    return Adjacent{.line = lines_[other].fit, .readings = readings(lines_[other].run), .range_m = 0.0};
+    const int own = end == End::last ? run.last : run.first;
+    const int next = own + (end == End::last ? 1 : -1);
+    if (next < 0 || next >= static_cast<int>(model_.size()) || !are_neighbours(own, next)) return {};
+    const std::size_t other = end == End::last ? k + 1 : k - 1;
+    if (other < lines_.size() && lines_[other].run.first <= next && next <= lines_[other].run.last) return {};
+    return end_towards_range(fitted(lines_[k]), noise_, end, model_.ranges()[as_index(next)], kMinReadings);
   }
 
   // Averages every line over the hypotheses about which readings at its ends belong to it. The probability of a side is
   // estimated from the scan. The prior counts as one side in two junctions; the estimate is the mean over it and the
   // junctions of the scan.
   void average_over_ends() {
+    std::vector<std::array<UncertainEnd, 2>> open(lines_.size());
+    for (std::size_t k = 0; k < lines_.size(); ++k) {
+      if (!lines_[k].fit) continue;
+      if (k == 0 || !is_junction(k - 1)) open[k][0] = open_end(k, End::first);
+      if (is_junction(k)) {
+        const auto ends = ends_at_junction(fitted(lines_[k]), fitted(lines_[k + 1]), noise_, kMinReadings);
+        open[k][1] = ends[0];
+        open[k + 1][0] = ends[1];
+      } else {
+        open[k][1] = open_end(k, End::last);
+      }
+    }
     std::vector<std::optional<UncertainEnds>> ends(lines_.size());
     double sides = 1.0, junctions = 2.0;
     const double prior = sides / junctions;
     for (std::size_t k = 0; k < lines_.size(); ++k) {
       if (!lines_[k].fit) continue;
-      const std::array out = {adjacent(k, false), adjacent(k, true)};
-      ends[k].emplace(*lines_[k].fit, readings(lines_[k].run), noise_, out, kMinReadings);
+      ends[k].emplace(*lines_[k].fit, open[k]);
+      const std::array is_joined = {k > 0 && is_junction(k - 1), is_junction(k)};
+      if (!is_joined[0] && !is_joined[1]) continue;
       const UncertainLine estimate = ends[k]->average(prior);
       for (std::size_t end = 0; end < 2; ++end) {
-        if (!out[end] || !out[end]->line) continue;
+        if (!is_joined[end]) continue;
         sides += 0.5 * estimate.side[end];  // each junction is counted from both lines
         junctions += 0.5;
       }
@@ -181,6 +206,7 @@ class Extraction {
     for (std::size_t k = 0; k < lines_.size(); ++k) {
       if (!ends[k]) continue;
       const UncertainLine line = ends[k]->average(sides / junctions);
+      if (line.foreign == std::array{0, 0}) lines_[k].unaveraged = lines_[k].fit;
       lines_[k].fit = line.line;
       lines_[k].run.first += line.foreign[0];
       lines_[k].run.last -= line.foreign[1];
@@ -194,7 +220,8 @@ class Extraction {
     int possible = 0;
     for (std::size_t k = 0; k < lines_.size(); ++k) {
       if (!lines_[k].fit) continue;
-      const std::optional<BeamLine> whole = fit(lines_[k].run, lines_[k].fit->theta);
+      const std::optional<BeamLine> whole =
+          lines_[k].unaveraged ? lines_[k].unaveraged : fit(lines_[k].run, lines_[k].fit->theta);
       if (!whole) continue;
       breaks[k].emplace(*whole, readings(lines_[k].run), noise_, kBreakReadings);
       possible += breaks[k]->possible() ? 1 : 0;
@@ -238,7 +265,7 @@ class Extraction {
   }
 
   const Scan& scan_;
-  const SensorNoise& noise_;
+  ReadingNoise noise_;
   int max_lines_;
   ScanModel model_;
   std::vector<KnownWall> walls_;

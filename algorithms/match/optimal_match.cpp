@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/LU>
+
 #include "algorithms/match/optimal/lone_returns.hpp"
 #include "algorithms/match/optimal/wall_pairs.hpp"
 #include "algorithms/match/parts/point_line_registration.hpp"
@@ -95,31 +97,47 @@ class OptimalMatch final : public ScanMatcher {
     double evidence = 0.0;
   };
 
-  /// Pairs walls and steps in turn until neither changes.
+  /// Pairs walls and steps in turn until neither changes: first with the doubt about the pose in the weights, so that
+  /// walls known to millimetres count although the guess is off by centimetres, then without.
   static Candidate by_walls(const ScanMeasurements& reference, const ScanMeasurements& current, PoseBelief belief,
                             const Pose2& guess, double lever_m, Trace& trace) {
     Candidate result{{Status::max_iterations, guess, Eigen::Matrix3d::Zero()}, 0.0};
+    const Eigen::Matrix3d before = belief.covariance.inverse();
     Pose2& pose = belief.reference_from_current;
     std::vector<WallPair> walls;
-    bool settled = false;
+    bool settled = false, doubtful = true;
     for (int round = 0; round < kMostRounds && !settled; ++round) {
       std::vector<WallPair> paired = pair_walls(reference.lines, current.lines, belief);
       if (paired.empty()) return {no_match(guess), 0.0};
-      WallEquations sum = wall_equations(paired, reference.lines, current.lines, pose);
-      add_lone_returns(remainder(paired, reference, current), belief, sum);
+      const Eigen::Matrix3d doubt = doubtful ? belief.covariance : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
+      WallEquations sum = wall_equations(paired, reference.lines, current.lines, pose, doubt);
+      add_lone_returns(remainder(paired, reference, current), belief, doubt, sum);
       const Determined determined(sum.equations, lever_m, kLeastRatio);
       const Motion step = determined.solve(sum.equations.rhs);
       pose = moved(pose, step);
-      settled = paired == walls && step.head<2>().norm() < 1e-7 && std::fabs(step.z()) < 1e-8;
+      const double still = doubtful ? 1e-4 : 1e-7;  // metres, and a tenth of it in radians
+      const bool same = paired == walls && step.head<2>().norm() < still && std::fabs(step.z()) < 0.1 * still;
+      settled = same && !doubtful;
       const bool open = determined.rank() < 3;
       const Pose2 answer = open ? moved(guess, determined.project(motion_between(guess, pose))) : pose;
       const Status status = open ? Status::degenerate : settled ? Status::converged : Status::max_iterations;
       result = {{status, answer, determined.covariance(1.0)}, sum.evidence};
-      if (!open) belief.covariance = result.match.covariance;
+      if (doubtful)
+        belief.covariance = (before + sum.equations.matrix / contradiction(sum, step)).inverse();
+      else if (!open)
+        belief.covariance = result.match.covariance;
       walls = std::move(paired);
+      doubtful = doubtful && !same && round + 1 < kMostRounds / 2;
       trace.row(RoundRow{sum.walls, step.x(), step.y(), step.z(), sum.misfit});
     }
     return result;
+  }
+
+  /// Mean squared difference that is left after the step, in variances; at least 1. Walls that contradict each other
+  /// say that some are in wrong pairs, so that the pose is not known as well as their number says.
+  static double contradiction(const WallEquations& sum, const Motion& step) {
+    const double freedom = std::max(2.0 * sum.walls - 3.0, 1.0);
+    return std::max((sum.misfit - step.dot(sum.equations.rhs)) / freedom, 1.0);
   }
 
   RegistrationRules start_;

@@ -165,12 +165,12 @@ Kernels MeanShift::kernels_of(const Params& p) {
 
 /// For each cluster, the mean of the directions to which its members converged (section IV.C).
 std::vector<double> cluster_directions_of(const Clustering& clustering) {
-  std::vector<std::vector<double>> of_members(as_index(clustering.clusters));
-  for (std::size_t i = 0; i < clustering.cluster.size(); ++i)
-    of_members[as_index(clustering.cluster[i])].push_back(clustering.end[i].z());
-  std::vector<double> result;
-  result.reserve(of_members.size());
-  for (const auto& directions : of_members) result.push_back(merge::mean_direction(directions));
+  std::vector<double> result, directions;
+  for (const std::vector<int>& members : merge::members_of(clustering.cluster, clustering.clusters)) {
+    directions.clear();
+    for (const int k : members) directions.push_back(clustering.end[as_index(k)].z());
+    result.push_back(merge::mean_direction(directions));
+  }
   return result;
 }
 

@@ -20,6 +20,14 @@ std::string csv_field(std::string_view text) {
   return quoted + "\"";
 }
 
+namespace {
+
+bool ends_field(char c) {
+  return c == ',' || c == '\n' || c == '\r' || c == '"';
+}
+
+}  // namespace
+
 CsvWriter::CsvWriter(const std::vector<std::string>& columns) : columns_(columns.size()) {
   for (const auto& column : columns) text(column);
   end_row();
@@ -64,50 +72,31 @@ void CsvWriter::end_row() {
   filled_ = 0;
 }
 
-CsvTable::CsvTable(std::string_view bytes, std::filesystem::path file, const std::vector<std::string>& required)
-    : file_(std::move(file)) {
-  const auto fail = [&](std::size_t line, const std::string& message) {
-    throw ConfigError(file_.string() + ":" + std::to_string(line) + ": " + message);
-  };
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-  std::vector<std::string> row;
+CsvTable::CsvTable(std::string bytes, std::filesystem::path file, const std::vector<std::string>& required)
+    : file_(std::move(file)), bytes_(std::move(bytes)) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   std::size_t line = 1;
-  std::size_t i = 0;
+  std::size_t i = bytes_.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   bool has_header = false;
-  while (i < bytes.size()) {
+  while (i < bytes_.size()) {
     const std::size_t start = line;
-    row.clear();
+    const std::size_t first = fields_.size();
     for (bool more = true; more;) {
-      std::string field;
-      if (i < bytes.size() && bytes[i] == '"') {
-        for (++i;; ++i) {
-          if (i >= bytes.size()) fail(start, "a quote is not closed");
-          if (bytes[i] == '\n') ++line;
-          if (bytes[i] == '"' && (i + 1 >= bytes.size() || bytes[i + 1] != '"')) break;
-          if (bytes[i] == '"') ++i;
-          field.push_back(bytes[i]);
-        }
-        ++i;
-      } else {
-        const std::size_t end = std::min(bytes.find_first_of(",\r\n\"", i), bytes.size());
-        field = bytes.substr(i, end - i);
-        i = end;
-      }
-      row.push_back(std::move(field));
-      if (i < bytes.size() && bytes[i] == '\r' && i + 1 < bytes.size() && bytes[i + 1] == '\n') ++i;
-      more = i < bytes.size() && bytes[i] == ',';
-      if (i < bytes.size() && !more && bytes[i] != '\n') fail(line, "a comma or the end of the line is missing");
+      fields_.push_back(read_field(i, line));
+      if (i + 1 < bytes_.size() && bytes_[i] == '\r' && bytes_[i + 1] == '\n') ++i;
+      more = i < bytes_.size() && bytes_[i] == ',';
+      if (i < bytes_.size() && !more && bytes_[i] != '\n') fail(line, "a comma or the end of the line is missing");
       ++i;
     }
     ++line;
     if (!has_header) {
-      columns_ = row;
+      columns_ = names();
+      fields_.clear();
       has_header = true;
-    } else if (row.size() != columns_.size()) {
-      fail(start, "found " + std::to_string(row.size()) + " fields; the first line names " +
+    } else if (fields_.size() - first != columns_.size()) {
+      fail(start, "found " + std::to_string(fields_.size() - first) + " fields; the first line names " +
                       std::to_string(columns_.size()) + " columns");
     } else {
-      rows_.push_back(row);
       lines_.push_back(start);
     }
   }
@@ -115,6 +104,38 @@ CsvTable::CsvTable(std::string_view bytes, std::filesystem::path file, const std
   const std::string hint = semicolons ? "; allowed: commas between the fields, not semicolons" : "";
   for (const auto& name : required)
     if (!has(name)) fail(1, "the column '" + name + "' is missing" + hint);
+}
+
+/// Reads the field that begins at `next`, and moves `next` behind it. `line` grows by the line ends in it.
+CsvTable::Field CsvTable::read_field(std::size_t& next, std::size_t& line) {
+  if (next >= bytes_.size() || bytes_[next] != '"') {
+    const std::size_t begin = next;
+    while (next < bytes_.size() && !ends_field(bytes_[next])) ++next;
+    return {begin, next - begin};
+  }
+  // The text is never longer than what it replaces.
+  const std::size_t start = line;
+  const std::size_t begin = next;
+  std::size_t end = begin;
+  for (++next;; ++next) {
+    if (next >= bytes_.size()) fail(start, "a quote is not closed");
+    if (bytes_[next] == '\n') ++line;
+    if (bytes_[next] == '"' && (next + 1 >= bytes_.size() || bytes_[next + 1] != '"')) break;
+    if (bytes_[next] == '"') ++next;
+    bytes_[end++] = bytes_[next];
+  }
+  ++next;
+  return {begin, end - begin};
+}
+
+std::vector<std::string> CsvTable::names() const {
+  std::vector<std::string> names;
+  for (const Field& field : fields_) names.push_back(bytes_.substr(field.begin, field.size));
+  return names;
+}
+
+void CsvTable::fail(std::size_t line, const std::string& message) const {
+  throw ConfigError(file_.string() + ":" + std::to_string(line) + ": " + message);
 }
 
 bool CsvTable::has(std::string_view column) const {
@@ -129,20 +150,25 @@ std::size_t CsvTable::column(std::string_view name) const {
 }
 
 void CsvTable::refuse(std::size_t row, const std::string& message) const {
-  throw ConfigError(file_.string() + ":" + std::to_string(lines_[row]) + ": " + message);
+  fail(lines_[row], message);
 }
 
-const std::string& CsvTable::text(std::size_t row, std::string_view name) const {
-  return rows_[row][column(name)];
+std::string CsvTable::text(std::size_t row, std::string_view name) const {
+  return std::string(field(row, name));
+}
+
+std::string_view CsvTable::field(std::size_t row, std::string_view name) const {
+  const Field& field = fields_[row * columns_.size() + column(name)];
+  return std::string_view(bytes_).substr(field.begin, field.size);
 }
 
 std::optional<double> CsvTable::optional_number(std::size_t row, std::string_view name) const {
-  const std::string& field = text(row, name);
-  if (field.empty()) return std::nullopt;
-  if (field == "inf") return std::numeric_limits<double>::infinity();
-  if (field == "-inf") return -std::numeric_limits<double>::infinity();
-  const auto value = parse_number(field);
-  if (!value) refuse(row, std::string(name) + " is '" + field + "'; allowed: a number, inf, -inf, nothing");
+  const std::string_view text = field(row, name);
+  if (text.empty()) return std::nullopt;
+  if (text == "inf") return std::numeric_limits<double>::infinity();
+  if (text == "-inf") return -std::numeric_limits<double>::infinity();
+  const auto value = parse_number(text);
+  if (!value) refuse(row, std::string(name) + " is '" + std::string(text) + "'; allowed: a number, inf, -inf, nothing");
   return value;
 }
 
@@ -151,9 +177,9 @@ double CsvTable::number(std::size_t row, std::string_view name) const {
 }
 
 long long CsvTable::integer(std::size_t row, std::string_view name) const {
-  const std::string& field = text(row, name);
-  const auto value = parse_integer(field);
-  if (!value) refuse(row, std::string(name) + " is '" + field + "'; allowed: a whole number");
+  const std::string_view text = field(row, name);
+  const auto value = parse_integer(text);
+  if (!value) refuse(row, std::string(name) + " is '" + std::string(text) + "'; allowed: a whole number");
   return *value;
 }
 

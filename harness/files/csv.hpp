@@ -38,25 +38,36 @@ class CsvTable {
  public:
   /// The first line names the columns; a byte order mark before it is skipped. Those in `required` must exist, in any
   /// order.
-  CsvTable(std::string_view bytes, std::filesystem::path file, const std::vector<std::string>& required = {});
+  CsvTable(std::string bytes, std::filesystem::path file, const std::vector<std::string>& required = {});
 
-  std::size_t rows() const { return rows_.size(); }
+  std::size_t rows() const { return lines_.size(); }
   int line(std::size_t row) const { return static_cast<int>(lines_[row]); }  ///< line number at which a row begins
   const std::vector<std::string>& columns() const { return columns_; }
   bool has(std::string_view column) const;
-  const std::string& text(std::size_t row, std::string_view name) const;
-  double number(std::size_t row, std::string_view name) const;                          ///< NaN for an empty field
+  std::string text(std::size_t row, std::string_view name) const;
+  std::string_view field(std::size_t row, std::string_view name) const;  ///< its bytes, as long as the table exists
+  double number(std::size_t row, std::string_view name) const;           ///< NaN for an empty field
   std::optional<double> optional_number(std::size_t row, std::string_view name) const;  ///< nullopt for an empty field
   long long integer(std::size_t row, std::string_view name) const;
   int index(std::size_t row, std::string_view name) const;  ///< an integer that fits an int
   [[noreturn]] void refuse(std::size_t row, const std::string& message) const;
 
  private:
+  /// A field's bytes. Indices, because a table that is moved keeps them.
+  struct Field {
+    std::size_t begin;
+    std::size_t size;
+  };
+
+  Field read_field(std::size_t& next, std::size_t& line);
+  std::vector<std::string> names() const;
   std::size_t column(std::string_view name) const;
+  [[noreturn]] void fail(std::size_t line, const std::string& message) const;
 
   std::filesystem::path file_;
+  std::string bytes_;  ///< of the whole file; quoted fields are replaced by their text
   std::vector<std::string> columns_;
-  std::vector<std::vector<std::string>> rows_;
+  std::vector<Field> fields_;       ///< row by row, without the header
   std::vector<std::size_t> lines_;  ///< line number at which each row begins
 };
 

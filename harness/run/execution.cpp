@@ -3,18 +3,25 @@
 
 #include <algorithm>
 #include <exception>
+#include <initializer_list>
+#include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <malloc.h>
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "core/registry.hpp"
+#include "harness/files/hash.hpp"
 #include "harness/files/system_error.hpp"
 #include "harness/run/cell_work.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/summary.hpp"
+#include "harness/store/written_hashes.hpp"
+#include "metrics/metric.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
@@ -25,44 +32,20 @@ using Clock = std::chrono::steady_clock;
 /// Of the time, the part that is spent on flushing the disk: one in this many.
 constexpr int kFlushShare = 20;
 
-/// A recording that one cell needs is read by that cell's child, which then may take this much more memory. Children
-/// share a larger one, which this process reads.
-constexpr double kReadByChildBytes = 16.0 * 1024 * 1024;
-constexpr double kReadingBytes = 4 * kReadByChildBytes;
-
-/// What a recording's child reports: the content hash, then about how many bytes the recording has in memory.
-std::string recording_report(const std::string& hash, const Recording& recording) {
-  const std::size_t beams = recording.observed.frames.empty() ? 0 : recording.observed.frames.front().ranges.size();
-  std::size_t lines = 0;
-  for (const auto& frame : recording.observed.frames) lines += frame.lines.size();
-  const std::size_t walls = recording.truth ? recording.truth->walls.size() : 0;
-  return hash + " " + std::to_string(24 * recording.observed.frames.size() * (beams + 16) + 100 * walls + 64 * lines);
+/// Several texts as one: each after its length.
+std::string packed(std::initializer_list<std::string_view> texts) {
+  std::string all;
+  for (const std::string_view text : texts) all.append(std::to_string(text.size())).append(" ").append(text);
+  return all;
 }
 
-/// What a cell's child reports: the length of the remarks, the remarks, and the lines of the summary.
-std::string cell_report(const std::string& remarks, const std::string& summary) {
-  return std::to_string(remarks.size()) + " " + remarks + summary;
-}
-
-/// Takes the summary from a report and leaves the remarks.
-std::string take_summary(std::string& report) {
-  const std::size_t blank = report.find(' ');
-  const auto size = static_cast<std::size_t>(parse_number(report.substr(0, blank)).value_or(0.0));
-  std::string summary = report.substr(blank + 1 + size);
-  report = report.substr(blank + 1, size);
-  return summary;
-}
-
-/// Reads a recording that is put in place at this moment, perhaps.
-Recording load_recording_of(const fs::path& staged, const fs::path& target) {
-  if (!staged.empty()) {
-    try {
-      return load_recording(staged);
-    } catch (const ConfigError&) {
-      // It has been renamed.
-    }
-  }
-  return load_recording(target);
+/// Takes the first text.
+std::string unpack(std::string& all) {
+  const std::size_t blank = all.find(' ');
+  const auto size = static_cast<std::size_t>(parse_number(std::string_view(all).substr(0, blank)).value_or(0.0));
+  std::string text = all.substr(blank + 1, size);
+  all.erase(0, blank + 1 + size);
+  return text;
 }
 
 }  // namespace
@@ -81,6 +64,7 @@ void Execution::add(std::size_t cell) {
 
 void Execution::work(const fs::path& folder, double grace_seconds) {
   folder_ = folder;
+  prepare_metrics();
   ::malloc_trim(0);  // each fork copies the page tables of what this process holds, freed or not
   try {
     run_all(grace_seconds);
@@ -96,6 +80,26 @@ void Execution::work(const fs::path& folder, double grace_seconds) {
   for (auto& group : groups_) group.active.reset();
   std::error_code ignored;
   for (const auto& empty : std::exchange(empty_folders_, {})) fs::remove(empty, ignored);
+}
+
+/// A library that a metric needs is loaded here once, and not in each of several cells, most of which take less time.
+void Execution::prepare_metrics() const {
+  std::map<std::string, std::size_t> cells;  // by family
+  std::map<std::string, const ModuleChoice*> families;
+  for (const Group& group : groups_)
+    for (const std::size_t cell : group.cells)
+      for (const ModuleChoice& choice : scenario_of(cell).metrics) {
+        ++cells[choice.module];
+        families[choice.module] = &choice;
+      }
+  for (const auto& [name, choice] : families) {
+    if (cells[name] < 2) continue;
+    try {
+      Registry<metrics::MetricFamily>::make(name, choice->params)->prepare();
+    } catch (const ConfigError&) {
+      // The cells say what is missing.
+    }
+  }
 }
 
 void Execution::run_all(double grace_seconds) {
@@ -138,25 +142,39 @@ bool Execution::start_next() {
   return false;
 }
 
+/// Starts the child that makes a recording. A cell that is the only one of its recording runs in the same child.
 void Execution::start_recording(std::size_t index) {
   groups_[index].active = std::make_unique<ActiveGroup>();
   ActiveGroup& group = *groups_[index].active;
   const PlannedGroup& planned = plan_.groups[index];
+  const std::vector<std::size_t>& cells = groups_[index].cells;
+  const bool with_cell = cells.size() == 1;
+  std::optional<StagedFolder> cell_folder;
   try {
     group.staged.emplace(stage_folder(recording_path(folder_, planned.scenario->name, planned.seed)));
+    if (with_cell) cell_folder.emplace(stage_folder(cell_path(folder_, plan_.key(plan_.cells[cells.front()]))));
   } catch (const ConfigError& e) {
+    group.staged.reset();
     skip_cells(index, {.message = e.what(), .system_error = true});
     return;
   }
   const int threads = std::max(1, jobs_ - static_cast<int>(pool_->running()));
   events_.began_recording("recording " + planned.scenario->name + "/" + std::to_string(planned.seed));
+  std::optional<Recording> made;  // in the child
   const auto make = [&] {
-    const Recording recording = make_recording_(*planned.scenario, planned.seed, threads);
-    return recording_report(write_recording(group.staged->path(), recording), recording);
+    made = make_recording_(*planned.scenario, planned.seed, threads);
+    const std::string hash = write_recording(group.staged->path(), *made);
+    return packed({hash, hashes_of(group.staged->path())});
   };
+  const Limits& limits = planned.scenario->limits;
+  std::vector<WorkerTask> tasks{{plan_.cells.size() + index, make, {limits.seconds, limits.memory_bytes, threads}}};
+  if (with_cell)
+    tasks.push_back({cells.front(),
+                     [&] { return work_on_cell(cells.front(), cell_folder->path(), *made); },
+                     {limits.seconds, limits.memory_bytes, 1}});
   try {
-    pool_->start(plan_.cells.size() + index, make,
-                 {planned.scenario->limits.seconds, planned.scenario->limits.memory_bytes, threads});
+    pool_->start(tasks);
+    if (with_cell) running_.emplace(cells.front(), std::move(*cell_folder));
   } catch (const SystemError& e) {
     group.staged.reset();
     skip_cells(index, {.message = e.what(), .system_error = true});
@@ -166,13 +184,12 @@ void Execution::start_recording(std::size_t index) {
 void Execution::finish_recording(std::size_t index, WorkerOutcome outcome) {
   ActiveGroup& group = *groups_[index].active;
   const std::vector<std::size_t>& cells = groups_[index].cells;
+  const bool with_cell = cells.size() == 1;
   if (outcome.status == CellStatus::ok) {
+    const std::string hash = unpack(outcome.message);
+    group.hashes = unpack(outcome.message);
     try {
-      const std::size_t blank = outcome.message.find(' ');
-      const std::string hash = outcome.message.substr(0, blank);
-      const double bytes = parse_number(std::string_view(outcome.message).substr(blank + 1)).value_or(0.0);
-      const bool by_child = cells.size() == 1 && bytes < kReadByChildBytes;
-      if (!by_child) group.recording = load_recording(group.staged->path());
+      if (!with_cell) group.recording = load_recording(group.staged->path());
       // The new recording replaces the old one only if it differs.
       try {
         if (fs::exists(group.staged->target()) && recording_hash(load_recording(group.staged->target())) == hash)
@@ -181,7 +198,10 @@ void Execution::finish_recording(std::size_t index, WorkerOutcome outcome) {
         // The old recording is damaged.
       }
       if (group.staged && !events_.copy_files) new_recordings_.push_back(index);
-      ready_.insert(ready_.end(), cells.begin(), cells.end());
+      if (with_cell)
+        has_other_failure_ = true;
+      else
+        ready_.insert(ready_.end(), cells.begin(), cells.end());
       return;
     } catch (const SystemError& e) {
       outcome = {.message = e.what(), .system_error = true};
@@ -199,27 +219,25 @@ void Execution::skip_cells(std::size_t index, const WorkerOutcome& outcome) {
   const std::string message =
       "there is no recording: " + std::string(to_string(outcome.status)) + ": " + outcome.message;
   for (const std::size_t cell : groups_[index].cells) {
+    auto begun = running_.extract(cell);
     if (outcome.system_error)
       mark_missing(cell, outcome.message);
-    else if (auto staged = stage(cell))
+    else if (auto staged = begun ? std::optional(std::move(begun.mapped())) : stage(cell))
       finish_cell(cell, std::move(*staged), {.status = CellStatus::skipped, .message = message});
   }
 }
 
-/// The work of a cell's child.
-std::function<std::string()> Execution::task_of(std::size_t cell, const fs::path& folder) {
-  return [this, cell, folder] {
-    const PlannedCell& planned = plan_.cells[cell];
-    const PlannedWork& work = plan_.works[planned.work];
-    const ActiveGroup& group = active_group_of(cell);
-    std::optional<Recording> read;
-    if (!group.recording)
-      read = load_recording_of(group.staged ? group.staged->path() : fs::path(),
-                               recording_path(folder_, work.scenario->name, plan_.groups[planned.group].seed));
-    const CellOutput output =
-        make_cell(folder, *work.scenario, *work.pipeline, plan_.trace(planned), read ? *read : *group.recording);
-    return cell_report(output.remarks, summary_lines(plan_.key(planned), output.rows));
-  };
+/// Nobody needs them if the files are copied.
+std::string Execution::hashes_of(const fs::path& folder) const {
+  return events_.wrote && !events_.copy_files ? hash_lines(folder) : "";
+}
+
+/// What a cell's child does. Returns its remarks, the lines of the summary, and the hashes of its files.
+std::string Execution::work_on_cell(std::size_t cell, const fs::path& folder, const Recording& recording) const {
+  const PlannedCell& planned = plan_.cells[cell];
+  const PlannedWork& work = plan_.works[planned.work];
+  const CellOutput output = make_cell(folder, *work.scenario, *work.pipeline, plan_.trace(planned), recording);
+  return packed({output.remarks, summary_lines(plan_.key(planned), output.rows), hashes_of(folder)});
 }
 
 void Execution::start_cell(std::size_t cell) {
@@ -231,9 +249,9 @@ void Execution::start_cell(std::size_t cell) {
   std::optional<StagedFolder> staged = stage(cell);
   if (!staged) return;
   const Limits& limits = scenario_of(cell).limits;
-  const double reading = active_group_of(cell).recording ? 0.0 : kReadingBytes;
+  const auto task = [&] { return work_on_cell(cell, staged->path(), *active_group_of(cell).recording); };
   try {
-    pool_->start(cell, task_of(cell, staged->path()), {limits.seconds, limits.memory_bytes + reading, 1});
+    pool_->start(cell, task, {limits.seconds, limits.memory_bytes, 1});
     running_.emplace(cell, std::move(*staged));
   } catch (const SystemError& e) {
     mark_missing(cell, e.what());
@@ -251,14 +269,21 @@ void Execution::finish_cell(std::size_t cell, StagedFolder staged, WorkerOutcome
   result.done = true;
   try {
     std::string summary;
-    if (outcome.status == CellStatus::ok)
-      summary = take_summary(outcome.message);
-    else
+    std::string hashes;
+    if (outcome.status == CellStatus::ok) {
+      std::string report = std::exchange(outcome.message, "");
+      outcome.message = unpack(report);
+      summary = unpack(report);
+      hashes = unpack(report);
+    } else {
       staged.clear();
+    }
     result.record.outcome = std::move(outcome);
     result.record.address = plan_.address(planned);
-    write_staged_file(staged.path() / kStatusFile, status_json(result.record));
-    finished_.push_back({cell, std::move(result), std::move(summary), std::move(staged)});
+    const std::string status = status_json(result.record);
+    write_staged_file(staged.path() / kStatusFile, status);
+    hashes += hash_line(kStatusFile.name(), sha256_hex(status));
+    finished_.push_back({cell, std::move(result), std::move(summary), std::move(hashes), std::move(staged)});
   } catch (const ConfigError& e) {
     mark_missing(cell, e.what());
   }
@@ -331,10 +356,11 @@ void Execution::put_in_place() {
   }
   std::string fault;
   std::set<fs::path> parents;
-  const auto place = [&](StagedFolder& staged) -> std::string {
+  const auto place = [&](StagedFolder& staged, const std::string& hashes) -> std::string {
     if (!fault.empty()) return fault;
     try {
       staged.place();
+      if (events_.wrote) events_.wrote(staged.target().lexically_relative(folder_), hashes);
       parents.insert(staged.target().parent_path());
     } catch (const ConfigError& e) {
       return e.what();
@@ -351,14 +377,15 @@ void Execution::put_in_place() {
   }
   for (const std::size_t index : std::exchange(new_recordings_, {})) {
     ActiveGroup& group = *groups_[index].active;
-    group.fault = place(*group.staged);
+    group.fault = place(*group.staged, std::exchange(group.hashes, ""));
     group.staged.reset();
   }
   std::vector<Finished> ended = std::exchange(finished_, {});
   std::vector<std::string> faults;
   faults.reserve(ended.size());
   for (auto& cell : ended)
-    faults.push_back(active_group_of(cell.cell).fault.empty() ? place(cell.staged) : active_group_of(cell.cell).fault);
+    faults.push_back(active_group_of(cell.cell).fault.empty() ? place(cell.staged, cell.hashes)
+                                                              : active_group_of(cell.cell).fault);
   try {
     for (const auto& parent : parents) flush_folder(parent);
   } catch (const ConfigError& e) {

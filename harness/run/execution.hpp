@@ -30,6 +30,8 @@ struct ExecutionEvents {
   std::function<void(std::size_t cell, CellResult result, const std::string& summary)> ended;
   std::function<void(const std::string& what)> began_recording;
   std::function<void()> pause;  ///< between two cells
+  /// A folder with these files was put in place; its path is relative to the run (hash_lines() of written_hashes.hpp).
+  std::function<void(const std::filesystem::path& folder, const std::string& hashes)> wrote = {};
   /// If given, no folder is put in place: before `ended`, the owner copies the files of the cell, and those of its
   /// recording, whose path is empty if it could not be made. If this throws ConfigError, the cell is missing.
   std::function<void(std::size_t cell, const CellResult& result, const std::filesystem::path& files,
@@ -66,8 +68,9 @@ class Execution {
  private:
   struct ActiveGroup {
     std::optional<StagedFolder> staged;  ///< until the recording is in place, or its last cell was copied
-    std::optional<Recording> recording;  ///< while cells need it, unless a child reads it
+    std::optional<Recording> recording;  ///< while cells need it, if several do
     std::string fault;                   ///< why the recording could not be put in place
+    std::string hashes;                  ///< of the recording's files
   };
   struct Group {
     std::vector<std::size_t> cells;
@@ -79,15 +82,18 @@ class Execution {
     std::size_t cell;
     CellResult result;
     std::string summary;
+    std::string hashes;  ///< of its files
     StagedFolder staged;
   };
 
+  void prepare_metrics() const;
   void run_all(double grace_seconds);
   void take(WorkerPool::Finished finished);
   bool start_next();
   void start_recording(std::size_t index);
   void finish_recording(std::size_t index, WorkerOutcome outcome);
-  std::function<std::string()> task_of(std::size_t cell, const std::filesystem::path& folder);
+  std::string hashes_of(const std::filesystem::path& folder) const;
+  std::string work_on_cell(std::size_t cell, const std::filesystem::path& folder, const Recording& recording) const;
   void skip_cells(std::size_t index, const WorkerOutcome& outcome);
   void start_cell(std::size_t cell);
   void finish_cell(std::size_t cell, StagedFolder staged, WorkerOutcome outcome);

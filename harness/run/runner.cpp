@@ -22,6 +22,7 @@
 #include "harness/store/run_start.hpp"
 #include "harness/store/run_target.hpp"
 #include "harness/store/summary.hpp"
+#include "harness/store/written_hashes.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
@@ -34,11 +35,13 @@ class Run {
         options_(options),
         services_(services),
         plan_(plan_run(scenarios, options)),
-        execution_(plan_, options.jobs, services.recording,
-                   {.ended = [this](std::size_t cell, CellResult result,
-                                    const std::string& summary) { end_cell(cell, std::move(result), summary); },
-                    .began_recording = [this](const std::string& what) { tell_progress(what, nullptr); },
-                    .pause = [this] { write_summary_now_and_then(); }}),
+        execution_(
+            plan_, options.jobs, services.recording,
+            {.ended = [this](std::size_t cell, CellResult result,
+                             const std::string& summary) { end_cell(cell, std::move(result), summary); },
+             .began_recording = [this](const std::string& what) { tell_progress(what, nullptr); },
+             .pause = [this] { write_summary_now_and_then(); },
+             .wrote = [this](const fs::path& folder, const std::string& hashes) { written_.add(folder, hashes); }}),
         cells_(plan_.cells.size()),
         summary_(plan_.cells.size()) {
     target_ = std::make_unique<RunTarget>(options.out, options.resume || !options.only.empty());
@@ -172,16 +175,20 @@ class Run {
     return result;
   }
 
-  /// Files of reused cells and recordings. A recording may have been made again for other cells.
-  std::map<std::string, std::string> verified_files() const {
-    if (!earlier_) return {};
-    std::map<std::string, std::string> files = earlier_->verified();
+  /// Files of reused cells and recordings, and of those that were written. A recording may have been made again for
+  /// other cells.
+  std::map<std::string, std::string> verified_files() {
+    std::map<std::string, std::string> files = written_.take();
+    if (!earlier_) return files;
+    std::map<std::string, std::string> earlier = earlier_->verified();
     for (std::size_t i = 0; i < plan_.groups.size(); ++i) {
       if (!execution_.has_work(i)) continue;
       const fs::path folder = recording_path("", plan_.groups[i].scenario->name, plan_.groups[i].seed);
-      std::erase_if(
-          files, [prefix = folder.generic_string() + "/"](const auto& file) { return file.first.starts_with(prefix); });
+      std::erase_if(earlier, [prefix = folder.generic_string() + "/"](const auto& file) {
+        return file.first.starts_with(prefix);
+      });
     }
+    files.merge(earlier);
     return files;
   }
 
@@ -189,6 +196,7 @@ class Run {
   const RunOptions& options_;
   const RunServices& services_;
   RunPlan plan_;
+  WrittenHashes written_;
   Execution execution_;  ///< destroyed late, so that no interrupt comes before the unfinished run is removed
   std::unique_ptr<RunTarget> target_;
   std::optional<EarlierCells> earlier_;  ///< of a run that is resumed

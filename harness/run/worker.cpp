@@ -9,15 +9,14 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
-#include <exception>
-#include <filesystem>
+#include <deque>
 #include <iterator>
 #include <limits>
-#include <new>
+#include <optional>
+#include <utility>
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -25,27 +24,19 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
-#include "harness/files/atomic_file.hpp"
 #include "harness/files/system_error.hpp"
 #include "harness/foreign/confine.hpp"
-#include "harness/foreign/fault.hpp"
 #include "harness/foreign/output_tail.hpp"
 #include "harness/run/descendants.hpp"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SCANBENCH_UNDER_SANITIZER 1
-#else
-#define SCANBENCH_UNDER_SANITIZER 0
-#endif
+#include "harness/run/worker_report.hpp"
 
 namespace scanbench::harness {
 namespace {
 
-constexpr std::size_t kTail = 4096;                            // bytes kept of what a child prints
-constexpr std::size_t kMessageLimit = std::size_t{16} * 1024;  // bytes kept of an exception's message
-constexpr std::size_t kReportLimit = 8 << 20;                  // bytes that a child may report
-constexpr int kBlocksAtOnce = 64;                              // read of one pipe before the others get their turn
-constexpr double kKillDeadline = 5.0;                          // seconds to wait for a killed child to end
+constexpr std::size_t kTail = 4096;            // bytes kept of what a child prints
+constexpr std::size_t kReportLimit = 8 << 20;  // bytes that a child may report
+constexpr int kBlocksAtOnce = 64;              // read of one pipe before the others get their turn
+constexpr double kKillDeadline = 5.0;          // seconds to wait for a killed child to end
 constexpr int kInterrupts[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t interrupt_seen = 0;
@@ -98,121 +89,6 @@ double wall_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Sets the soft limit, and the hard one `margin` above it, so that the task cannot raise its own limit.
-void limit(int resource, double value, double margin = 0.0) {
-  if (!(value + margin < 1e18)) return;
-  rlimit current{};
-  getrlimit(static_cast<__rlimit_resource_t>(resource), &current);
-  const auto largest = static_cast<double>(current.rlim_max);
-  current.rlim_cur = static_cast<rlim_t>(std::min(value, largest));
-  current.rlim_max = static_cast<rlim_t>(std::min(value + margin, largest));
-  setrlimit(static_cast<__rlimit_resource_t>(resource), &current);
-}
-
-/// Address space in use, from the first number of /proc/self/statm.
-double address_space_bytes() {
-  const std::string text = read_file("/proc/self/statm");
-  const auto pages = parse_number(std::string_view(text).substr(0, text.find(' ')));
-  return pages.value_or(0.0) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
-constexpr std::string_view kOutOfMemory = "an allocation failed (std::bad_alloc)\n";
-
-/// The new-handler of a child: runs before std::bad_alloc is thrown, even if nothing catches it.
-void say_out_of_memory() {
-  [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, kOutOfMemory.data(), kOutOfMemory.size());
-  std::set_new_handler(nullptr);
-}
-
-void set_limits(const WorkerLimits& limits) {
-  std::set_new_handler(say_out_of_memory);
-  limit(RLIMIT_CORE, 0);
-  // CPU time is limited above the limit of wall time, in case the parent cannot act. SIGXCPU comes first, SIGKILL at
-  // the margin.
-  const double cores = std::max(1.0, static_cast<double>(::sysconf(_SC_NPROCESSORS_ONLN)));
-  limit(RLIMIT_CPU, std::ceil(limits.seconds) * cores + 2.0, 2.0);
-  // Each thread reserves address space for its stack and its heap arena without using it.
-  const double reserve = 144.0 * 1024 * 1024 * (limits.threads > 1 ? limits.threads : 0);
-  if (!SCANBENCH_UNDER_SANITIZER) limit(RLIMIT_AS, address_space_bytes() + limits.memory_bytes + reserve);
-}
-
-/// Cuts an exception's message, because a module may write one of any length.
-std::string shortened(std::string text) {
-  if (text.size() <= kMessageLimit) return text;
-  const std::string rest = std::to_string(text.size() - kMessageLimit);
-  text.resize(kMessageLimit);
-  return text + " [" + rest + " more bytes]";
-}
-
-/// Runs the task and returns the bytes for the pipe: one character for the status, then the message.
-std::string perform(const std::function<std::string()>& task) {
-  try {
-    return "o" + task();
-  } catch (const std::bad_alloc&) {
-    return "m";
-  } catch (const InvalidResult& e) {
-    return shortened(std::string("i") + e.what());
-  } catch (const SystemError& e) {
-    return shortened(std::string("s") + e.what());
-  } catch (const std::filesystem::filesystem_error& e) {
-    return shortened(std::string("s") + e.what());
-  } catch (const ConfigError& e) {
-    return shortened(std::string("c") + e.what());
-  } catch (const ForeignFault& e) {
-    const bool ended = e.kind() == ForeignFault::Kind::ended;
-    const bool late = e.kind() == ForeignFault::Kind::timeout;
-    const bool memory = e.kind() == ForeignFault::Kind::memory;
-    return shortened(std::string(ended ? "e" : late ? "t" : memory ? "m" : "f") + e.what());
-  } catch (const InternalError& e) {
-    return shortened(std::string("finternal error: ") + e.what());
-  } catch (const std::exception& e) {
-    return shortened(std::string("f") + e.what());
-  } catch (...) {
-    return "fan exception that is no std::exception";
-  }
-}
-
-/// Keeps only the child's output, its report as descriptor 3, and an empty standard input, so that processes started by
-/// the task cannot hold the lock of the run's folder, the pipes of other children or the user's terminal. Returns 3.
-int keep_only(int report, int output) {
-  constexpr int kReport = STDERR_FILENO + 1;
-  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-  // The pipes may have any descriptors, so both are moved above kReport first.
-  const int from = ::fcntl(report, F_DUPFD_CLOEXEC, kReport + 1);
-  const int to = ::fcntl(output, F_DUPFD_CLOEXEC, kReport + 1);
-  if (from < 0 || to < 0 || nothing < 0) _exit(3);
-  dup2(nothing, STDIN_FILENO);
-  dup2(to, STDOUT_FILENO);
-  dup2(to, STDERR_FILENO);
-  dup3(from, kReport, O_CLOEXEC);
-  ::close_range(kReport + 1, ~0U, 0);
-  return kReport;
-}
-
-[[noreturn]] void live_as_child(const std::function<std::string()>& task, const WorkerLimits& limits, pid_t parent,
-                                int report, int output) {
-  setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(3);  // the parent ended before prctl() was called
-  for (const int signal : kInterrupts)
-    if (sigismember(&held, signal) == 1) std::signal(signal, SIG_DFL);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of write(), with a message
-  sigprocmask(SIG_SETMASK, &old_mask, nullptr);
-  adopt_orphans();  // what loses its parent here stays below this task as long as it runs, and ends with it
-  report = keep_only(report, output);
-  set_limits(limits);
-  const std::string text = perform(task);
-  std::fflush(nullptr);
-  std::string_view rest = text;
-  while (!rest.empty()) {
-    const ssize_t n = ::write(report, rest.data(), rest.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) _exit(3);
-    rest.remove_prefix(static_cast<std::size_t>(n));
-  }
-  _exit(0);
-}
-
 /// Reads the available bytes, up to a number of blocks, because a child may write without end. False at the end of the
 /// pipe.
 bool drain(int fd, std::string& text) {
@@ -253,20 +129,29 @@ void reap(pid_t pid) {
 }  // namespace
 
 struct WorkerPool::Worker {
-  std::size_t id;
+  struct Task {
+    std::size_t id;
+    double seconds;  ///< limit
+  };
+
+  std::deque<Task> tasks;  ///< the first runs
   pid_t pid;
   int report;
   int output;
   int end;  ///< a descriptor of the process, which is readable when it has ended; -1 if the kernel has none
-  double seconds;
   double start;
   bool killed_for_time = false;
   bool killed_for_report = false;
   bool killed_for_signal = false;
   bool report_open = true;
   bool output_open = true;
+  double cpu_before = 0.0;  ///< seconds of earlier tasks
   std::string report_text = {};
   std::string output_text = {};
+
+  std::size_t id() const { return tasks.front().id; }
+  double seconds() const { return tasks.front().seconds; }
+  bool is_late() const { return wall_seconds() > start + seconds(); }
 
   void close() const {
     ::close(report);
@@ -285,53 +170,50 @@ struct WorkerPool::Worker {
     }
   }
 
-  WorkerOutcome outcome(int wait_status, const rusage& usage) const {
+  bool was_killed() const { return killed_for_time || killed_for_report || killed_for_signal; }
+
+  /// If the first of several tasks has ended well, the next one is running.
+  std::optional<Finished> next_task() {
+    if (tasks.size() < 2 || was_killed() || is_late()) return std::nullopt;
+    std::string rest = report_text;
+    std::optional<WorkerOutcome> outcome = take_report(rest);
+    if (!outcome || outcome->status != CellStatus::ok) return std::nullopt;
+    const double now = wall_seconds();
+    outcome->wall_seconds = now - std::exchange(start, now);
+    cpu_before += outcome->cpu_seconds;
+    report_text = std::move(rest);
+    const std::size_t ended = id();
+    tasks.pop_front();
+    return Finished{ended, std::move(*outcome)};
+  }
+
+  WorkerOutcome outcome(int wait_status, const rusage& usage) {
     const auto seconds_of = [](const timeval& t) {
       return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
     };
-    WorkerOutcome result;
+    WorkerOutcome result = outcome_of(wait_status);
     result.wall_seconds = wall_seconds() - start;
-    result.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+    result.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime) - cpu_before;
     result.peak_memory_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
-    if (killed_for_report) {
-      result.status = CellStatus::failed;
-      result.message = "reported more than " + std::to_string(kReportLimit) + " bytes";
-      return result;
-    }
-    if (killed_for_signal) {
-      result.status = CellStatus::crashed;
-      result.message = "sent a signal to this program, which is for the user to do";
-      return result;
-    }
-    const bool exited = WIFEXITED(wait_status) && WEXITSTATUS(wait_status) == 0 && !report_text.empty();
-    if (exited && result.wall_seconds > seconds) {
+    return result;
+  }
+
+  WorkerOutcome outcome_of(int wait_status) {
+    if (killed_for_report) return {.message = "reported more than " + std::to_string(kReportLimit) + " bytes"};
+    if (killed_for_signal)
+      return {.status = CellStatus::crashed, .message = "sent a signal to this program, which is for the user to do"};
+    WorkerOutcome result;
+    const bool exited = WIFEXITED(wait_status) && WEXITSTATUS(wait_status) == 0;
+    std::optional<WorkerOutcome> reported = exited ? take_report(report_text) : std::nullopt;
+    if (reported && is_late()) {
       // It ended before the parent saw that its time was over. Which comes first must not change the result.
       result.status = CellStatus::timeout;
       result.message = over_time();
-    } else if (exited) {
-      result.message = report_text.substr(1);
-      switch (report_text.front()) {
-        case 'o':
-          result.status = CellStatus::ok;
-          return result;
-        case 'i':
-          result.status = CellStatus::invalid;
-          break;
-        case 'e':
-          result.status = CellStatus::crashed;
-          break;
-        case 't':
-          result.status = CellStatus::timeout;
-          break;
-        case 'm':
-          result.status = CellStatus::out_of_memory;
-          if (result.message.empty()) result.message = "an allocation failed under the memory limit";
-          break;
-        default:
-          result.status = CellStatus::failed;
-          result.bad_input = report_text.front() == 'c';
-          result.system_error = report_text.front() == 's';
-      }
+    } else if (reported) {
+      result = std::move(*reported);
+      if (result.status == CellStatus::ok) return result;
+      if (result.status == CellStatus::out_of_memory && result.message.empty())
+        result.message = "an allocation failed under the memory limit";
     } else if (WIFSIGNALED(wait_status)) {
       describe_signal(WTERMSIG(wait_status), result);
     } else {
@@ -342,7 +224,7 @@ struct WorkerPool::Worker {
     return result;
   }
 
-  std::string over_time() const { return "took longer than the limit of " + number_text(seconds) + " s"; }
+  std::string over_time() const { return "took longer than the limit of " + number_text(seconds()) + " s"; }
 
   void describe_signal(int signal, WorkerOutcome& result) const {
     if (killed_for_time) {
@@ -405,16 +287,21 @@ std::size_t WorkerPool::running() const {
   return workers_.size();
 }
 
-bool WorkerPool::interrupted() const {
+bool WorkerPool::interrupted() const {  // NOLINT(*-convert-member-functions-to-static)
   take_pending_signals();
   return interrupt_seen != 0;
 }
 
-bool WorkerPool::terminated() const {
+bool WorkerPool::terminated() const {  // NOLINT(*-convert-member-functions-to-static)
   return run_is_terminated();
 }
 
 void WorkerPool::start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits) {
+  start({{id, task, limits}});
+}
+
+void WorkerPool::start(const std::vector<WorkerTask>& tasks) {
+  SCANBENCH_ASSERT(!tasks.empty());
   int report[2];
   int output[2];
   if (::pipe2(report, O_CLOEXEC) != 0) throw SystemError(std::string("cannot start a worker: ") + std::strerror(errno));
@@ -426,7 +313,7 @@ void WorkerPool::start(std::size_t id, const std::function<std::string()>& task,
   std::fflush(nullptr);  // or the child would print the parent's buffers again
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
-  if (pid == 0) live_as_child(task, limits, parent, report[1], output[1]);
+  if (pid == 0) live_as_child(tasks, {parent, report[1], output[1], held, old_mask});
   ::close(report[1]);
   ::close(output[1]);
   if (pid < 0) {
@@ -437,8 +324,14 @@ void WorkerPool::start(std::size_t id, const std::function<std::string()>& task,
   setpgid(pid, pid);  // called in both processes, because either may be the first
   fcntl(report[0], F_SETFL, O_NONBLOCK);
   fcntl(output[0], F_SETFL, O_NONBLOCK);
-  workers_.push_back({id, pid, report[0], output[0], static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)),
-                      limits.seconds, wall_seconds()});
+  Worker worker{.tasks = {},
+                .pid = pid,
+                .report = report[0],
+                .output = output[0],
+                .end = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)),
+                .start = wall_seconds()};
+  for (const WorkerTask& task : tasks) worker.tasks.push_back({task.id, task.limits.seconds});
+  workers_.push_back(std::move(worker));
 }
 
 /// Ends what a worker has left in sessions of their own, and removes its group of limits.
@@ -475,7 +368,7 @@ std::vector<WorkerPool::Finished> WorkerPool::poll_once(double longest_pause) {
     if (w.output_open) fds.push_back({w.output, POLLIN, 0});
     if (w.end >= 0) fds.push_back({w.end, POLLIN, 0});
     // A closed report means that the child ends soon, without anything left to poll.
-    pause = std::min(pause, w.report_open && !w.killed_for_time ? w.start + w.seconds - wall_seconds() : 1e-3);
+    pause = std::min(pause, w.report_open && !w.killed_for_time ? w.start + w.seconds() - wall_seconds() : 1e-3);
   }
   pause = std::max(pause, 0.0);
   const timespec timeout{static_cast<time_t>(pause), static_cast<long>(1e9 * (pause - std::floor(pause)))};
@@ -488,7 +381,8 @@ std::vector<WorkerPool::Finished> WorkerPool::poll_once(double longest_pause) {
       w.killed_for_signal = true;
       kill_child(w.pid);
     }
-    if (!w.killed_for_time && wall_seconds() > w.start + w.seconds) {
+    while (auto ended = w.next_task()) finished.push_back(std::move(*ended));
+    if (!w.killed_for_time && w.is_late()) {
       w.killed_for_time = true;
       kill_child(w.pid);
     }
@@ -498,12 +392,13 @@ std::vector<WorkerPool::Finished> WorkerPool::poll_once(double longest_pause) {
     }
     ::kill(-w.pid, SIGKILL);  // processes that the task may have started
     w.read_pipes();           // the rest, which is less than one read takes
+    while (auto ended = w.next_task()) finished.push_back(std::move(*ended));
     int status = 0;
     rusage usage{};
     ::wait4(w.pid, &status, 0, &usage);
     end_descendants(w.pid);
     w.close();
-    finished.push_back({w.id, w.outcome(status, usage)});
+    finished.push_back({w.id(), w.outcome(status, usage)});
     workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
   }
   return finished;

@@ -10,15 +10,10 @@
 
 #include <sys/types.h>
 
+#include "harness/run/worker_child.hpp"
 #include "harness/store/cell_status.hpp"
 
 namespace scanbench::harness {
-
-struct WorkerLimits {
-  double seconds = 600.0;     ///< wall time
-  double memory_bytes = 4e9;  ///< address space beyond what the parent uses at the fork; not limited under sanitizers
-  int threads = 1;            ///< the task may start this many
-};
 
 /// Runs tasks in forked children. The parent must have one thread only when start() is called. While a pool exists,
 /// SIGINT, SIGTERM and SIGHUP are blocked and seen only by wait(). Each child is a process group of its own, so that an
@@ -42,6 +37,10 @@ class WorkerPool {
   /// parent's objects. A result of more than 8 MiB is a failure. Throws SystemError if the system refuses another
   /// process.
   void start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits);
+  /// Runs the tasks one after another in one child, which saves forks where the next task needs what the one before it
+  /// has in memory. Each has its own limits and its own outcome. A task that is not ok ends the child: those after it
+  /// have no outcome.
+  void start(const std::vector<WorkerTask>& tasks);
   std::size_t running() const;
   /// Blocks until a child has ended, or an interrupt: then interrupted() is true and the list may be empty.
   std::vector<Finished> wait();

@@ -39,7 +39,7 @@ std::vector<PublishedValue> load_published(const std::filesystem::path& path) {
   std::vector<PublishedValue> values;
   std::map<std::tuple<std::string, std::string, std::string>, int> lines;
   for (std::size_t r = 0; r < csv.rows(); ++r) {
-    const std::string& unit = csv.text(r, "unit");
+    const std::string unit = csv.text(r, "unit");
     const bool rating = unit == "rating";
     const double per_unit = unit == "cm" ? 100.0 : 1.0;  // divisor: 100 is exact, a factor of 0.01 is not
     values.push_back({.metric = csv.text(r, "metric"),

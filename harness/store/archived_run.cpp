@@ -30,7 +30,7 @@ ArchivePart part_from(const CsvTable& csv, std::size_t row) {
 }
 
 std::string archive_from(const CsvTable& csv, std::size_t row) {
-  const std::string& name = csv.text(row, "archive");
+  const std::string name = csv.text(row, "archive");
   check_name("archive", name);
   return name;
 }

@@ -59,7 +59,8 @@ Hashes artefacts(const fs::path& run, const KnownHashes& known = {}) {
     if (!entry.is_regular_file() || !is_run_file(relative) || relative == kManifestFile.name()) continue;
     const std::string path = relative.generic_string();
     const auto hash = known.hashes.find(path);
-    const bool is_known = hash != known.hashes.end() && fs::last_write_time(entry.path()) < known.since;
+    const bool is_known = hash != known.hashes.end() &&
+                          (known.since == fs::file_time_type::max() || fs::last_write_time(entry.path()) < known.since);
     hashes.emplace(path, is_known ? hash->second : sha256_of_file(entry.path()));
   }
   return hashes;
@@ -121,6 +122,12 @@ class ArtefactReader : public nlohmann::json_sax<Json> {
   std::string key_, path_, sha256_;
   Hashes hashes_;
 };
+
+Hashes hashes_in_manifest(const fs::path& run) {
+  ArtefactReader reader;
+  Json::sax_parse(read_file(run / kManifestFile), &reader);
+  return reader.take();
+}
 
 /// Writes the file as Json::dump() would, without holding the list of files as JSON values.
 void write_json(const fs::path& run, const Json& json, const Hashes& hashes) {
@@ -207,21 +214,20 @@ Manifest load_manifest(const fs::path& run) {
 
 std::map<std::string, std::string> listed_hashes(const fs::path& run) {
   manifest_json(run);  // refuses what is no manifest
-  ArtefactReader reader;
-  Json::sax_parse(read_file(run / kManifestFile), &reader);
-  return reader.take();
+  return hashes_in_manifest(run);
 }
 
 void refresh_manifest(const fs::path& run) {
   constexpr auto kClock = std::chrono::seconds(1);  // more than the grain of any file system's times
-  const KnownHashes known{listed_hashes(run), fs::last_write_time(run / kManifestFile) - kClock};
-  write_json(run, manifest_json(run), artefacts(run, known));
+  const Json json = manifest_json(run);
+  const KnownHashes known{hashes_in_manifest(run), fs::last_write_time(run / kManifestFile) - kClock};
+  write_json(run, json, artefacts(run, known));
 }
 
 void set_run_state(const fs::path& run, const std::string& state) {
   Json json = manifest_json(run);
   json["state"] = state;
-  write_json(run, json, listed_hashes(run));
+  write_json(run, json, hashes_in_manifest(run));
 }
 
 std::string version_text() {

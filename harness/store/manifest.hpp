@@ -22,8 +22,8 @@ struct Manifest {
   std::vector<std::string> argv;
   std::vector<std::string> scenarios;  ///< in order
   std::vector<CellKey> cells;          ///< all planned cells, in the order of summary.csv
-  /// By path: SHA-256 of files that were read during this run, had it, and were not written since. They are not read
-  /// again for the list of files.
+  /// By path: SHA-256 of files that were read or written during this run, had it, and were not written since. They are
+  /// not read again for the list of files.
   std::map<std::string, std::string> verified{};
   /// What keeps cells from each other and from the machine: limits and sandboxes that were active.
   std::vector<std::string> isolation{};

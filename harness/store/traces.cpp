@@ -17,7 +17,7 @@ Trace Journal::begin(std::string_view slot, int frame) {
   slot_ = slot;
   frame_ = frame;
   stage_.clear();
-  if (!choice_.wants(slot_)) return Trace();
+  if (!choice_.wants(slot_)) return {};
   return Trace({.stage = [this](Stage begun) { stage_ = to_string(begun); },
                 .row = [this](const TraceSchema& schema, std::span<const double> v) { write(schema.name, v); }});
 }
@@ -39,10 +39,10 @@ TraceRows load_trace(const std::filesystem::path& cell, const TraceChoice& choic
   if (choice.nothing() || !std::filesystem::exists(file)) return rows;
   const CsvTable csv(read_file(file), file, {"slot", "frame", "stage", "name", "values"});
   for (std::size_t r = 0; r < csv.rows(); ++r) {
-    const std::string &slot = csv.text(r, "slot"), &name = csv.text(r, "name");
+    const std::string slot = csv.text(r, "slot"), name = csv.text(r, "name");
     if (!choice.wants(slot, name)) continue;
     TraceRow row{csv.index(r, "frame"), {}};
-    split_words(csv.text(r, "values"), words);
+    split_words(csv.field(r, "values"), words);
     for (const std::string_view word : words) {
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), row.values.emplace_back());
       if (error != std::errc() || end != word.data() + word.size())

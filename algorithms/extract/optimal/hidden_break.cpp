@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include <Eigen/LU>
 
@@ -14,42 +16,68 @@ namespace {
 
 constexpr double kLargestGain = 100.0;  // its exponential does not overflow
 
+// The inverse of a symmetric matrix with this determinant.
+Eigen::Matrix2d inverse(const Eigen::Matrix2d& m, double determinant) {
+  const double f = 1.0 / determinant;
+  Eigen::Matrix2d result;
+  result << f * m(1, 1), -f * m(0, 1), -f * m(0, 1), f * m(0, 0);
+  return result;
+}
+
+// The point of the line on the beam of a reading, and the sums over all readings up to this one.
+struct UpTo {
+  Vec2 point;
+  Tail sums;
+};
+
+std::vector<UpTo> prefix_sums(const BeamLine& fit, std::span<const BeamReading> readings, const ReadingNoise& noise) {
+  std::vector<UpTo> result(readings.size());
+  Tail sums;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const double r = fit.range(readings[i].direction);
+    sums = sums + tail_of(fit, readings[i], r, noise);
+    result[i] = {r * readings[i].direction, sums};
+  }
+  return result;
+}
+
 }  // namespace
 
-HiddenBreak::HiddenBreak(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise,
+HiddenBreak::HiddenBreak(const BeamLine& fit, std::span<const BeamReading> readings, const ReadingNoise& noise,
                          int min_readings) {
   const int n = static_cast<int>(readings.size());
   if (n < 2 * min_readings) return;
-  const Tails sums = tails_of(fit, readings, noise, End::first, n);
+  const std::vector<UpTo> up_to = prefix_sums(fit, readings, noise);
   // Not fit.information: it is that of the step before the last one, and noise may jump at a range.
-  const Eigen::Matrix2d all = sums.back().information;
-  const Eigen::Matrix2d whole = all.inverse();
-  const auto point = [&](int i) {
-    const Vec2& d = readings[as_index(i)].direction;
-    return Vec2(fit.range(d) * d);
-  };
+  const Eigen::Matrix2d all = up_to.back().sums.information;
+  const double all_determinant = all.determinant();
+  const Eigen::Matrix2d whole = inverse(all, all_determinant);
   for (int first = min_readings; first <= n - min_readings; ++first) {
-    const Tail& before = sums[as_index(first)];
-    const Eigen::Matrix2d behind = all - before.information;
-    if (!(before.information.determinant() > 1e-9 * all.determinant()) ||
-        !(behind.determinant() > 1e-9 * all.determinant()))
-      continue;
-    const bool longer_first = (point(first - 1) - point(0)).norm() >= (point(n - 1) - point(first)).norm();
-    const Eigen::Matrix2d a = before.information.inverse(), b = behind.inverse();
+    const UpTo& before = up_to[as_index(first - 1)];
+    const Eigen::Matrix2d& ahead = before.sums.information;
+    const Vec2& gradient = before.sums.gradient;
+    const Eigen::Matrix2d behind = all - ahead;
+    const double ahead_determinant = ahead.determinant(), behind_determinant = behind.determinant();
+    if (!(ahead_determinant > 1e-9 * all_determinant) || !(behind_determinant > 1e-9 * all_determinant)) continue;
+    const bool longer_first = (before.point - up_to.front().point).squaredNorm() >=
+                              (up_to.back().point - up_to[as_index(first)].point).squaredNorm();
+    const Eigen::Matrix2d a = inverse(ahead, ahead_determinant), b = inverse(behind, behind_determinant);
     // The lines of the parts are theta + a g and theta - b g.
-    const double gain = 0.5 * before.gradient.dot((a + b) * before.gradient);
+    const Vec2 to_first = a * gradient, to_second = b * gradient;
+    const double gain = 0.5 * gradient.dot(to_first + to_second);
     const double width = static_cast<double>(first) * (n - first) / n;
     const double share = width / (1.0 + width);
-    Place place;
-    place.weight = std::exp(std::min(share * gain, kLargestGain)) / (1.0 + width);
-    place.step = share * (longer_first ? Vec2(a * before.gradient) : Vec2(-(b * before.gradient)));
-    place.covariance = share * ((longer_first ? a : b) - whole);
-    places_.push_back(place);
+    const double weight = std::exp(std::min(share * gain, kLargestGain)) / (1.0 + width);
+    const Vec2 step = share * (longer_first ? to_first : Vec2(-to_second));
+    ++places_;
+    bayes_factor_ += weight;
+    step_ += weight * step;
+    second_ += weight * (share * ((longer_first ? a : b) - whole) + step * step.transpose());
   }
-  for (Place& place : places_) {
-    place.weight /= static_cast<double>(places_.size());
-    bayes_factor_ += place.weight;
-  }
+  if (places_ == 0) return;
+  bayes_factor_ /= places_;
+  step_ /= places_;
+  second_ /= places_;
 }
 
 double HiddenBreak::probability(double prior) const {
@@ -60,12 +88,8 @@ double HiddenBreak::probability(double prior) const {
 BeamLine HiddenBreak::average(const BeamLine& line, double prior) const {
   if (!possible()) return line;
   const double share = probability(prior) / bayes_factor_;
-  Vec2 mean = Vec2::Zero();
-  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
-  for (const Place& place : places_) {
-    mean += share * place.weight * place.step;
-    second += share * place.weight * (place.covariance + place.step * place.step.transpose());
-  }
+  const Vec2 mean = share * step_;
+  const Eigen::Matrix2d second = share * second_;
   BeamLine result;
   result.theta = line.theta + mean;
   result.information = (line.information.inverse() + second - mean * mean.transpose()).inverse();

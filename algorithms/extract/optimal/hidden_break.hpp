@@ -3,7 +3,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "algorithms/extract/parts/beam_line.hpp"
 
@@ -15,10 +14,10 @@ class HiddenBreak {
  public:
   /// `fit` is the maximum-likelihood line of `readings`. Each part has at least `min_readings` readings; with fewer
   /// than twice as many readings there is no hypothesis.
-  HiddenBreak(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise, int min_readings);
+  HiddenBreak(const BeamLine& fit, std::span<const BeamReading> readings, const ReadingNoise& noise, int min_readings);
 
   /// Is there a place for a break?
-  bool possible() const { return !places_.empty(); }
+  bool possible() const { return places_ > 0; }
   /// Density of the readings with a break somewhere, divided by that without.
   double bayes_factor() const { return bayes_factor_; }
   /// Probability of a break after the readings, from that before them.
@@ -27,13 +26,12 @@ class HiddenBreak {
   BeamLine average(const BeamLine& line, double prior) const;
 
  private:
-  struct Place {
-    double weight = 0.0;         // density with this break, divided by that without
-    Vec2 step;                   // from the line of all readings to that of the longer part
-    Eigen::Matrix2d covariance;  // what the covariance of the line grows by
-  };
-  std::vector<Place> places_;
+  int places_ = 0;
   double bayes_factor_ = 0.0;
+  // Averages over the places, weighted by density: of the step from the line of all readings to that of the longer
+  // part, and of what the covariance grows by plus the square of the step.
+  Vec2 step_ = Vec2::Zero();
+  Eigen::Matrix2d second_ = Eigen::Matrix2d::Zero();
 };
 
 }  // namespace scanbench::extract

@@ -27,26 +27,14 @@ double density_between(double z, double a, double b, double sigma) {
   return std::max(probability, 1e-12) * std::sqrt(kTwoPi) / width;
 }
 
-// Foreign readings anywhere between the line and the next range.
-void weigh_towards_range(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise,
-                         double range_m, End end, UncertainEnd& open) {
-  for (std::size_t j = 1; j <= as_index(open.longest); ++j) {
-    const BeamReading& b = reading_from_end(readings, end, j - 1);
-    const double r = fit.range(b.direction);
-    const double s = reading_sigma(noise, r, r * r * cross(fit.theta, b.direction));
-    open.without_side[j] = open.without_side[j - 1] * 0.5 * density_between(b.range_m, r, range_m, s);
-  }
-}
-
 // The last readings of a line and the first readings of the next.
 class Junction {
  public:
-  Junction(std::span<const BeamReading> line, End end, std::span<const BeamReading> next, int of_line, int of_next,
-           const SensorNoise& noise) {
-    for (int k = of_line; k >= 0; --k) add(reading_from_end(line, end, as_index(k)), noise);
+  Junction(std::span<const BeamReading> line, std::span<const BeamReading> next, int of_line, int of_next,
+           const ReadingNoise& noise) {
+    for (int k = of_line; k >= 0; --k) add(reading_from_end(line, End::last, as_index(k)), noise);
     next_begins_ = size_;
-    const End near = end == End::last ? End::first : End::last;
-    for (int k = 0; k <= of_next; ++k) add(reading_from_end(next, near, as_index(k)), noise);
+    for (int k = 0; k <= of_next; ++k) add(reading_from_end(next, End::first, as_index(k)), noise);
     for (std::size_t k = 1; k < size_; ++k)
       between_[k] = (readings_[k - 1].direction + readings_[k].direction).normalized();
   }
@@ -55,6 +43,10 @@ class Junction {
   // by that of normal errors of 0. The side begins and ends anywhere between two beams. With h the change of its range
   // per beam, this adds the variance ((1 - t)^2 + t^2) h^2 / 12 at a fraction t of its length. A reading far from the
   // side is uniform within its own range.
+  //
+  // With e the error of a reading, s^2 its variance and 1 + q the growth of the variance, a reading has the factor
+  // exp(-e^2 / (2 s^2 (1 + q))) / sqrt(1 + q), if this is not less than that of a uniform one. The exponents and the
+  // 1 + q are collected, for one exp and one sqrt at the end.
   double density_on_side(const Vec2& a, const Vec2& b, std::size_t i, std::size_t j) const {
     const std::size_t first = next_begins_ - i, last = next_begins_ + j;
     const double to_a = a.dot(between_[first]), to_b = b.dot(between_[last]);
@@ -62,72 +54,122 @@ class Junction {
     const Vec2 p = between_[first] / to_a;
     const Vec2 side = between_[last] / to_b - p;
     const double from_p = cross(p, side);
-    const auto beams = static_cast<double>(last - first);
-    const double h = (1.0 / to_b - 1.0 / to_a) / beams;
-    double density = 1.0;
+    const double per_beam = 1.0 / static_cast<double>(last - first);
+    const double h = (1.0 / to_b - 1.0 / to_a) * per_beam;
+    double squares = 0.0, growth = 1.0, uniform = 1.0;
     for (std::size_t k = first; k < last; ++k) {
-      const double s = sigma_[k];
-      const double z = readings_[k].range_m;
-      const double r = from_p / cross(readings_[k].direction, side);
-      const double t = (static_cast<double>(k - first) + 0.5) / beams;
-      const double variance = s * s + ((1 - t) * (1 - t) + t * t) * h * h / 12.0;
-      const double squared = (z - r) * (z - r) / variance;
-      density *= std::max(std::exp(-0.5 * squared) * s / std::sqrt(variance), s * std::sqrt(kTwoPi) / z);
+      const Member& m = members_[k];
+      const double t = (static_cast<double>(k - first) + 0.5) * per_beam;
+      const double q = ((1 - t) * (1 - t) + t * t) * h * h / 12.0 * m.inverse_variance;
+      const double c = cross(readings_[k].direction, side);
+      const double error = readings_[k].range_m * c - from_p;  // times c
+      const double squared = error * error * m.inverse_variance / (c * c * (1.0 + q));
+      if (is_on_side(squared, q, m.nats_of_uniform)) {
+        squares += squared;
+        growth *= 1.0 + q;
+      } else {
+        uniform *= m.uniform;
+      }
     }
-    return density;
+    return uniform * std::exp(-0.5 * squares) / std::sqrt(growth);
   }
 
  private:
-  void add(const BeamReading& reading, const SensorNoise& noise) {
-    sigma_[size_] = reading_sigma(noise, reading.range_m, 0.0);
+  struct Member {
+    double inverse_variance = 0.0;
+    double uniform = 0.0;          // density of a uniform reading, divided by that of a normal error of 0
+    double nats_of_uniform = 0.0;  // -2 log(uniform)
+  };
+
+  // squared + log(1 + q) < nats; 0 <= log(1 + q) <= q decides most.
+  static bool is_on_side(double squared, double q, double nats) {
+    if (squared + q < nats) return true;
+    return squared < nats && squared + std::log1p(q) < nats;
+  }
+
+  void add(const BeamReading& reading, const ReadingNoise& noise) {
+    const double variance = noise.variance(reading.range_m, 0.0);
+    const double uniform = std::sqrt(variance * kTwoPi) / reading.range_m;
+    members_[size_] = {1.0 / variance, uniform, -2.0 * std::log(uniform)};
     readings_[size_++] = reading;
   }
 
   static constexpr std::size_t kMost = 2 * kLongestTail + 2;
   std::array<BeamReading, kMost> readings_;
-  std::array<double, kMost> sigma_{};
+  std::array<Member, kMost> members_;
   std::array<Vec2, kMost> between_;  // directions between a reading and the one before
   std::size_t size_ = 0;
   std::size_t next_begins_ = 0;
 };
 
-// Foreign readings on a straight side that joins the line with the next one, summed over the number of readings of the
-// next line that are on the side as well.
-void weigh_towards_line(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise,
-                        const Adjacent& adjacent, End end, int min_readings, UncertainEnd& open) {
-  const int longest = longest_tail(adjacent.readings, min_readings);
-  const Tails theirs =
-      tails_of(*adjacent.line, adjacent.readings, noise, end == End::last ? End::first : End::last, longest);
-  std::array<Shortened, kLongestTail + 1> next;
-  for (std::size_t j = 0; j <= as_index(longest); ++j) next[j] = without_tail(*adjacent.line, theirs[j]);
-  const Junction junction(readings, end, adjacent.readings, open.longest, longest, noise);
-  const double cuts = (open.longest + 1.0) * (longest + 1.0) - 1.0;
-  for (std::size_t i = 0; i <= as_index(open.longest); ++i) {
-    const Shortened line = without_tail(fit, open.tails[i]);
-    for (std::size_t j = 0; line.valid && j <= as_index(longest); ++j) {
-      if (i + j == 0 || !next[j].valid) continue;
-      open.with_side[i] += std::exp(std::min(next[j].gain, kLargestGain)) / cuts *
-                           junction.density_on_side(line.theta, next[j].theta, i, j);
-    }
-  }
+using ShortenedByNumber = std::array<Shortened, kLongestTail + 1>;
+
+ShortenedByNumber shortened_lines(const BeamLine& fit, const UncertainEnd& end) {
+  ShortenedByNumber lines;
+  for (std::size_t i = 0; i <= as_index(end.longest); ++i) lines[i] = without_tail(fit, end.tails[i]);
+  return lines;
+}
+
+double likelihood_ratio(double gain) {
+  return std::exp(std::min(gain, kLargestGain));
+}
+
+UncertainEnd possible_tails(const FittedReadings& line, const ReadingNoise& noise, End end, int min_readings) {
+  UncertainEnd open;
+  open.longest = longest_tail(line.readings, min_readings);
+  open.tails = tails_of(line.fit, line.readings, noise, end, open.longest);
+  return open;
 }
 
 }  // namespace
 
-UncertainEnds::UncertainEnds(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise,
-                             const std::array<std::optional<Adjacent>, 2>& adjacent, int min_readings)
-    : fit_(fit) {
-  for (const End end : {End::first, End::last}) {
-    const auto k = static_cast<std::size_t>(end);
-    if (!adjacent[k]) continue;
-    UncertainEnd& open = open_[k];
-    open.longest = longest_tail(readings, min_readings);
-    open.tails = tails_of(fit, readings, noise, end, open.longest);
-    if (adjacent[k]->line)
-      weigh_towards_line(fit, readings, noise, *adjacent[k], end, min_readings, open);
-    else
-      weigh_towards_range(fit, readings, noise, adjacent[k]->range_m, end, open);
+UncertainEnd end_towards_range(const FittedReadings& line, const ReadingNoise& noise, End end, double range_m,
+                               int min_readings) {
+  UncertainEnd open = possible_tails(line, noise, end, min_readings);
+  for (std::size_t j = 1; j <= as_index(open.longest); ++j) {
+    const BeamReading& b = reading_from_end(line.readings, end, j - 1);
+    const double r = line.fit.range(b.direction);
+    const double s = reading_sigma(noise, r, r * r * cross(line.fit.theta, b.direction));
+    open.without_side[j] = open.without_side[j - 1] * 0.5 * density_between(b.range_m, r, range_m, s);
   }
+  return open;
+}
+
+// The density of a side between two cuts is computed once, for both lines. For each of them it is summed over the
+// number of readings of the other one that are on the side as well.
+std::array<UncertainEnd, 2> ends_at_junction(const FittedReadings& line, const FittedReadings& next,
+                                             const ReadingNoise& noise, int min_readings) {
+  std::array<UncertainEnd, 2> ends = {possible_tails(line, noise, End::last, min_readings),
+                                      possible_tails(next, noise, End::first, min_readings)};
+  const std::size_t of_line = as_index(ends[0].longest), of_next = as_index(ends[1].longest);
+  const ShortenedByNumber lines = shortened_lines(line.fit, ends[0]), nexts = shortened_lines(next.fit, ends[1]);
+  const Junction junction(line.readings, next.readings, ends[0].longest, ends[1].longest, noise);
+  const auto cuts = static_cast<double>((of_line + 1) * (of_next + 1) - 1);
+  std::array<double, kLongestTail + 1> ratio_of_next{};
+  for (std::size_t j = 0; j <= of_next; ++j)
+    if (nexts[j].valid) ratio_of_next[j] = likelihood_ratio(nexts[j].gain) / cuts;
+  for (std::size_t i = 0; i <= of_line; ++i) {
+    if (!lines[i].valid) continue;
+    const double ratio_of_line = likelihood_ratio(lines[i].gain) / cuts;
+    for (std::size_t j = 0; j <= of_next; ++j) {
+      if (i + j == 0 || !nexts[j].valid) continue;
+      const double density = junction.density_on_side(lines[i].theta, nexts[j].theta, i, j);
+      ends[0].with_side[i] += ratio_of_next[j] * density;
+      ends[1].with_side[j] += ratio_of_line * density;
+    }
+  }
+  return ends;
+}
+
+UncertainEnds::UncertainEnds(const BeamLine& fit, const std::array<UncertainEnd, 2>& ends) : fit_(fit), open_(ends) {
+  if (open_[0].longest + open_[1].longest == 0) return;
+  for (std::size_t i = 0; i <= as_index(open_[0].longest); ++i)
+    for (std::size_t j = 0; j <= as_index(open_[1].longest); ++j) {
+      const Shortened line = without_tail(fit_, open_[0].tails[i] + open_[1].tails[j]);
+      if (!line.valid) continue;
+      const Vec2 step = line.theta - fit_.theta;
+      hypotheses_[i][j] = {likelihood_ratio(line.gain), step, line.covariance + step * step.transpose()};
+    }
 }
 
 UncertainLine UncertainEnds::average(double side_probability) const {
@@ -143,13 +185,11 @@ UncertainLine UncertainEnds::average(double side_probability) const {
   std::array<std::array<double, kLongestTail + 1>, 2> weights{};  // per end, by number of foreign readings
   for (std::size_t i = 0; i <= as_index(open_[0].longest); ++i)
     for (std::size_t j = 0; j <= as_index(open_[1].longest); ++j) {
-      const Shortened line = without_tail(fit_, open_[0].tails[i] + open_[1].tails[j]);
-      if (!line.valid) continue;
-      const double weight = std::exp(std::min(line.gain, kLargestGain)) * density(0, i) * density(1, j);
-      const Vec2 step = line.theta - fit_.theta;
+      const Hypothesis& h = hypotheses_[i][j];
+      const double weight = h.weight * density(0, i) * density(1, j);
       total += weight;
-      mean += weight * step;
-      second += weight * (line.covariance + step * step.transpose());
+      mean += weight * h.step;
+      second += weight * h.second;
       weights[0][i] += weight;
       weights[1][j] += weight;
     }

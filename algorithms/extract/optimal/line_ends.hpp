@@ -4,19 +4,17 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <cstddef>
 #include <span>
 
 #include "algorithms/extract/optimal/line_tail.hpp"
 
 namespace scanbench::extract {
 
-/// The neighbour of one end of a line: the next line with its readings in scan order, which begin directly after the
-/// last reading of the line; or, without a next line, the range of the next reading.
-struct Adjacent {
-  std::optional<BeamLine> line;
+/// A line and the readings, in scan order, that it was fitted to.
+struct FittedReadings {
+  const BeamLine& fit;
   std::span<const BeamReading> readings;
-  double range_m = 0.0;
 };
 
 struct UncertainLine {
@@ -28,7 +26,7 @@ struct UncertainLine {
 /// The readings at one end that may be foreign: up to six.
 struct UncertainEnd {
   int longest = 0;
-  Tails tails = Tails(1);
+  Tails tails;
   /// Density of the foreign readings, by their number, divided by the density of normal errors of 0: with a side that
   /// joins the line with the next one, and without. The former is a sum over where the side ends, with equal
   /// probabilities.
@@ -36,22 +34,38 @@ struct UncertainEnd {
   std::array<double, kLongestTail + 1> without_side{1.0};
 };
 
-/// The maximum-likelihood line `fit` of `readings`, averaged over the number of readings at each end (up to six) that
-/// are foreign. Where another line follows, a straight side may join the two; the estimate is averaged over the begin
-/// and the end of the side. Where only the next range is known, a foreign reading is anywhere between the line and that
-/// range, and each further foreign reading has probability 1/2. An end without an adjacent reading is certain. At least
-/// `min_readings` readings of each line remain.
+/// An end of a line after which only the range of the next reading is known: a foreign reading is anywhere between the
+/// line and that range, and each further foreign reading has probability 1/2. At least `min_readings` readings of the
+/// line remain.
+UncertainEnd end_towards_range(const FittedReadings& line, const ReadingNoise& noise, End end, double range_m,
+                               int min_readings);
+
+/// The last end of a line and the first end of the next, whose readings begin directly after it. A straight side may
+/// join the two. At least `min_readings` readings of each line remain.
+std::array<UncertainEnd, 2> ends_at_junction(const FittedReadings& line, const FittedReadings& next,
+                                             const ReadingNoise& noise, int min_readings);
+
+/// The maximum-likelihood line `fit`, averaged over the number of readings at each end that are foreign, and over the
+/// begin and the end of a side. An end of default value is certain.
 class UncertainEnds {
  public:
-  UncertainEnds(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise,
-                const std::array<std::optional<Adjacent>, 2>& adjacent, int min_readings);
+  UncertainEnds(const BeamLine& fit, const std::array<UncertainEnd, 2>& ends);
 
   /// `side_probability`: prior probability of a side between two lines, in (0, 1).
   UncertainLine average(double side_probability) const;
 
  private:
+  // The line without i readings at its first end and j at its last.
+  struct Hypothesis {
+    double weight = 0.0;  // exp(gain)
+    Vec2 step = Vec2::Zero();
+    Eigen::Matrix2d second = Eigen::Matrix2d::Zero();  // covariance + step step'
+  };
+  static constexpr std::size_t kNumbers = kLongestTail + 1;
+
   BeamLine fit_;
   std::array<UncertainEnd, 2> open_;
+  std::array<std::array<Hypothesis, kNumbers>, kNumbers> hypotheses_;
 };
 
 }  // namespace scanbench::extract

@@ -12,16 +12,25 @@ const BeamReading& reading_from_end(std::span<const BeamReading> readings, End e
   return end == End::last ? readings[readings.size() - 1 - k] : readings[k];
 }
 
-Tails tails_of(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise, End end,
+Tail tail_of(const BeamLine& fit, const BeamReading& reading, double r, const ReadingNoise& noise) {
+  // The derivative of the range by theta is -r^2 times the direction d.
+  const Vec2& d = reading.direction;
+  const double r2 = r * r;
+  const double inverse_variance = 1.0 / noise.variance(r, r2 * cross(fit.theta, d));
+  const double error = reading.range_m - r;
+  Tail tail;
+  tail.information = (r2 * r2 * inverse_variance) * (d * d.transpose());
+  tail.gradient = (-r2 * inverse_variance * error) * d;
+  tail.half_squares = 0.5 * error * error * inverse_variance;
+  return tail;
+}
+
+Tails tails_of(const BeamLine& fit, std::span<const BeamReading> readings, const ReadingNoise& noise, End end,
                int longest) {
-  Tails tails(as_index(longest) + 1);
+  Tails tails;
   for (std::size_t j = 1; j <= as_index(longest); ++j) {
     const BeamReading& b = reading_from_end(readings, end, j - 1);
-    const double r = fit.range(b.direction);
-    const double s = reading_sigma(noise, r, r * r * cross(fit.theta, b.direction));
-    const double error = (b.range_m - r) / s;
-    const Vec2 g = -(r * r / s) * b.direction;  // derivative of the range by theta
-    tails[j] = tails[j - 1] + Tail{g * g.transpose(), error * g, 0.5 * error * error};
+    tails[j] = tails[j - 1] + tail_of(fit, b, fit.range(b.direction), noise);
   }
   return tails;
 }

@@ -2,8 +2,9 @@
 // docs/algorithms/optimal.md, section 5.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
-#include <vector>
 
 #include "algorithms/extract/parts/beam_line.hpp"
 
@@ -17,16 +18,19 @@ struct Tail {
 };
 
 inline constexpr int kLongestTail = 6;
-using Tails = std::vector<Tail>;  ///< indexed by the number of readings, from 0
+using Tails = std::array<Tail, kLongestTail + 1>;  ///< indexed by the number of readings, from 0
 
 enum class End { first, last };
 
 /// Reading k of an end, counted from the outermost one.
 const BeamReading& reading_from_end(std::span<const BeamReading> readings, End end, std::size_t k);
 
-/// The tails of 0 to `longest` readings.
-Tails tails_of(const BeamLine& fit, std::span<const BeamReading> readings, const SensorNoise& noise, End end,
+/// The tails of 0 to `longest` readings, up to kLongestTail.
+Tails tails_of(const BeamLine& fit, std::span<const BeamReading> readings, const ReadingNoise& noise, End end,
                int longest);
+
+/// The share of one reading in the normal equations of its line, whose range along the beam is r.
+Tail tail_of(const BeamLine& fit, const BeamReading& reading, double r, const ReadingNoise& noise);
 
 /// A line fitted without its tail.
 struct Shortened {

@@ -87,21 +87,35 @@ std::vector<std::size_t> knots_of(std::span<const SegmentationPoint> points, int
 //   base[s] + misfit(s, t) + [code lengths of all points up to t, as if on lines] + K,
 // where base[s] = F(s) less the code lengths of all points up to s. The sums of the line's points are those of its
 // anchor at t less those at s.
-struct Starts {
-  std::vector<double> base;
-  std::array<std::vector<double>, 6> sums;
+struct Start {
+  double base = 0.0;
+  double bound = 0.0;  // lower bound of base + misfit: its last value, because misfits never decrease
+  Sums sums{};
 
-  explicit Starts(std::size_t knots) : base(knots) {
-    for (auto& s : sums) s.resize(knots);
+  double misfit(const Sums& at_end) const {
+    return half_misfit(at_end[0] - sums[0], at_end[1] - sums[1], at_end[2] - sums[2], at_end[3] - sums[3],
+                       at_end[4] - sums[4], at_end[5] - sums[5]);
   }
-  void set(std::size_t s, double cost, const Sums& at_start) {
-    base[s] = cost;
-    for (std::size_t i = 0; i < 6; ++i) sums[i][s] = at_start[i];
+};
+
+// The logarithms of 1 .. n at their own indices. Those of most scans are computed once.
+class Logarithms {
+ public:
+  explicit Logarithms(std::size_t n) {
+    static const std::vector<double> few = table(1024);
+    if (n >= few.size()) own_ = table(n);
+    table_ = own_.empty() ? few : own_;
   }
-  double misfit(std::size_t s, const Sums& at_end) const {
-    return half_misfit(at_end[0] - sums[0][s], at_end[1] - sums[1][s], at_end[2] - sums[2][s], at_end[3] - sums[3][s],
-                       at_end[4] - sums[4][s], at_end[5] - sums[5][s]);
+  double operator()(std::size_t n) const { return table_[n]; }
+
+ private:
+  static std::vector<double> table(std::size_t n) {
+    std::vector<double> result(n + 1, 0.0);
+    for (std::size_t k = 1; k <= n; ++k) result[k] = std::log(static_cast<double>(k));
+    return result;
   }
+  std::vector<double> own_;
+  std::span<const double> table_;
 };
 
 // Neighbouring starts with a common lower bound. A line from one of them costs at least the cheapest start plus the
@@ -128,11 +142,9 @@ class Recurrence {
       : points_(points),
         line_base_(line_cost.base),
         knots_(knots_of(points, max_knots)),
-        logarithm_(points.size() + 1, 0.0),
+        logarithm_(points.size()),
         steps_(knots_.size()),
-        starts_(knots_.size()) {
-    for (std::size_t k = 1; k < logarithm_.size(); ++k) logarithm_[k] = std::log(static_cast<double>(k));
-  }
+        starts_(knots_.size()) {}
 
   Segmentation run() {
     for (std::size_t t = 1; t < knots_.size(); ++t) {
@@ -162,10 +174,11 @@ class Recurrence {
       groups_.push_back({.begin = s, .end = s, .anchor = anchors_.size() - 1});
     }
     Group& group = groups_.back();
-    starts_.set(s, steps_[s].cost - on_lines_, anchors_.back().sums());
+    const double base = steps_[s].cost - on_lines_;
+    starts_[s] = {.base = base, .bound = base, .sums = anchors_.back().sums()};
     group.end = s + 1;
-    group.least_base = std::min(group.least_base, starts_.base[s]);
-    group.bound = std::min(group.bound, starts_.base[s]);
+    group.least_base = std::min(group.least_base, base);
+    group.bound = std::min(group.bound, base);
   }
 
   // Adds the points between knots t - 1 and t to all sums; returns their cost as clutter.
@@ -183,32 +196,37 @@ class Recurrence {
   // min over s < t of F(s) + C(s, t) + K(t - s), if it is less than the best so far.
   void try_lines_to(std::size_t t, Step& best) {
     // The line that was best one knot earlier is tried first. It most often continues, and its cost then excludes the
-    // other groups by their bounds.
+    // others by their bounds.
     if (steps_[t - 1].is_line) {
-      const auto group = std::ranges::upper_bound(groups_, steps_[t - 1].from, {}, &Group::begin);
-      if (group != groups_.begin()) try_lines_from(*std::prev(group), t, best);
+      const std::size_t from = steps_[t - 1].from;
+      const auto group = std::ranges::upper_bound(groups_, from, {}, &Group::begin);
+      if (group != groups_.begin() && from < std::prev(group)->end) try_line(*std::prev(group), from, t, best);
     }
     for (Group& group : groups_) try_lines_from(group, t, best);
   }
 
+  void try_line(const Group& group, std::size_t s, std::size_t t, Step& best) {
+    const std::size_t n = knots_[t] - knots_[s];
+    Start& start = starts_[s];
+    if (has_misfit(n)) start.bound = std::max(start.bound, start.base + start.misfit(anchors_[group.anchor].sums()));
+    const double cost = start.bound + on_lines_ + line_base_ + logarithm_(n);
+    if (cost < best.cost) best = {.cost = cost, .from = s, .is_line = true};
+  }
+
   void try_lines_from(Group& group, std::size_t t, Step& best) {
-    const std::size_t end = knots_[t];
-    const std::size_t fewest_points = end - knots_[group.end - 1];
-    const double common = on_lines_ + line_base_;
-    const auto excluded = [&] { return group.bound + common + logarithm_[fewest_points] >= best.cost; };
-    if (excluded()) return;
-    const Sums& now = anchors_[group.anchor].sums();
-    if (has_misfit(fewest_points)) {
-      group.bound = std::max(group.bound, group.least_base + starts_.misfit(group.end - 1, now));
-      if (excluded()) return;
+    const std::size_t fewest_points = knots_[t] - knots_[group.end - 1];
+    const double common = on_lines_ + line_base_ + logarithm_(fewest_points);
+    if (group.bound + common >= best.cost) return;
+    const bool has_best = best.is_line && best.from >= group.begin && best.from < group.end;
+    if (has_misfit(fewest_points) && !has_best) {  // else the bound cannot exclude the group
+      const double misfit = starts_[group.end - 1].misfit(anchors_[group.anchor].sums());
+      group.bound = std::max(group.bound, group.least_base + misfit);
+      if (group.bound + common >= best.cost) return;
     }
     double least = kInf;
     for (std::size_t s = group.begin; s < group.end; ++s) {
-      const std::size_t n = end - knots_[s];
-      const double value = starts_.base[s] + (has_misfit(n) ? starts_.misfit(s, now) : 0.0);
-      least = std::min(least, value);
-      const double cost = value + common + logarithm_[n];
-      if (cost < best.cost) best = {.cost = cost, .from = s, .is_line = true};
+      if (starts_[s].bound + common < best.cost) try_line(group, s, t, best);
+      least = std::min(least, starts_[s].bound);
     }
     group.bound = std::max(group.bound, least);
   }
@@ -247,9 +265,9 @@ class Recurrence {
   std::span<const SegmentationPoint> points_;
   double line_base_;
   std::vector<std::size_t> knots_;
-  std::vector<double> logarithm_;  // logarithms of small numbers
+  Logarithms logarithm_;
   std::vector<Step> steps_;
-  Starts starts_;
+  std::vector<Start> starts_;
   std::vector<Group> groups_;
   std::vector<AnchoredSums> anchors_;  // in the order of the groups that use them
   double on_lines_ = 0.0;              // line_cost and gap_cost of all points so far

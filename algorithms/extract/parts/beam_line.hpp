@@ -7,7 +7,9 @@
 
 #include <Eigen/Core>
 
+#include "algorithms/extract/parts/beam_kernels.hpp"
 #include "core/geometry/geometry.hpp"
+#include "core/isa.hpp"
 #include "core/sensor_model.hpp"
 
 namespace scanbench::extract {
@@ -29,15 +31,30 @@ struct BeamLine {
   double rho() const { return 1.0 / theta.norm(); }
 };
 
-/// Standard deviation of a reading at range r on a wall whose range changes by `slope` metres per radian of bearing:
-/// range noise, rounding and bearing noise. At least kLeastSigma, also for sensors without stated noise.
+/// Noise of readings, prepared for sums over many of them: range noise, rounding and bearing noise. The standard
+/// deviation is at least kLeastSigma, also for sensors without stated noise.
 inline constexpr double kLeastSigma = 1e-3;
-double reading_sigma(const SensorNoise& noise, double r, double slope);
+struct ReadingNoise : VarianceTerms {
+  ReadingNoise(const SensorNoise& noise);  // NOLINT(google-explicit-constructor): the same noise, squared
+
+  /// Variance of a reading at range r on a wall whose range changes by `slope` metres per radian of bearing.
+  double variance(double r, double slope) const {
+    const double relative = relative2 * r * r;
+    const double gaussian =
+        relative_from_m > 0 ? (r < relative_from_m ? constant_m2 : relative) : constant_m2 + relative;
+    const double sum = gaussian + rounding_m2 + bearing_rad2 * slope * slope;
+    return sum > least_m2 ? sum : least_m2;
+  }
+};
+
+/// Standard deviation of a reading: the root of its variance.
+double reading_sigma(const ReadingNoise& noise, double r, double slope);
 
 /// The maximum-likelihood line by Gauss-Newton, from `start` if given, otherwise from the linear fit of inverse ranges.
-/// Absent for fewer than two readings, for readings of one beam, and if no line in front of all beams fits.
-std::optional<BeamLine> fit_beam_line(std::span<const BeamReading> readings, const SensorNoise& noise,
-                                      const std::optional<Vec2>& start = {});
+/// The distance to the maximum is far below one ten-millionth of a standard deviation. Absent for fewer than two
+/// readings, for readings of one beam, and if no line in front of all beams fits. Equal bytes for both values of `isa`.
+std::optional<BeamLine> fit_beam_line(std::span<const BeamReading> readings, const ReadingNoise& noise,
+                                      const std::optional<Vec2>& start = {}, Isa isa = best_isa());
 
 /// Covariance of (offset along the canonical normal at `point`, which is on the line [m]; angle, counter-clockwise
 /// [rad]).

@@ -10,12 +10,14 @@
 namespace scanbench::extract {
 namespace {
 
-template <class Breaks>
-std::vector<PointRun> cut(const ScanPoints& points, Breaks&& breaks) {
+// breaks(i - 1, i): is there a break between these points? none_in_four(i): is there none before points i .. i + 3?
+template <class Breaks, class NoneInFour>
+std::vector<PointRun> cut(const ScanPoints& points, Breaks&& breaks, NoneInFour&& none_in_four) {
   std::vector<PointRun> runs;
   const int n = static_cast<int>(points.size());
   int first = 0;
   for (int i = 1; i <= n; ++i) {
+    while (i + 4 <= n && none_in_four(as_index(i))) i += 4;
     if (i < n && !breaks(as_index(i - 1), as_index(i))) continue;
     runs.push_back({first, i - 1});
     first = i;
@@ -46,18 +48,26 @@ std::vector<PointRun> runs_between_gaps(const ScanPoints& points, const GapRules
   const bool by_beams = rules.max_missing_beams >= 0;
   if (!by_distance && !by_beams) return {{0, static_cast<int>(points.size()) - 1}};
   const double limit2 = rules.max_gap_m * rules.max_gap_m;
-  return cut(points, [&](std::size_t i, std::size_t j) {
+  const Vec2* p = points.points.data();
+  const auto breaks = [&](std::size_t i, std::size_t j) {
     return (by_beams && points.beams[j] - points.beams[i] - 1 > rules.max_missing_beams) ||
-           (by_distance && (points.points[j] - points.points[i]).squaredNorm() > limit2);
-  });
+           (by_distance && (p[j] - p[i]).squaredNorm() > limit2);
+  };
+  const auto none_in_four = [&](std::size_t i) {
+    if (by_beams) return false;
+    const auto gap2 = [&](std::size_t k) { return (p[k] - p[k - 1]).squaredNorm(); };
+    return std::max(std::max(gap2(i), gap2(i + 1)), std::max(gap2(i + 2), gap2(i + 3))) <= limit2;
+  };
+  return cut(points, breaks, none_in_four);
 }
 
 std::vector<PointRun> runs_between_breakpoints(const Scan& scan, const ScanPoints& points,
                                                const AdaptiveBreakpoint& detector) {
-  return cut(points, [&](std::size_t i, std::size_t j) {
+  const auto breaks = [&](std::size_t i, std::size_t j) {
     const double limit = detector.max_distance(scan, points.beams[i], points.beams[j]);
     return (points.points[j] - points.points[i]).squaredNorm() > limit * limit;
-  });
+  };
+  return cut(points, breaks, [](std::size_t) { return false; });
 }
 
 }  // namespace scanbench::extract

@@ -1,11 +1,13 @@
 // Search for the farthest point in one pass of cross products.
 #include "algorithms/extract/parts/chord.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
+#include "algorithms/extract/parts/chord_kernels.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "core/isa.hpp"
 
 namespace scanbench::extract {
 namespace {
@@ -23,32 +25,17 @@ Farthest farthest_from_chord(std::span<const Vec2> points, const PointRun& run) 
   SCANBENCH_ASSERT(run.last - run.first >= 2);
   const auto first = as_index(run.first);
   const auto last = as_index(run.last);
-  const Vec2 a = points[first];
+  const Vec2& a = points[first];
   const Vec2 chord = points[last] - a;
   const double length2 = chord.squaredNorm();
   Farthest far;
   std::size_t index = first + 1;
   double best = -1.0;
   if (length2 > kCoincident_m * kCoincident_m) {
-    const auto across = [&](std::size_t k) {
-      return std::fabs(chord.x() * (points[k].y() - a.y()) - chord.y() * (points[k].x() - a.x()));
-    };
-    std::size_t k = first + 1;
-    for (; k + 4 <= last; k += 4) {  // four at a time, with one comparison against the best
-      const double d0 = across(k), d1 = across(k + 1), d2 = across(k + 2), d3 = across(k + 3);
-      const double most = std::max(std::max(d0, d1), std::max(d2, d3));
-      if (most > best) {
-        best = most;
-        index = k + (d0 == most ? 0 : d1 == most ? 1 : d2 == most ? 2 : 3);  // of equal ones the lowest index
-      }
-    }
-    for (; k < last; ++k) {
-      const double d = across(k);
-      if (d > best) {
-        best = d;
-        index = k;
-      }
-    }
+    const ChordKernels& kernels = best_isa() == Isa::v3 ? v3::kChordKernels : baseline::kChordKernels;
+    int nth = 0;
+    best = kernels.farthest(points[first + 1].data(), run.last - run.first - 1, a.data(), chord.data(), &nth);
+    index += as_index(nth);
     far.numerator2 = best * best;
     far.denominator2 = length2;
   } else {

@@ -2,7 +2,6 @@
 #include "algorithms/extract/parts/scan_model.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "algorithms/extract/parts/beam_line.hpp"
@@ -16,20 +15,25 @@ const double kRootTwoPi = std::sqrt(kTwoPi);
 // Every real sensor misses some beams. With this value two missing beams do not end a wall; three do.
 constexpr double kLeastDropout = 0.01;
 
+double median_of_three(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
 double median_of_five(std::span<const double> ranges, std::size_t i) {
   const std::size_t n = ranges.size();
   if (n < 5) return ranges[i];
-  const std::size_t begin = std::min(i < 2 ? 0 : i - 2, n - 5);
-  std::array<double, 5> w{};
-  std::copy_n(ranges.begin() + static_cast<std::ptrdiff_t>(begin), 5, w.begin());
-  std::nth_element(w.begin(), w.begin() + 2, w.end());
-  return w[2];
+  const double* w = &ranges[std::min(i < 2 ? 0 : i - 2, n - 5)];
+  // The least and the greatest of four numbers are not the median of five.
+  const double low = std::max(std::min(w[0], w[1]), std::min(w[2], w[3]));
+  const double high = std::min(std::max(w[0], w[1]), std::max(w[2], w[3]));
+  return median_of_three(low, high, w[4]);
 }
 
 }  // namespace
 
 ScanModel::ScanModel(const Scan& scan, const SensorNoise& noise)
     : scan_(scan), noise_(noise), points_(valid_points(scan)) {
+  ranges_.reserve(points_.size());
   for (const Vec2& p : points_.points) ranges_.push_back(p.norm());
   if (!(noise.spurious_probability > 0) || size() < 5) return;
   ScanPoints kept;
@@ -75,16 +79,22 @@ std::vector<SegmentationPoint> ScanModel::segmentation_points(std::span<const Kn
   std::vector<SegmentationPoint> result(size());
   if (result.empty()) return result;
   const double span = std::max(*std::max_element(ranges_.begin(), ranges_.end()), 1.0);
+  const double clutter_cost = std::log(2.0 * span);
+  const ReadingNoise noise = noise_;
+  double variance = 0.0, line_cost = 0.0;  // of the point before; most sensors have the same everywhere
   for (std::size_t i = 0; i < size(); ++i) {
     const bool known = !walls.empty() && walls[i].range > 0;
     const double r = known ? walls[i].range : smoothed_range(i);
-    const double sigma = reading_sigma(noise_, r, known ? walls[i].slope : 0.0);
+    if (const double here = noise.variance(r, known ? walls[i].slope : 0.0); here != variance) {
+      variance = here;
+      line_cost = 0.5 * std::log(variance * kTwoPi);
+    }
     SegmentationPoint& p = result[i];
     p.direction = direction(i);
     p.inverse_range = 1.0 / ranges_[i];
-    p.weight = ranges_[i] * r * r * r / (sigma * sigma);
-    p.line_cost = std::log(sigma * kRootTwoPi);
-    p.clutter_cost = std::log(2.0 * span);
+    p.weight = ranges_[i] * r * r * r / variance;
+    p.line_cost = line_cost;
+    p.clutter_cost = clutter_cost;
     p.gap_cost = i > 0 ? gap_cost(i) : 0.0;
   }
   return result;

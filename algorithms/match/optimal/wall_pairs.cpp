@@ -127,7 +127,8 @@ std::vector<WallPair> pair_walls(std::span<const MeasuredLine> reference, std::s
 }
 
 WallEquations wall_equations(std::span<const WallPair> walls, std::span<const MeasuredLine> reference,
-                             std::span<const MeasuredLine> current, const Pose2& reference_from_current) {
+                             std::span<const MeasuredLine> current, const Pose2& reference_from_current,
+                             const Eigen::Matrix3d& doubt) {
   WallEquations result;
   std::vector<MeasuredLine> placed;
   for (const MeasuredLine& line : current) placed.push_back(moved(reference_from_current, line));
@@ -140,16 +141,16 @@ WallEquations wall_equations(std::span<const WallPair> walls, std::span<const Me
     const Eigen::Matrix2d covariance = there.covariance + here.covariance;
     const Eigen::Matrix2d information = covariance.inverse();
     const Eigen::Vector2d off = there.place - here.place;
-    const double squared = off.dot(information * off);
-    const double density = std::exp(-0.5 * squared) / (kTwoPi * std::sqrt(covariance.determinant()));
-    const double weight = (1.0 - kStray) * density / ((1.0 - kStray) * density + kStray * kStrayDensity);
     const Eigen::Matrix<double, 2, 3> jacobian = jacobian_at(point, normal, sensor);
+    const Eigen::Matrix2d allowed = covariance + jacobian * doubt * jacobian.transpose();
+    const double density = std::exp(-0.5 * normalised(off, allowed)) / (kTwoPi * std::sqrt(allowed.determinant()));
+    const double weight = (1.0 - kStray) * density / ((1.0 - kStray) * density + kStray * kStrayDensity);
     result.equations.matrix += weight * jacobian.transpose() * information * jacobian;
     result.equations.rhs += weight * jacobian.transpose() * (information * off);
     const Motion turned = gradient(perpendicular(normal), point - sensor);
     result.equations.by_chance +=
         (weight * information(0, 0) * std::min(here.covariance(1, 1), 1.0)) * turned * turned.transpose();
-    result.misfit += weight * squared;
+    result.misfit += weight * off.dot(information * off);
     result.walls += weight;
     result.evidence += std::log1p((1.0 - kStray) * density / (kStray * kStrayDensity));
   }

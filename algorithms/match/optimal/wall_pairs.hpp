@@ -38,6 +38,8 @@ std::vector<WallPair> pair_walls(std::span<const MeasuredLine> reference, std::s
                                  const PoseBelief& belief);
 
 /// Equations of the motion of the current scan, each wall weighted with the probability that its lines are one wall.
+/// That probability is of the difference which the lines and `doubt`, the covariance of the pose [m, m, rad], allow. A
+/// pose that may be off by ten times the noise of a line says nothing against the pair if they differ by as much.
 struct WallEquations {
   PoseEquations equations;
   double misfit = 0.0;  ///< sum of weighted squared differences, in standard deviations
@@ -46,6 +48,7 @@ struct WallEquations {
   double evidence = 0.0;
 };
 WallEquations wall_equations(std::span<const WallPair> walls, std::span<const MeasuredLine> reference,
-                             std::span<const MeasuredLine> current, const Pose2& reference_from_current);
+                             std::span<const MeasuredLine> current, const Pose2& reference_from_current,
+                             const Eigen::Matrix3d& doubt);
 
 }  // namespace scanbench::matching

@@ -62,7 +62,11 @@ void cluster_one_line(std::span<const Piece> pieces, const std::vector<int>& mem
 }  // namespace
 
 std::vector<std::vector<int>> members_of(std::span<const int> cluster, int clusters) {
+  std::vector<std::size_t> sizes(as_index(clusters), 0);
+  for (const int c : cluster)
+    if (c >= 0) ++sizes[as_index(c)];
   std::vector<std::vector<int>> members(as_index(clusters));
+  for (std::size_t c = 0; c < members.size(); ++c) members[c].reserve(sizes[c]);
   for (std::size_t i = 0; i < cluster.size(); ++i)
     if (cluster[i] >= 0) members[as_index(cluster[i])].push_back(static_cast<int>(i));
   return members;
@@ -101,6 +105,8 @@ Clustering cluster_directions(std::span<const Piece> pieces, const Kernels& kern
     return Vec3(p.x() * sigma, p.y() * sigma, direction_mod_pi(p.z() * angle_scale));
   };
   std::vector<int> number(modes.positions.size(), -1);
+  result.cluster.reserve(pieces.size());
+  result.end.reserve(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const auto mode = as_index(modes.mode_of[i]);
     int& cluster = number[as_index(label[mode])];

@@ -1,5 +1,6 @@
 // The optimal extractor: exactness of its dynamic programme, the maximum-likelihood line and its covariance, and the
 // results on scans.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -9,7 +10,9 @@
 #include <Eigen/Dense>
 
 #include "algorithms/extract/optimal/segmentation.hpp"
+#include "algorithms/extract/parts/beam_kernels.hpp"
 #include "algorithms/extract/parts/beam_line.hpp"
+#include "core/isa.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
@@ -164,6 +167,15 @@ TEST(OptimalSegmentation, LosesNothingByPruning) {
     }
 }
 
+TEST(OptimalSegmentation, LosesNothingByPruningOfManyGroupsOfStarts) {
+  for (std::uint32_t seed = 0; seed < 2; ++seed) {
+    const Points gentle = gentle_points(seed, 240);
+    EXPECT_NEAR(optimal_segmentation(gentle, {2.0}).cost, plain_recursion(gentle, 2.0), 1e-5) << "seed " << seed;
+    const Points random = random_points(seed, 240, 0.01);
+    EXPECT_NEAR(optimal_segmentation(random, {2.0}).cost, plain_recursion(random, 2.0), 1e-5) << "seed " << seed;
+  }
+}
+
 TEST(OptimalSegmentation, OfNothingIsNothingAndOfOnePointIsClutterOrALine) {
   EXPECT_TRUE(optimal_segmentation(Points{}, {1.0}).lines.empty());
   EXPECT_TRUE(optimal_segmentation_at_most(Points{}, 3).lines.empty());
@@ -217,12 +229,64 @@ TEST(BeamLine, HasTheGreatestLikelihood) {
       const double r = 1 / line->theta.dot(b.direction);
       gradient -= (b.range_m - r) / (0.05 * 0.05) * r * r * b.direction;
     }
-    EXPECT_LT(gradient.dot(line->information.inverse() * gradient), 1e-12);  // far below one standard deviation
+    // The squared distance to the maximum: below 1e-7 standard deviations, so that only last digits depend on it.
+    EXPECT_LT(gradient.dot(line->information.inverse() * gradient), 1e-14);
     const double top = log_likelihood(readings, 0.05, line->theta);
     const double h = 1e-2 * line->theta.norm();
     for (const Vec2& d : {Vec2(h, 0), Vec2(-h, 0), Vec2(0, h), Vec2(0, -h)})
       EXPECT_LT(log_likelihood(readings, 0.05, line->theta + d), top);
   }
+}
+
+TEST(BeamLine, HasEqualBytesOnEveryProcessor) {
+  if (best_isa() == Isa::baseline) GTEST_SKIP() << "this processor has no AVX2";
+  for (int n = 2; n < 30; ++n) {
+    const auto readings = wall(2.0, 0.5, -0.5, 1.2, n, 0.05, static_cast<std::uint32_t>(n));
+    const auto a = fit_beam_line(readings, noise_of(0.04, 0.01, 0.002), {}, Isa::baseline);
+    const auto b = fit_beam_line(readings, noise_of(0.04, 0.01, 0.002), {}, Isa::v3);
+    ASSERT_TRUE(a && b);
+    EXPECT_EQ(a->theta, b->theta);
+    EXPECT_EQ(a->information, b->information);
+  }
+}
+
+TEST(BeamLine, SumsAreThoseOfOneReadingAtATime) {
+  SensorNoise jump = noise_of(0.03, 0.015);
+  jump.relative_from_m = 2.4;
+  SensorNoise rounded = noise_of(0.0);
+  rounded.quantum_m = 0.01;
+  for (const SensorNoise& noise : {noise_of(0.05), noise_of(0.02, 0.01, 0.004), jump, rounded, noise_of(0.0)})
+    for (const int n : {2, 3, 4, 5, 31}) {
+      const auto readings = wall(2.0, 0.5, -0.5, 1.2, n, 0.05, 7);
+      std::array<std::vector<double>, 3> columns;
+      for (auto& column : columns) column.resize(32);
+      for (std::size_t i = 0; i < 32; ++i) {
+        const BeamReading& b = readings[std::min(i, readings.size() - 1)];
+        columns[0][i] = b.direction.x();
+        columns[1][i] = b.direction.y();
+        columns[2][i] = b.range_m;
+      }
+      const Vec2 theta(0.4, 0.3);
+      const double at[] = {theta.x(), theta.y()};
+      const BeamSums sums = baseline::kBeamKernels.step({columns[0].data(), columns[1].data(), columns[2].data(), n},
+                                                        at, ReadingNoise(noise));
+      Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
+      Vec2 rhs = Vec2::Zero();
+      for (const BeamReading& b : readings) {
+        const double r = 1.0 / theta.dot(b.direction);
+        const double s = std::max(
+            std::hypot(noise.range_sigma(r), noise.bearing_sigma_rad * r * r * cross(theta, b.direction)), kLeastSigma);
+        const Vec2 g = r * r / s * b.direction;  // minus the derivative of the range by theta, in sigma
+        matrix += g * g.transpose();
+        rhs += (r - b.range_m) / s * g;
+      }
+      const double tolerance = 1e-12 * matrix.norm();
+      EXPECT_NEAR(sums.xx, matrix(0, 0), tolerance);
+      EXPECT_NEAR(sums.xy, matrix(0, 1), tolerance);
+      EXPECT_NEAR(sums.yy, matrix(1, 1), tolerance);
+      EXPECT_NEAR(sums.x, rhs.x(), tolerance);
+      EXPECT_NEAR(sums.y, rhs.y(), tolerance);
+    }
 }
 
 TEST(BeamLine, IsExactWithoutNoise) {

@@ -210,9 +210,9 @@ TEST(WallEquations, AreThoseOfNumericalDerivatives) {
       moved(pose.inverse(), {2.001 * normal - 0.2 * perpendicular(normal), normal, 0.8, c2})};
   const std::vector<WallPair> pairs{{{0}, {0}}};
   const auto misfit = [&](const Motion& motion) {
-    return wall_equations(pairs, reference, current, moved(pose, motion)).misfit;
+    return wall_equations(pairs, reference, current, moved(pose, motion), Eigen::Matrix3d::Zero()).misfit;
   };
-  const WallEquations found = wall_equations(pairs, reference, current, pose);
+  const WallEquations found = wall_equations(pairs, reference, current, pose, Eigen::Matrix3d::Zero());
   ASSERT_GT(found.walls, 0.99);
   const double h = 1e-6;
   for (int k = 0; k < 3; ++k) {
@@ -220,6 +220,24 @@ TEST(WallEquations, AreThoseOfNumericalDerivatives) {
     const double slope = (misfit(e) - misfit(-e)) / (2 * h);
     EXPECT_NEAR(-0.5 * slope, found.equations.rhs(k), 2e-3 * found.equations.rhs.norm()) << k;
   }
+}
+
+TEST(WallEquations, AWallKnownToAMillimetreCountsWhileThePoseIsKnownToADecimetre) {
+  const Eigen::Matrix2d c = 1e-6 * Eigen::Matrix2d::Identity();
+  const Vec2 ahead(1, 0);
+  const std::vector<MeasuredLine> wall{{{12, 0}, ahead, 1.0, c}};
+  const std::vector<WallPair> pairs{{{0}, {0}}};
+  const Pose2 guess(0.05, 0.0, 0.0);  // the true pose is 0
+  const auto weight = [&](double sigma_m) {
+    const Eigen::Matrix3d doubt = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
+    return wall_equations(pairs, wall, wall, guess, doubt).walls;
+  };
+  EXPECT_GT(weight(0.1), 0.9);     // half a standard deviation off
+  EXPECT_LT(weight(0.005), 1e-6);  // ten standard deviations off: not one wall
+  // Doubt changes the weight of a wall, not what the wall says.
+  const WallEquations found =
+      wall_equations(pairs, wall, wall, guess, Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal().toDenseMatrix());
+  EXPECT_NEAR(found.equations.rhs.x() / found.equations.matrix(0, 0), -0.05, 1e-9);
 }
 
 TEST(PairWalls, JoinsWhatAnObstacleCutsInTwo) {

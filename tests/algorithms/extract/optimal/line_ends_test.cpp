@@ -1,6 +1,8 @@
 // Lines whose ends are uncertain: properties that follow from Bayes' rule if the readings are drawn from the model.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -39,9 +41,14 @@ SensorNoise noise() {
   return n;
 }
 
-UncertainLine averaged_line(const BeamLine& line, std::span<const BeamReading> readings,
-                            const std::array<std::optional<Adjacent>, 2>& adjacent, int min_readings = 3) {
-  return UncertainEnds(line, readings, noise(), adjacent, min_readings).average(0.5);
+UncertainLine averaged_line(const BeamLine& line, const std::array<UncertainEnd, 2>& ends) {
+  return UncertainEnds(line, ends).average(0.5);
+}
+
+// Readings whose last end is next to a reading of this range.
+UncertainLine averaged_before_range(const BeamLine& line, std::span<const BeamReading> readings, double range_m,
+                                    int min_readings = 3) {
+  return averaged_line(line, {{{}, end_towards_range({line, readings}, noise(), End::last, range_m, min_readings)}});
 }
 
 double squared_error(const BeamLine& line) {
@@ -53,7 +60,7 @@ TEST(LineEnds, NothingAdjacentChangesNothing) {
   const auto readings = wall_with_a_tail(1, false);
   const auto line = fit_beam_line(readings, noise());
   ASSERT_TRUE(line);
-  const UncertainLine same = averaged_line(*line, readings, {});
+  const UncertainLine same = averaged_line(*line, {});
   EXPECT_EQ(same.line.theta, line->theta);
   EXPECT_EQ(same.line.information, line->information);
   EXPECT_EQ(same.foreign, (std::array{0, 0}));
@@ -67,8 +74,7 @@ TEST(LineEnds, ErrorsAreAsLargeAsTheWholeCovarianceSays) {
     const auto readings = wall_with_a_tail(seed, true);
     const auto line = fit_beam_line(readings, noise());
     ASSERT_TRUE(line);
-    const Adjacent range{.line = {}, .readings = {}, .range_m = 2.15 / std::cos(0.5)};
-    averaged += squared_error(averaged_line(*line, readings, {std::nullopt, range}).line) / trials;
+    averaged += squared_error(averaged_before_range(*line, readings, 2.15 / std::cos(0.5)).line) / trials;
     plain += squared_error(*line) / trials;
   }
   EXPECT_NEAR(averaged, 2.0, 4 * 2.0 / std::sqrt(trials));
@@ -114,8 +120,8 @@ TEST(LineEnds, SideBetweenTwoLinesIsDistinguishedFromThem) {
     const Step step = step_with_a_side(seed, 0.5);
     const auto line = fit_beam_line(step.first, noise()), next = fit_beam_line(step.second, noise());
     ASSERT_TRUE(line && next);
-    const Adjacent adjacent{.line = next, .readings = step.second, .range_m = 0.0};
-    const UncertainLine found = averaged_line(*line, step.first, {std::nullopt, adjacent});
+    const auto ends = ends_at_junction({*line, step.first}, {*next, step.second}, noise(), 3);
+    const UncertainLine found = averaged_line(*line, {{{}, ends[0]}});
     averaged += squared_error(found.line) / trials;
     plain += squared_error(*line) / trials;
     sides += found.side[1] / trials;
@@ -141,13 +147,52 @@ TEST(LineEnds, FirstEndIsTheMirrorImageOfTheLast) {
     const auto line = fit_beam_line(step.first, noise()), next = fit_beam_line(step.second, noise());
     const auto image = fit_beam_line(first, noise()), next_image = fit_beam_line(second, noise());
     ASSERT_TRUE(line && next && image && next_image);
-    const Adjacent last{.line = next, .readings = step.second, .range_m = 0.0};
-    const Adjacent before{.line = next_image, .readings = second, .range_m = 0.0};
-    const UncertainLine a = averaged_line(*line, step.first, {std::nullopt, last});
-    const UncertainLine b = averaged_line(*image, first, {before, std::nullopt});
+    const auto ends = ends_at_junction({*line, step.first}, {*next, step.second}, noise(), 3);
+    const auto image_ends = ends_at_junction({*next_image, second}, {*image, first}, noise(), 3);
+    const UncertainLine a = averaged_line(*line, {{{}, ends[0]}});
+    const UncertainLine b = averaged_line(*image, {{image_ends[1], {}}});
     EXPECT_EQ(a.foreign[1], b.foreign[0]);
     EXPECT_NEAR(a.side[1], b.side[0], 1e-9);
     EXPECT_NEAR((a.line.theta - Vec2(b.line.theta.x(), -b.line.theta.y())).norm(), 0.0, 1e-9);
+  }
+}
+
+// The sum over j of the density of i and j readings on the side, times the ratio of likelihoods of the next line
+// without its j readings, reading by reading as section 5 of docs/algorithms/optimal.md states it.
+double density_with_side(const Step& step, const BeamLine& line, const BeamLine& next, std::size_t i) {
+  const auto all = [&](std::size_t k) { return k < kReadings ? step.first[k] : step.second[k - kReadings]; };
+  const auto between = [&](std::size_t k) { return Vec2((all(k - 1).direction + all(k).direction).normalized()); };
+  const Tails before = tails_of(line, step.first, noise(), End::last, kLongestTail);
+  const Tails behind = tails_of(next, step.second, noise(), End::first, kLongestTail);
+  double sum = 0.0;
+  for (std::size_t j = i == 0 ? 1 : 0; j <= kLongestTail; ++j) {
+    const Shortened a = without_tail(line, before[i]), b = without_tail(next, behind[j]);
+    const std::size_t first = kReadings - i, last = kReadings + j;
+    const Vec2 p = between(first) / a.theta.dot(between(first)), q = between(last) / b.theta.dot(between(last));
+    const double h = (q.norm() - p.norm()) / static_cast<double>(last - first);
+    double density = 1.0;
+    for (std::size_t k = first; k < last; ++k) {
+      const double t = (static_cast<double>(k - first) + 0.5) / static_cast<double>(last - first);
+      const double sigma = std::sqrt(kSigma * kSigma + ((1 - t) * (1 - t) + t * t) * h * h / 12.0);
+      const double error = all(k).range_m - cross(p, q - p) / cross(all(k).direction, q - p);
+      density *= std::max(kSigma / sigma * std::exp(-0.5 * std::pow(error / sigma, 2)),
+                          kSigma * std::sqrt(kTwoPi) / all(k).range_m);
+    }
+    sum += std::exp(b.gain) * density / 48.0;
+  }
+  return sum;
+}
+
+TEST(LineEnds, DensityWithASideIsTheProductOverItsReadings) {
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    const Step step = step_with_a_side(seed, 0.7);
+    const auto line = fit_beam_line(step.first, noise()), next = fit_beam_line(step.second, noise());
+    ASSERT_TRUE(line && next);
+    const auto ends = ends_at_junction({*line, step.first}, {*next, step.second}, noise(), 3);
+    for (std::size_t i = 0; i <= kLongestTail; ++i) {
+      const double expected = density_with_side(step, *line, *next, i);
+      EXPECT_NEAR(ends[0].with_side[i], expected, 1e-9 * expected) << "seed " << seed << ", " << i << " readings";
+    }
   }
 }
 
@@ -156,10 +201,9 @@ TEST(LineEnds, FarReadingsAreForeignAndFewRemain) {
   for (std::size_t i = kReadings - 3; i < kReadings; ++i) readings[i].range_m += 0.12;
   const auto line = fit_beam_line(readings, noise());
   ASSERT_TRUE(line);
-  const std::array<std::optional<Adjacent>, 2> adjacent = {
-      std::nullopt, Adjacent{.line = {}, .readings = {}, .range_m = 2.3 / std::cos(0.5)}};
-  EXPECT_EQ(averaged_line(*line, readings, adjacent).foreign[1], 3);
-  EXPECT_EQ(averaged_line(*line, readings, adjacent, kReadings).foreign[1], 0);
+  const double range_m = 2.3 / std::cos(0.5);
+  EXPECT_EQ(averaged_before_range(*line, readings, range_m).foreign[1], 3);
+  EXPECT_EQ(averaged_before_range(*line, readings, range_m, kReadings).foreign[1], 0);
 }
 
 }  // namespace

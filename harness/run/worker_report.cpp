@@ -1,0 +1,107 @@
+// Runs a task, and writes and reads the report of its outcome: a line of six numbers, then the message.
+#include "harness/run/worker_report.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "harness/files/system_error.hpp"
+#include "harness/foreign/fault.hpp"
+
+namespace scanbench::harness {
+namespace {
+
+constexpr std::size_t kMessageLimit = std::size_t{16} * 1024;  // bytes kept of an exception's message
+
+/// Cuts an exception's message, because a module may write one of any length.
+std::string shortened(std::string text) {
+  if (text.size() <= kMessageLimit) return text;
+  const std::string rest = std::to_string(text.size() - kMessageLimit);
+  text.resize(kMessageLimit);
+  return text + " [" + rest + " more bytes]";
+}
+
+WorkerOutcome failure(CellStatus status, const std::string& message) {
+  return {.status = status, .message = shortened(message)};
+}
+
+CellStatus status_of(ForeignFault::Kind kind) {
+  switch (kind) {
+    case ForeignFault::Kind::ended:
+      return CellStatus::crashed;
+    case ForeignFault::Kind::timeout:
+      return CellStatus::timeout;
+    case ForeignFault::Kind::memory:
+      return CellStatus::out_of_memory;
+    default:
+      return CellStatus::failed;
+  }
+}
+
+}  // namespace
+
+WorkerOutcome perform(const std::function<std::string()>& task) {
+  try {
+    return {.status = CellStatus::ok, .message = task()};
+  } catch (const std::bad_alloc&) {
+    return {.status = CellStatus::out_of_memory, .message = ""};
+  } catch (const InvalidResult& e) {
+    return failure(CellStatus::invalid, e.what());
+  } catch (const SystemError& e) {
+    return {.message = shortened(e.what()), .system_error = true};
+  } catch (const std::filesystem::filesystem_error& e) {
+    return {.message = shortened(e.what()), .system_error = true};
+  } catch (const ConfigError& e) {
+    return {.message = shortened(e.what()), .bad_input = true};
+  } catch (const ForeignFault& e) {
+    return failure(status_of(e.kind()), e.what());
+  } catch (const InternalError& e) {
+    return failure(CellStatus::failed, std::string("internal error: ") + e.what());
+  } catch (const std::exception& e) {
+    return failure(CellStatus::failed, e.what());
+  } catch (...) {
+    return failure(CellStatus::failed, "an exception that is no std::exception");
+  }
+}
+
+std::string report_bytes(const WorkerOutcome& outcome) {
+  std::array<char, 160> numbers{};
+  const int size =
+      std::snprintf(numbers.data(), numbers.size(), "%d %d %d %.9g %.9g %zu\n", static_cast<int>(outcome.status),
+                    static_cast<int>(outcome.bad_input), static_cast<int>(outcome.system_error), outcome.cpu_seconds,
+                    outcome.peak_memory_bytes, outcome.message.size());
+  return std::string(numbers.data(), static_cast<std::size_t>(size)) + outcome.message;
+}
+
+std::optional<WorkerOutcome> take_report(std::string& bytes) {
+  std::array<double, 6> numbers{};
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::size_t end = bytes.find(i + 1 < numbers.size() ? ' ' : '\n', begin);
+    if (end == std::string::npos) return std::nullopt;
+    const auto number = parse_number(std::string_view(bytes).substr(begin, end - begin));
+    if (!number || *number < 0.0) return std::nullopt;
+    numbers[i] = *number;
+    begin = end + 1;
+  }
+  const auto& [status, bad_input, system_error, cpu_seconds, peak_bytes, size] = numbers;
+  if (status > static_cast<double>(CellStatus::out_of_memory)) return std::nullopt;
+  if (static_cast<double>(bytes.size() - begin) < size) return std::nullopt;
+  WorkerOutcome outcome{.status = static_cast<CellStatus>(static_cast<int>(status)),
+                        .message = bytes.substr(begin, static_cast<std::size_t>(size)),
+                        .cpu_seconds = cpu_seconds,
+                        .peak_memory_bytes = peak_bytes,
+                        .bad_input = bad_input != 0.0,
+                        .system_error = system_error != 0.0};
+  bytes.erase(0, begin + static_cast<std::size_t>(size));
+  return outcome;
+}
+
+}  // namespace scanbench::harness
