@@ -132,7 +132,7 @@ WallEquations wall_equations(std::span<const WallPair> walls, std::span<const Me
   WallEquations result;
   std::vector<MeasuredLine> placed;
   for (const MeasuredLine& line : current) placed.push_back(moved(reference_from_current, line));
-  const Vec2 sensor = reference_from_current.translation();
+  const Vec2& sensor = reference_from_current.translation();
   for (const WallPair& wall : walls) {
     const Vec2& point = placed[wall.current.front()].middle;
     const Vec2& normal = placed[wall.current.front()].normal;
