@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <system_error>
@@ -136,6 +137,9 @@ int main(int argc, char** argv) {
   } catch (const app::Interrupted&) {
     app::say("\nscanbench: interrupted\n");
     return app::kInterrupted;
+  } catch (const std::filesystem::filesystem_error& error) {
+    app::say(fmt::format("scanbench: {}: {}\n", harness::plain_text(error.path1().string()), error.code().message()));
+    return app::kBadInput;
   } catch (const std::system_error& error) {  // standard output or a folder cannot be used
     app::say(fmt::format("scanbench: {}\n", harness::plain_text(error.what())));
     return app::kBadInput;

@@ -69,6 +69,15 @@ std::string caption_of(const ComparedColumn& column) {
   return text + "; under paper: as published.";
 }
 
+// The subjects of all columns. A paper may print some quantities for fewer lines than others.
+std::vector<std::string> subjects_of_all(const Columns& columns) {
+  std::vector<std::string> all;
+  for (const ComparedColumn* column : columns)
+    for (const auto& subject : column->subjects)
+      if (std::ranges::count(all, subject) == 0) all.push_back(subject);
+  return all;
+}
+
 Table lines_table(const std::string& scenario, const Columns& columns) {
   const ComparedColumn& first = *columns.front();
   Table table{scenario + "-paper-" + first.table,
@@ -77,7 +86,8 @@ Table lines_table(const std::string& scenario, const Columns& columns) {
               {"line"},
               {},
               {}};
-  for (const auto& subject : first.subjects) table.rows.push_back({{subject}, {}, false});
+  const std::vector<std::string> subjects = subjects_of_all(columns);
+  for (const auto& subject : subjects) table.rows.push_back({{subject}, {}, false});
   for (const ComparedColumn* column : columns) {
     const Display display = display_of(*column);
     const std::string group = heading(column->metric.metric, display);
@@ -85,9 +95,16 @@ Table lines_table(const std::string& scenario, const Columns& columns) {
       if (!pipeline.empty()) table.columns.push_back({group, pipeline, false});
       if (!published.empty()) table.columns.push_back({group, pipeline.empty() ? published : "paper", true});
     }
-    for (std::size_t s = 0; s < column->subjects.size(); ++s) {
-      auto& cells = table.rows[s].cells;
+    for (std::size_t r = 0; r < subjects.size(); ++r) {
+      auto& cells = table.rows[r].cells;
       const std::size_t from = cells.size();
+      const auto place = std::ranges::find(column->subjects, subjects[r]);
+      if (place == column->subjects.end()) {
+        for (std::size_t c = from; c < table.columns.size(); ++c)
+          cells.push_back({"–", false, table.columns[c].published});
+        continue;
+      }
+      const auto s = static_cast<std::size_t>(place - column->subjects.begin());
       std::vector<double> ours, theirs;
       for (std::size_t m = 0; m < column->methods.size(); ++m) {
         const ComparedCell& cell = column->at(s, m);

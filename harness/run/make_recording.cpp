@@ -92,7 +92,7 @@ void check_scenario(const Scenario& scenario) {
   try {
     sim::check_clear(input.world, input.trajectory, input.sensor.range_max_m);
   } catch (const ConfigError& error) {
-    throw ConfigError(scenario.path.string() + ": " + error.what());
+    throw ConfigError(trajectory_place(scenario) + ": " + error.what());
   }
 }
 
@@ -107,7 +107,7 @@ Recording make_recording(const Scenario& scenario, std::uint64_t seed, int threa
   try {
     return sim::simulate(input, threads, progress);
   } catch (const ConfigError& error) {
-    throw ConfigError(scenario.path.string() + ": " + error.what());
+    throw ConfigError(trajectory_place(scenario) + ": " + error.what());
   }
 }
 

@@ -1,10 +1,14 @@
 // Collects the world, the sensor and the generated trajectory of a scenario.
 #include "harness/scenario/simulation_input.hpp"
 
+#include <fmt/format.h>
+
+#include <string>
 #include <variant>
 
 #include "core/error.hpp"
 #include "core/registry.hpp"
+#include "harness/yaml/gate.hpp"
 #include "sim/trajectory.hpp"
 
 namespace scanbench::harness {
@@ -21,6 +25,15 @@ sim::SimulationInput simulation_input(const Scenario& scenario, std::uint64_t se
           .sweep = simulated->sweep,
           .seed = seed,
           .caster = simulated->caster};
+}
+
+std::string trajectory_place(const Scenario& scenario) {
+  const std::string file = scenario.path.string();
+  const YamlNode root = parse_yaml(scenario.text, scenario.text.size());
+  const YamlNode* node = root.find("trajectory");
+  if (node == nullptr) return file;
+  if (const YamlNode* points = node->find("points_m")) node = points;
+  return fmt::format("{}:{}:{}", file, node->mark.line, node->mark.column);
 }
 
 }  // namespace scanbench::harness

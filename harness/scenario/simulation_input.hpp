@@ -1,6 +1,8 @@
 // The simulator's input for a scenario.
 #pragma once
 
+#include <string>
+
 #include <cstdint>
 
 #include "harness/scenario/scenario.hpp"
@@ -11,5 +13,9 @@ namespace scanbench::harness {
 /// The input of simulate(). Its trajectory has the waypoints that figures show. Throws InternalError for a scenario
 /// that is not simulated.
 sim::SimulationInput simulation_input(const Scenario& scenario, std::uint64_t seed);
+
+/// "file:line:column" of the scenario's waypoints, or of its trajectory, for a message about its path; the file alone
+/// if the text of the scenario has no trajectory.
+std::string trajectory_place(const Scenario& scenario);
 
 }  // namespace scanbench::harness

@@ -164,6 +164,16 @@ TEST(OutputFolder, ThatIsNotARunIsLeftAlone) {
   EXPECT_FALSE(fs::exists(folder / "nowhere"));
 }
 
+TEST(AFileOrFolder, ThatIsALinkToItselfIsRefusedWithItsName) {
+  const Folder folder;
+  fs::create_symlink("loop.yaml", folder / "loop.yaml");
+  for (const std::string verb : {"check", "run", "report", "figures", "export"})
+    EXPECT_THAT(
+        refusal_in(folder, {verb, "loop.yaml"}),
+        AllOf(HasSubstr("scanbench: loop.yaml: "), HasSubstr("symbolic link"), Not(HasSubstr("filesystem error"))))
+        << verb;
+}
+
 TEST(OutputFolder, ThatMayNotBeWrittenIsRefused) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const Folder folder;

@@ -201,6 +201,23 @@ TEST(PaperTables, ShowOursNextToThePrintedAndTheBestOfEither) {
   EXPECT_THAT(text, HasSubstr("1     1.00*   2.00  3.00   3.00  2.00  1.00*"));
 }
 
+TEST(PaperTables, HaveARowForEachLineOfAnyColumn) {
+  auto few = column_of({{2, 3, 1}}, {{{1}, {3}, {2}}});
+  auto more = column_of({{5, 6, 4}, {8, 9, 7}, {1, 2, 3}}, {{{1}, {3}, {2}}, {{4}, {6}, {5}}, {{7}, {9}, {8}}});
+  ASSERT_EQ(more.subjects.size(), 3U);
+  few.table = more.table = "1";
+  const auto tables = paper_tables("rooms", {few, more});
+  ASSERT_EQ(tables.size(), 1U);
+  ASSERT_EQ(tables[0].rows.size(), 3U);
+  for (std::size_t r = 0; r < 3; ++r) {
+    EXPECT_THAT(tables[0].rows[r].heads, ElementsAre(more.subjects[r]));
+    EXPECT_EQ(tables[0].rows[r].cells.size(), tables[0].columns.size());
+  }
+  EXPECT_EQ(tables[0].rows[0].cells[0].text, "1");
+  EXPECT_EQ(tables[0].rows[2].cells[0].text, "–");  // the first column has no such line
+  EXPECT_EQ(tables[0].rows[2].cells[6].text, "7");
+}
+
 TEST(PaperTables, ShowTimesAsRatiosToTheFirstFamily) {
   ComparedColumn column;
   column.metric = {.metric = "t", .unit = "ms", .doc = "time", .timing = true};

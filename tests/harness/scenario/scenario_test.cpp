@@ -281,7 +281,15 @@ TEST(CheckScenario, FindsASensorThatIsOutOfRangeOfEveryWall) {
     return config_refusal([&] { check_scenario(parse_scenario(kSmall, "x.yaml", {"sensor.range_max_m=" + range})); });
   };
   EXPECT_EQ(refusal("2"), "");  // walls are 1 m away
-  EXPECT_THAT(refusal("0.9"), HasSubstr("x.yaml: "));
+  EXPECT_THAT(refusal("0.9"), HasSubstr("x.yaml:4:41: "));
+}
+
+TEST(CheckScenario, NamesTheWaypointsOfAPathThatCrossesAWall) {
+  std::string text = kSmall;
+  text.replace(text.find("A: [3, 1]"), 9, "A: [3, 5]");
+  const std::string refusal = config_refusal([&] { check_scenario(parse_scenario(text, "x.yaml")); });
+  EXPECT_THAT(refusal, testing::AllOf(testing::StartsWith("x.yaml:4:41: "), HasSubstr("crosses wall 'b'")));
+  EXPECT_EQ(config_refusal([&] { make_recording(parse_scenario(text, "x.yaml"), 1, 1); }), refusal);
 }
 
 TEST(Scenario, WithoutPipelinesItsEffectiveFormHasNoneEither) {
