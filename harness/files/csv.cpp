@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "harness/files/text_file.hpp"
 
 namespace scanbench::harness {
 
@@ -168,7 +169,8 @@ std::optional<double> CsvTable::optional_number(std::size_t row, std::string_vie
   if (text == "inf") return std::numeric_limits<double>::infinity();
   if (text == "-inf") return -std::numeric_limits<double>::infinity();
   const auto value = parse_number(text);
-  if (!value) refuse(row, std::string(name) + " is '" + std::string(text) + "'; allowed: a number, inf, -inf, nothing");
+  if (!value)
+    refuse(row, std::string(name) + " is " + quoted_excerpt(text) + "; allowed: a number, inf, -inf, nothing");
   return value;
 }
 
@@ -179,7 +181,7 @@ double CsvTable::number(std::size_t row, std::string_view name) const {
 long long CsvTable::integer(std::size_t row, std::string_view name) const {
   const std::string_view text = field(row, name);
   const auto value = parse_integer(text);
-  if (!value) refuse(row, std::string(name) + " is '" + std::string(text) + "'; allowed: a whole number");
+  if (!value) refuse(row, std::string(name) + " is " + quoted_excerpt(text) + "; allowed: a whole number");
   return *value;
 }
 

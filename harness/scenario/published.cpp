@@ -75,6 +75,7 @@ void check_published(const Scenario& scenario) {
     const auto metric = units.find(value.metric);
     if (metric == units.end()) {
       std::vector<std::string> known;
+      known.reserve(units.size());
       for (const auto& [name, unit] : units) known.push_back(name);
       refuse("no metric is called " + quoted_excerpt(value.metric) + known_names(value.metric, known));
     }

@@ -102,8 +102,10 @@ void sweep_group(const WallGroup& group, const double* ids, const BeamFan& fan, 
     if (group.runs.is_empty(i)) continue;
     const BeamRun run = group.runs.run(i);
     const bool is_short = run.last - (run.first & -kLanes) < kLanes;  // for it, the smaller groups do
-    is_short ? sweep_run(SweptWall<Doubles>(group.walls, i, ids[i]), run, fan, hits)
-             : sweep_run(SweptWall<WideDoubles>(group.walls, i, ids[i]), run, fan, hits);
+    if (is_short)  // NOLINT(bugprone-branch-clone): Doubles and WideDoubles are one type in some builds
+      sweep_run(SweptWall<Doubles>(group.walls, i, ids[i]), run, fan, hits);
+    else
+      sweep_run(SweptWall<WideDoubles>(group.walls, i, ids[i]), run, fan, hits);
     if (group.runs.last_behind[i] >= 0)
       sweep_run(SweptWall<WideDoubles>(group.walls, i, ids[i]), group.runs.run_behind(i), fan, hits);
   }
@@ -137,7 +139,7 @@ struct BoxRuns {
 };
 
 BoxRuns box_runs(const TreeNode& node, const BeamFan& fan, const BeamScale& scale) {
-  BoxRuns runs;
+  BoxRuns runs;  // NOLINT(*-member-init): the loop sets every value
   for (int k = 0; k < TreeNode::kChildren; k += kLanes) {
     const Doubles x0 = load(node.low_x + k) - fan.origin_x;
     const Doubles x1 = load(node.high_x + k) - fan.origin_x;
@@ -238,7 +240,7 @@ NearestSurface walk(const WallView& walls, double ox, double oy, double dx, doub
 
 }  // namespace
 
-extern const CastKernels kCastKernels;
+extern const CastKernels kCastKernels;  // NOLINT(readability-redundant-declaration): gives it a name outside
 const CastKernels kCastKernels{
     .rotate = rotate, .clear = clear, .finish = finish, .sweep_all = sweep_all, .sweep_tree = sweep_tree, .walk = walk};
 

@@ -28,6 +28,7 @@ struct Block {
 /// Philox4x32-10 for one seed, stream and frame: the first block of a beam's counter (0, beam, frame, stream).
 class Philox {
  public:
+  // NOLINTNEXTLINE(*-member-init): the loop sets the keys
   explicit Philox(const DrawAddress& address) : frame_(every_word(address.frame)), stream_(every_word(address.stream)) {
     unsigned long long key0 = address.seed & kLow;
     unsigned long long key1 = address.seed >> 32;
@@ -91,7 +92,7 @@ void normals(const DrawAddress& address, int count, double* out) {
 
 }  // namespace
 
-extern const DrawKernels kDrawKernels;
+extern const DrawKernels kDrawKernels;  // NOLINT(readability-redundant-declaration): gives it a name outside
 const DrawKernels kDrawKernels{.uniforms = uniforms, .normals = normals};
 
 }  // namespace scanbench::sim::SCANBENCH_ISA

@@ -85,7 +85,7 @@ void observe(const double* true_ranges, int count, const GaussianReading& noise,
 
 }  // namespace
 
-extern const ReadingKernels kReadingKernels;
+extern const ReadingKernels kReadingKernels;  // NOLINT(readability-redundant-declaration): gives it a name outside
 const ReadingKernels kReadingKernels{.list_returns = list_returns, .observe = observe};
 
 }  // namespace scanbench::sim::SCANBENCH_ISA

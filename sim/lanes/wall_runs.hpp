@@ -69,7 +69,7 @@ inline WallRuns wall_runs(const WallView& walls, int first, const BeamFan& fan, 
   constexpr double kNearM = 1e-3;         // the angle of a nearer end is not reliable
   constexpr double kTouchM = 1e-9;        // more than kEndToleranceM
   constexpr double kRounding = 64 * 0x1p-52;
-  WallRuns w;
+  WallRuns w;  // NOLINT(*-member-init): every value is set below
   w.ax = load(walls.ax + first) - fan.origin_x;
   w.ay = load(walls.ay + first) - fan.origin_y;
   w.bx = load(walls.bx + first) - fan.origin_x;

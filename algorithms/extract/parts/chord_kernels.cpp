@@ -20,7 +20,7 @@ double farthest(const double* points, int count, const double a[2], const double
   Longs here = {0, 2, 1, 3};  // the order of lanes for which pairs need no instruction across the register's halves
   int k = 0;
   const double* p = points;
-  for (; k + kLanes <= count; k += kLanes, p += 2 * kLanes) {
+  for (; k + kLanes <= count; k += kLanes, p += 2L * kLanes) {
     const Doubles first = *reinterpret_cast<const LooseDoubles*>(p);
     const Doubles second = *reinterpret_cast<const LooseDoubles*>(p + kLanes);
     const Doubles x = __builtin_shufflevector(first, second, 0, 4, 2, 6);

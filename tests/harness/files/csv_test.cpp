@@ -63,5 +63,23 @@ TEST(Csv, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_EQ(message("a\n1\n2\n", true), "accepted");
 }
 
+TEST(Csv, QuotesOnlyTheBeginningOfALongValueThatIsNoNumber) {
+  const CsvTable table("a\n" + std::string(300000, 'x') + "\n", "f.csv");
+  for (const bool whole : {false, true}) try {
+      whole ? static_cast<double>(table.integer(0, "a")) : table.number(0, "a");
+      ADD_FAILURE() << "read";
+    } catch (const ConfigError& e) {
+      EXPECT_LT(std::string(e.what()).size(), 200u);
+      EXPECT_THAT(e.what(), ::testing::StartsWith("f.csv:2: a is 'xxx"));
+    }
+}
+
+TEST(Csv, KeepsItsFieldsWhenItIsMoved) {
+  CsvTable first("a,b\n\"x\"\"y\",short\n", "f.csv");  // texts that a string keeps within itself
+  const CsvTable moved = std::move(first);
+  EXPECT_EQ(moved.text(0, "a"), "x\"y");
+  EXPECT_EQ(moved.field(0, "b"), "short");
+}
+
 }  // namespace
 }  // namespace scanbench::harness
