@@ -34,6 +34,9 @@ class LineRaster {
   static constexpr double kLastPixel = 4e6;
 
   virtual ~LineRaster() = default;
+  /// Loads the library that draws, so that processes forked from this one have it. Starts no thread. Throws ConfigError
+  /// if it is not installed.
+  virtual void load() const = 0;
   /// Per layer its pixels, each once, in order. `pixel_m` > 0. The same layers give the same pixels in every thread and
   /// process. Throws ConfigError if there are more than kMostPixels pixels, if a segment reaches beyond kLastPixel, or
   /// if the library that draws is not installed.

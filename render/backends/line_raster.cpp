@@ -124,6 +124,9 @@ class OsmesaRaster : public LineRaster {
   using Params = NoParams;
   explicit OsmesaRaster(const Params&) {}
 
+  /// A context is not made: Mesa then starts a thread, and a process that forks must have one alone.
+  void load() const override { OsMesa(); }
+
   std::vector<std::vector<Pixel>> draw(std::span<const std::vector<Segment>> layers, double pixel_m) const override {
     check(layers, pixel_m);
     std::vector<std::vector<Pixel>> pixels(layers.size());
