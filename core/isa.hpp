@@ -12,4 +12,10 @@ enum class Isa {
 /// The best that the processor has, at most `limit`: kernels with a build for AVX-512 pass v4. All give equal bytes.
 Isa best_isa(Isa limit = Isa::v3);
 
+/// Of the three builds of a table of kernels, the one for `isa`.
+template <class Kernels>
+const Kernels& build_for(Isa isa, const Kernels& baseline, const Kernels& v3, const Kernels& v4) {
+  return isa == Isa::v4 ? v4 : isa == Isa::v3 ? v3 : baseline;
+}
+
 }  // namespace scanbench

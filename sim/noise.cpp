@@ -9,6 +9,7 @@
 
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/portable_math.hpp"
+#include "core/isa.hpp"
 #include "core/rng.hpp"
 #include "sim/lanes/draw_kernels.hpp"
 #include "sim/lanes/reading_kernels.hpp"
@@ -62,27 +63,11 @@ void fill_up(std::vector<std::uint32_t>& beams) {
 }
 
 const DrawKernels& draw_kernels_for(Isa isa) {
-  switch (isa) {
-    case Isa::v4:
-      return v4::kDrawKernels;
-    case Isa::v3:
-      return v3::kDrawKernels;
-    case Isa::baseline:
-      break;
-  }
-  return baseline::kDrawKernels;
+  return build_for(isa, baseline::kDrawKernels, v3::kDrawKernels, v4::kDrawKernels);
 }
 
 const ReadingKernels& reading_kernels_for(Isa isa) {
-  switch (isa) {
-    case Isa::v4:
-      return v4::kReadingKernels;
-    case Isa::v3:
-      return v3::kReadingKernels;
-    case Isa::baseline:
-      break;
-  }
-  return baseline::kReadingKernels;
+  return build_for(isa, baseline::kReadingKernels, v3::kReadingKernels, v4::kReadingKernels);
 }
 
 // One number for each of `beams`, whose size is a multiple of 8.

@@ -12,6 +12,7 @@
 #include "core/geometry/angles.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/pose2.hpp"
+#include "core/isa.hpp"
 #include "core/sensor_model.hpp"
 #include "sim/cast/beam_fan.hpp"
 #include "sim/cast/box_walk.hpp"
@@ -156,15 +157,7 @@ HitBuffers part(const HitBuffers& out, std::size_t first, std::size_t count) {
 }
 
 const CastKernels& kernels_for(Isa isa) {
-  switch (isa) {
-    case Isa::v4:
-      return v4::kCastKernels;
-    case Isa::v3:
-      return v3::kCastKernels;
-    case Isa::baseline:
-      break;
-  }
-  return baseline::kCastKernels;
+  return build_for(isa, baseline::kCastKernels, v3::kCastKernels, v4::kCastKernels);
 }
 
 class ExactCaster : public Caster {
