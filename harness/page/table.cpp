@@ -99,7 +99,6 @@ std::string bold_caption(std::string caption) {
   if (at == std::string::npos) return caption;
   const bool begins_sentence = at < 2 || caption[at - 2] == '.';
   return caption.replace(at, 1, begins_sentence ? "Bold" : "bold");
-  return caption;
 }
 
 std::string part_to_terminal(const Table& table, bool color) {

@@ -247,13 +247,8 @@ class TableBuilder {
   }
 
   std::string caption(const Family& family) const {
-    std::vector<std::string> parts{"* marks the best value"};
-    if (std::ranges::any_of(family.metrics, [&](const auto& m) { return gated(m) && reported(m.metric); }))
-      parts.front() += fmt::format("; of errors and costs among pipelines within {} of the best {}",
-                                   kCompletenessMargin, gate_->metric);
-    const bool incomplete =
-        std::ranges::any_of(results_.coverage, [](const auto& of_pipeline) { return !of_pipeline.second.complete(); });
-    if (incomplete) parts.emplace_back("a pipeline with cells that are not ok has no mark");
+    std::vector<std::string> parts;
+    if (results_.pipelines.size() > 1) explain_marks(family, parts);
     if (scenario_.seeds.size() > 1)
       parts.push_back(fmt::format("mean over {} seeds ± half width of the 95 % interval", scenario_.seeds.size()));
     parts.insert(parts.end(), results_.notes.begin(), results_.notes.end());
@@ -261,7 +256,17 @@ class TableBuilder {
       if (std::ranges::any_of(family.metrics,
                               [&](const auto& m) { return std::ranges::count(note.metrics, m.metric) > 0; }))
         parts.push_back(note.text);
-    return fmt::format("{}.", fmt::join(parts, "; "));
+    return parts.empty() ? "" : fmt::format("{}.", fmt::join(parts, "; "));
+  }
+
+  void explain_marks(const Family& family, std::vector<std::string>& parts) const {
+    parts.emplace_back("* marks the best value");
+    if (std::ranges::any_of(family.metrics, [&](const auto& m) { return gated(m) && reported(m.metric); }))
+      parts.back() += fmt::format("; of errors and costs among pipelines within {} of the best {}", kCompletenessMargin,
+                                  gate_->metric);
+    const bool incomplete =
+        std::ranges::any_of(results_.coverage, [](const auto& of_pipeline) { return !of_pipeline.second.complete(); });
+    if (incomplete) parts.emplace_back("a pipeline with cells that are not ok has no mark");
   }
 
   const Scenario& scenario_;

@@ -128,6 +128,21 @@ TEST(ResultTables, SayHowManyCellsAPipelineFinishedAndMarkNoneThatDidNotFinishAl
   EXPECT_THAT(tables[0].caption, AllOf(HasSubstr("2 of 3 seeds"), HasSubstr("no mark")));
 }
 
+TEST(ResultTables, ExplainNoMarksOfASinglePipeline) {
+  const auto caption = [](const std::vector<std::string>& pipelines) {
+    const Scenario scenario = scenario_of(pipelines, {"timing"});
+    std::vector<SummaryRow> rows;
+    std::vector<CellLine> cells;
+    for (const auto& name : pipelines) {
+      rows.push_back(row(name, "t_scan", 1));
+      cells.push_back(cell(name, 1, "ok"));
+    }
+    return result_tables(scenario, comparable_rows(scenario, rows, cells)).front().caption;
+  };
+  EXPECT_THAT(caption({"a"}), IsEmpty());
+  EXPECT_THAT(caption({"a", "b"}), HasSubstr("* marks the best value"));
+}
+
 TEST(ResultTables, CountTheSeedsInWhichAValueIsDefined) {
   const Scenario scenario = scenario_of({"a", "b"}, {"segments"}, {1, 2});
   const auto tables = result_tables(
