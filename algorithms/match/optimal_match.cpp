@@ -5,9 +5,10 @@
 // With the true place eliminated, the two measured places differ by a normal error of covariance C1 + C2, and the pose
 // of greatest likelihood minimises the sum of the normalised squared differences. Its bound is that of
 // `pose_efficiency` with walls unknown. The search starts from the guess and from the pose of point-to-line
-// registration, and keeps the result whose pairs of walls are more probable.
+// registration, and from turned guesses if neither comes to rest; the most probable result is kept.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 
@@ -36,6 +37,9 @@ struct RoundRow {
 };
 
 constexpr int kMostRounds = 12;
+// Further starts where the first two are in doubt: turns of the guess, in its standard deviations.
+constexpr double kTurns[] = {-2.0, 2.0, -4.0, 4.0, -6.0, 6.0};
+constexpr double kSurprise = 16.3;  // 99.9 % of chi-square with 3 degrees of freedom
 // The least ratio of a motion's information to what errors of the normals give an open motion. For the two walls of a
 // corridor that ratio is half a squared normal variable, which exceeds 10 once in 130 000 cases.
 constexpr double kLeastRatio = 10.0;
@@ -74,33 +78,62 @@ class OptimalMatch final : public ScanMatcher {
     const ReturnedPoints seen = returned_points(reference.scan), now = returned_points(current.scan);
     trace.stage(Stage::start);
     const bool points = seen.size() > 0 && now.size() > 0;
-    const Match start =
-        points ? register_points_on_lines(seen, local_lines(seen), now, local_lines(now), guess, start_, trace)
-               : Match{};
-    if (points && start.status == Status::no_match) return start;
+    const auto registered = [&](const Pose2& from) {
+      return register_points_on_lines(seen, local_lines(seen), now, local_lines(now), from, start_, trace);
+    };
+    const Match start = points ? registered(guess) : Match{};
+    const bool lost = points && start.status == Status::no_match;
     trace.stage(Stage::walls);
     const ScanMeasurements there = measurements(reference), here = measurements(current);
     const double lever = lever_of(now);
-    Candidate best = by_walls(there, here, {guess, guess_covariance_}, guess, lever, trace);
-    if (points) {
-      PoseBelief belief{start.reference_from_current, guess_covariance_};
-      if (start.status == Status::converged) belief.covariance = 4.0 * start.covariance;
-      const Candidate other = by_walls(there, here, belief, guess, lever, trace);
-      if (!(other.evidence < best.evidence)) best = other;
+    const auto candidate = [&](const Pose2& from, const Eigen::Matrix3d& covariance) {
+      return by_walls(there, here, {from, covariance}, guess, lever, trace);
+    };
+    Candidate best{no_match(guess), -std::numeric_limits<double>::infinity()};
+    if (!lost) best = more_probable(best, candidate(guess, guess_covariance_));
+    if (!lost && points) {
+      const bool known = start.status == Status::converged;
+      best = more_probable(best,
+                           candidate(start.reference_from_current, known ? 4.0 * start.covariance : guess_covariance_));
     }
-    return best.match;
+    if (in_question(best.match, guess))
+      for (const double turn : kTurns) {
+        const Motion motion(0.0, 0.0, turn * std::sqrt(guess_covariance_(2, 2)));
+        const Candidate other = candidate(moved(guess, motion), 4.0 * guess_covariance_);
+        // Two parallel walls fit at many headings: what leaves a motion open confirms no turn.
+        if (other.match.status != Status::degenerate) best = more_probable(best, other);
+      }
+    if (!lost) return best.match;
+    const bool found = best.match.status == Status::converged &&
+                       registered(best.match.reference_from_current).status != Status::no_match;
+    return found ? best.match : no_match(guess);
   }
 
  private:
   struct Candidate {
     Match match;
-    double evidence = 0.0;
+    double evidence = 0.0;  ///< logarithm of its probability, but for a constant
   };
+
+  static const Candidate& more_probable(const Candidate& a, const Candidate& b) {
+    return b.match.status != Status::no_match && b.evidence >= a.evidence ? b : a;
+  }
+
+  /// Squared distance from the guess, in standard deviations of the guess.
+  double surprise(const Pose2& guess, const Pose2& pose) const {
+    const Motion off = motion_between(guess, pose);
+    return off.dot(guess_covariance_.inverse() * off);
+  }
+
+  bool in_question(const Match& match, const Pose2& guess) const {
+    return match.status == Status::no_match || match.status == Status::max_iterations ||
+           surprise(guess, match.reference_from_current) > kSurprise;
+  }
 
   /// Pairs walls and steps in turn until neither changes: first with the doubt about the pose in the weights, so that
   /// walls known to millimetres count although the guess is off by centimetres, then without.
-  static Candidate by_walls(const ScanMeasurements& reference, const ScanMeasurements& current, PoseBelief belief,
-                            const Pose2& guess, double lever_m, Trace& trace) {
+  Candidate by_walls(const ScanMeasurements& reference, const ScanMeasurements& current, PoseBelief belief,
+                     const Pose2& guess, double lever_m, Trace& trace) const {
     Candidate result{{Status::max_iterations, guess, Eigen::Matrix3d::Zero()}, 0.0};
     const Eigen::Matrix3d before = belief.covariance.inverse();
     Pose2& pose = belief.reference_from_current;
@@ -112,6 +145,8 @@ class OptimalMatch final : public ScanMatcher {
       const Eigen::Matrix3d doubt = doubtful ? belief.covariance : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
       WallEquations sum = wall_equations(paired, reference.lines, current.lines, pose, doubt);
       add_lone_returns(remainder(paired, reference, current), belief, doubt, sum);
+      // What the walls know less well than the guess does is open too.
+      sum.equations.by_chance += guess_covariance_.inverse() / kLeastRatio;
       const Determined determined(sum.equations, lever_m, kLeastRatio);
       const Motion step = determined.solve(sum.equations.rhs);
       pose = moved(pose, step);
@@ -121,7 +156,9 @@ class OptimalMatch final : public ScanMatcher {
       const bool open = determined.rank() < 3;
       const Pose2 answer = open ? moved(guess, determined.project(motion_between(guess, pose))) : pose;
       const Status status = open ? Status::degenerate : settled ? Status::converged : Status::max_iterations;
-      result = {{status, answer, determined.covariance(1.0)}, sum.evidence};
+      result = {{status, answer, determined.covariance(1.0)}, sum.evidence - 0.5 * surprise(guess, answer)};
+      // Pairs that change in turn: the pose is not known better than they move it.
+      if (status == Status::max_iterations) result.match.covariance += step * step.transpose();
       if (doubtful)
         belief.covariance = (before + sum.equations.matrix / contradiction(sum, step)).inverse();
       else if (!open)

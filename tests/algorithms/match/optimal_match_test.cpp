@@ -1,0 +1,97 @@
+// optimal_match: guesses that are far off, and walls that know less than the guess.
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "algorithms/match/parts/pose_information.hpp"
+#include "core/registry.hpp"
+#include "tests/support/scan_builder.hpp"
+
+namespace scanbench::matching {
+namespace {
+
+using testing::box;
+using testing::cast;
+using testing::fan_sensor;
+using testing::OwnedScan;
+using testing::polygon;
+using testing::with_noise;
+
+/// A room of 17 m by 10 m with boxes that stand 1.6 m apart and are turned at random: from box to box the walls look
+/// alike.
+std::vector<Segment> cluttered_room() {
+  std::vector<Segment> walls = box(0, 0, 17, 10);
+  CounterRng rng(3, RngStream::pose);
+  for (double x = 2.0; x < 16.0; x += 1.6)
+    for (const double y : {1.5, 3.1, 6.9, 8.5}) {
+      const Pose2 place(x, y, kPi * rng.uniform());
+      const double half = 0.2 + 0.1 * rng.uniform();
+      for (const Segment& side : polygon({place * Vec2(-half, half), place * Vec2(half, half),
+                                          place * Vec2(half, -half), place * Vec2(-half, -half)}))
+        walls.push_back(side);
+    }
+  return walls;
+}
+
+TEST(OptimalMatch, StatesNoWrongPoseFromGuessesSeveralStandardDeviationsOff) {
+  const std::vector<Segment> walls = cluttered_room();
+  const SensorModel sensor = fan_sensor(451, radians(270));
+  const auto extractor = Registry<LineExtractor>::make("optimal");
+  const auto matcher = Registry<ScanMatcher>::make("optimal_match");
+  Trace silent;
+  CounterRng rng(1, RngStream::odometry);
+  const auto normal = [&] { return rng.normal(); };
+  int stated = 0;
+  for (std::uint32_t k = 0; k < 60; ++k) {
+    const Pose2 from(2.0 + 0.2 * k, 5.0, 0.1 * normal());
+    const Pose2 motion(0.2, 0.05 * normal(), 0.1 * normal());
+    const OwnedScan reference = with_noise(cast(sensor, walls, from), 0.05, 1, 2 * k);
+    const OwnedScan current = with_noise(cast(sensor, walls, from * motion), 0.05, 1, 2 * k + 1);
+    const ScanLines there = extractor->extract(reference.view(), silent);
+    const ScanLines here = extractor->extract(current.view(), silent);
+    // The parameters state 0.1 m and 3 degrees.
+    const Pose2 guess = moved(motion, {0.2 * normal(), 0.2 * normal(), radians(8.0) * normal()});
+    const Match found = matcher->match({reference.view(), there}, {current.view(), here}, guess, silent);
+    if (found.status != Status::converged && found.status != Status::max_iterations) continue;
+    ++stated;
+    const Motion error = motion_between(motion, found.reference_from_current);
+    EXPECT_LT(error.head<2>().norm(), 0.06) << "pair " << k;
+    EXPECT_LT(std::fabs(error.z()), radians(0.5)) << "pair " << k;
+  }
+  EXPECT_GE(stated, 57);
+}
+
+// Two parallel walls, and one across them whose place both scans know with a standard deviation of `sigma_m`.
+Match match_with_a_wall_across(double sigma_m, const Pose2& guess) {
+  const auto line = [](Vec2 a, Vec2 b, double sigma) {
+    LineFeature feature;
+    feature.segment = {a, b};
+    feature.line = line_through(a, b);
+    feature.covariance = Eigen::Vector2d(sigma * sigma, 1e-6).asDiagonal().toDenseMatrix();
+    return feature;
+  };
+  const SensorModel sensor = fan_sensor(3, 1.0);
+  const OwnedScan none{sensor, {kInf, kInf, kInf}, {}};
+  ScanLines lines;
+  lines.lines = {line({-4, 1}, {4, 1}, 0.001), line({4, -1}, {-4, -1}, 0.001), line({5, 1}, {5, -1}, sigma_m)};
+  lines.labels = {-1, -1, -1};
+  Trace silent;
+  return Registry<ScanMatcher>::make("optimal_match")->match({none.view(), lines}, {none.view(), lines}, guess, silent);
+}
+
+TEST(OptimalMatch, LeavesOpenWhatTheWallsKnowLessWellThanTheGuess) {
+  const Pose2 guess(0.05, 0.01, 0.0);  // the truth is 0; the parameters state 0.1 m
+  const Match known = match_with_a_wall_across(0.01, guess);
+  EXPECT_EQ(known.status, Status::converged);
+  EXPECT_NEAR(known.reference_from_current.translation().x(), 0.0, 1e-6);
+  EXPECT_NEAR(known.covariance(0, 0), 2e-4, 1e-5);          // of two scans
+  const Match open = match_with_a_wall_across(0.1, guess);  // 0.14 m for two scans
+  EXPECT_EQ(open.status, Status::degenerate);
+  EXPECT_NEAR(open.reference_from_current.translation().x(), guess.translation().x(), 1e-6);
+  EXPECT_NEAR(open.reference_from_current.translation().y(), 0.0, 1e-6);
+  EXPECT_GT(open.covariance(0, 0), 100.0);
+}
+
+}  // namespace
+}  // namespace scanbench::matching
