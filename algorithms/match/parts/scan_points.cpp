@@ -21,7 +21,7 @@ struct Sums {
 
 class Windows {
  public:
-  explicit Windows(const ReturnedPoints& scan) : scan_(scan), sums_(scan.size() + 1) {
+  explicit Windows(const ReturnedPoints& scan) : sums_(scan.size() + 1) {
     for (std::size_t k = 0; k < scan.size(); ++k) {
       const Vec2& p = scan.points[k];
       const Sums& s = sums_[k];
@@ -67,7 +67,6 @@ class Windows {
   }
 
  private:
-  const ReturnedPoints& scan_;
   std::vector<Sums> sums_;
 };
 
