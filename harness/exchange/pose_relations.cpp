@@ -98,7 +98,7 @@ Row stamped_row(const LogLines& lines, const std::vector<std::string_view>& word
                              words.size()));
   std::array<double, kFields.size()> row{};
   for (std::size_t i = 0; i < row.size(); ++i) row[i] = lines.number_of(words[i], kFields[i]);
-  for (const std::size_t i : {4, 5, 6})
+  for (const std::size_t i : {4U, 5U, 6U})
     if (std::abs(row[i]) > kInPlane)
       lines.refuse(words[i], fmt::format("{} is {}; allowed: 0, a motion of the plane", kFields[i], row[i]));
   return {scans.at(row[0]), scans.at(row[1]), Pose2(row[2], row[3], yaw_of(lines, words[7]))};

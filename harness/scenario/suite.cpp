@@ -135,8 +135,8 @@ class SuiteReader {
     auto levels = variant.levels;
     levels.insert(levels.begin(), {"scenario", file});
     for (const auto& [factor, level] : levels) {
-      const auto same = [&](const BenchmarkLevel& l) { return l.factor == factor && l.level == level; };
-      auto found = std::ranges::find_if(levels_, same);
+      const auto key = [](const BenchmarkLevel& l) { return std::tie(l.factor, l.level); };
+      auto found = std::ranges::find(levels_, std::tie(factor, level), key);
       if (found == levels_.end()) found = levels_.insert(end_of(factor), {factor, level, {}});
       found->scenarios.push_back(suite_.scenarios.back().name);
     }
