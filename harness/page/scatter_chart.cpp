@@ -100,9 +100,11 @@ class ScatterDrawing {
                 : axis_over(low.y, high.y, kShortestShare * std::max(std::fabs(low.y), std::fabs(high.y)) + 1e-12,
                             kBottom, kTop);
     for (const auto& point : points_) taken_.push_back(around(point));
+    const std::string points = dots();
     return fmt::format(
-        "<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">{}{}{}</svg>\n", kWidth,
-        kHeight, html_escaped(plain_line(chart_.y_label + " against " + chart_.x_label)), axes(), front(), dots());
+        "<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">{}{}{}{}</svg>\n", kWidth,
+        kHeight + (unnamed_ > 0 ? 14 : 0), html_escaped(plain_line(chart_.y_label + " against " + chart_.x_label)),
+        axes(), front(), points, note());
   }
 
  private:
@@ -163,8 +165,15 @@ class ScatterDrawing {
       double left, base;
     };
     // The steps of the front lead to the right of its points.
-    const std::array<Place, 5> places{
-        {{x + 6, y - 7}, {x + 8, y + 4}, {x - 8 - width, y + 4}, {x - 0.5 * width, y - 9}, {x - 0.5 * width, y + 17}}};
+    const std::array<Place, 9> places{{{x + 6, y - 7},
+                                       {x + 8, y + 4},
+                                       {x - 8 - width, y + 4},
+                                       {x - 0.5 * width, y - 9},
+                                       {x - 0.5 * width, y + 17},
+                                       {x + 4, y + 17},
+                                       {x - 4 - width, y - 9},
+                                       {x - 4 - width, y + 17},
+                                       {x + 2, y - 20}}};  // one line higher
     for (const auto& place : std::span(places).subspan(point.on_front ? 0 : 1)) {
       const Box box{place.left, place.base - kLine + 3, place.left + width, place.base + 3};
       const bool inside = box.left >= kLeft + 2 && box.right <= kWidth && box.top >= 0 && box.bottom <= kBottom;
@@ -172,7 +181,17 @@ class ScatterDrawing {
       taken_.push_back(box);
       return fmt::format(R"(<text x="{:.1f}" y="{:.1f}">{}</text>)", place.left, place.base, escaped);
     }
+    ++unnamed_;
     return "";
+  }
+
+  /// Tells the reader of a crowded chart where the other names are.
+  std::string note() const {
+    if (unnamed_ == 0) return "";
+    return fmt::format(
+        "<g class=\"axis\"><text x=\"{:.1f}\" y=\"{:.0f}\" text-anchor=\"middle\">{} name{} no room: "
+        "the pointer on a point shows it</text></g>",
+        0.5 * (kLeft + kRight), kHeight + 8, unnamed_, unnamed_ == 1 ? " has" : "s have");
   }
 
   const ScatterChart& chart_;
@@ -181,6 +200,7 @@ class ScatterDrawing {
   Axis x_{};
   Axis y_{};
   bool log_y_ = false;
+  int unnamed_ = 0;
 };
 
 }  // namespace

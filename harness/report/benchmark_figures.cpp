@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 using render::Facet;
 using render::FacetChart;
 using render::FacetCurve;
+using render::log_range;
 
 constexpr std::int64_t kLeastMatches = 30;  // per point of a curve
 constexpr double kFirstRange = 1.0;         // m; bins are a third of an octave wide
@@ -105,19 +106,6 @@ std::vector<Vec2> bound_curve(const std::vector<ErrorPoint>& points) {
   curve.reserve(points.size());
   for (const ErrorPoint& p : points) curve.emplace_back(p.x, p.bound);
   return curve;
-}
-
-/// The range of a logarithmic axis that contains the points of the curves, but not their intervals.
-std::pair<double, double> log_range(const std::vector<Facet>& facets, int coordinate) {
-  double low = INFINITY, high = 0.0;
-  const auto take = [&](const std::vector<Vec2>& points) {
-    for (const Vec2& p : points) low = std::min(low, p[coordinate]), high = std::max(high, p[coordinate]);
-  };
-  for (const Facet& facet : facets) {
-    take(facet.reference);
-    for (const FacetCurve& curve : facet.curves) take(curve.points);
-  }
-  return low < high ? std::pair(low / 1.25, high * 1.25) : std::pair(0.1, 10.0);
 }
 
 /// 1, 2, 5 times powers of ten.
@@ -248,6 +236,11 @@ class Drawer {
         curve.intervals.push_back({100 * level, low > 0 ? low : 0.1 * scaled, rank.scale * interval.high});
       }
       chart.facets.push_back({name, {curve}, {}});
+    }
+    if (rank.metric == subject_.bound.metric) {  // where the best possible is
+      chart.reference_name = "the bound, the best possible";
+      for (Facet& facet : chart.facets)
+        facet.reference = {Vec2(100 * *levels.begin(), 1.0), Vec2(100 * *levels.rbegin(), 1.0)};
     }
     const auto range = log_range(chart.facets, 1);
     chart.y.range = range;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -21,9 +22,15 @@ std::string short_head(const BenchmarkColumn& rank) {
   return rank.head.substr(0, rank.head.find(" ["));
 }
 
-/// "noise 5cm"
-std::string name_of(const LevelResult& result) {
-  return result.factor + " " + result.level;
+/// "noise 1cm / 5cm, sensor ladar": levels in their order, those of one factor together.
+std::string names_of(const std::vector<const LevelResult*>& results) {
+  std::string text, factor;
+  for (const LevelResult* result : results) {
+    text += result->factor == factor ? " / " : (text.empty() ? "" : ", ") + result->factor + " ";
+    text += result->level;
+    factor = result->factor;
+  }
+  return text;
 }
 
 /// The pipeline that is best at most levels; the first of these if several are.
@@ -63,25 +70,25 @@ std::string best_by_level_text(const std::vector<LevelResult>& results, const st
                                const BenchmarkSpec& spec) {
   const int most = best_at_most(results);
   if (most < 0) return "";
-  std::vector<std::string> at_most, doubtful;
-  std::map<int, std::vector<std::string>> others;
+  std::map<int, std::vector<const LevelResult*>> best;
+  std::map<std::pair<int, int>, std::vector<const LevelResult*>> doubtful;  // levels of the best two
   for (const auto& result : results) {
-    if (result.best == most) at_most.push_back(name_of(result));
-    if (result.best >= 0 && result.best != most) others[result.best].push_back(name_of(result));
-    if (result.p >= 0.05)
-      doubtful.push_back(
-          fmt::format("{} ({} and {})", name_of(result), names[as_index(result.best)], names[as_index(result.second)]));
+    if (result.best >= 0) best[result.best].push_back(&result);
+    if (result.best >= 0 && result.second >= 0 && result.p >= 0.05)
+      doubtful[std::minmax(result.best, result.second)].push_back(&result);
   }
   std::string text =
       fmt::format("{} has the best {} ", names[as_index(most)], short_head(spec.subject().rank_column()));
-  text += others.empty() ? "at every level" : fmt::format("at {}", fmt::join(at_most, ", "));
-  for (const auto& [best, levels] : others)
-    text += fmt::format("; {} at {}", names[as_index(best)], fmt::join(levels, ", "));
+  text += best.size() == 1 ? "at every level" : "at " + names_of(best.at(most));
+  for (const auto& [pipeline, levels] : best)
+    if (pipeline != most) text += fmt::format("; {} at {}", names[as_index(pipeline)], names_of(levels));
   text += ".";
-  if (!doubtful.empty())
-    text +=
-        fmt::format(" The seeds do not separate the best two at {} (paired t tests, Holm).", fmt::join(doubtful, ", "));
-  return text;
+  if (doubtful.empty()) return text;
+  std::vector<std::string> pairs;
+  for (const auto& [pair, levels] : doubtful)
+    pairs.push_back(
+        fmt::format("{} and {} at {}", names[as_index(pair.first)], names[as_index(pair.second)], names_of(levels)));
+  return text + fmt::format(" The seeds do not separate {} (paired t tests, Holm).", fmt::join(pairs, "; "));
 }
 
 }  // namespace scanbench::harness

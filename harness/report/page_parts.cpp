@@ -129,8 +129,9 @@ std::optional<Table> remarks(const std::vector<CellLine>& cells) {
     rows.resize(kLargestList);
   }
   for (const Remark& row : rows) {
-    const std::string scenario =
-        row.scenario.empty() ? fmt::format("{} scenarios", row.scenarios.size()) : row.scenario;
+    const std::string scenario = !row.scenario.empty()       ? row.scenario
+                                 : row.scenarios.size() == 1 ? *row.scenarios.begin()
+                                                             : fmt::format("{} scenarios", row.scenarios.size());
     const std::string remark = row.same ? row.first : "for example " + row.first;
     table.rows.push_back({{scenario, row.pipeline, remark}, {{std::to_string(row.cells)}}, false});
   }

@@ -62,17 +62,32 @@ std::vector<bool> answers_enough(const std::vector<RankedPipeline>& ranking, con
   return enough;
 }
 
+/// Whether the first column of each pipeline is good enough for its times to be compared.
+std::vector<bool> errs_little_enough(const std::vector<RankedPipeline>& ranking, const BenchmarkSubject& subject) {
+  const std::string& rank = subject.rank_column().metric;
+  double least = kNaN;
+  for (const auto& ranked : ranking)
+    if (const double value = ranked.values.at(rank).mean; ranked.missing == 0 && !(value >= least)) least = value;
+  std::vector<bool> enough;
+  for (const auto& ranked : ranking)
+    enough.push_back(subject.fair.times == 0.0 || ranked.values.at(rank).mean <= subject.fair.times * least);
+  return enough;
+}
+
 void mark_columns(Table& table, const std::vector<RankedPipeline>& ranking, const BenchmarkSubject& subject) {
   const std::vector<bool> enough = answers_enough(ranking, subject);
+  const std::vector<bool> accurate = errs_little_enough(ranking, subject);
   std::size_t c = 0;
   for (const auto& column : subject.columns) {
+    const bool is_time = column.metric == subject.time_metric || column.metric == "t_ratio";
     std::vector<TableCell*> cells;
     std::vector<double> means;
     std::vector<bool> eligible;
     for (std::size_t r = 0; r < ranking.size(); ++r) {
       cells.push_back(&table.rows[r].cells[c]);
       means.push_back(ranking[r].values.at(column.metric).mean);
-      eligible.push_back(ranking[r].missing == 0 && (enough[r] || column.direction == Direction::higher_is_better));
+      eligible.push_back(ranking[r].missing == 0 && (enough[r] || column.direction == Direction::higher_is_better) &&
+                         (accurate[r] || !is_time));
     }
     mark_best(cells, means, column.description(), eligible);
     ++c;

@@ -38,9 +38,15 @@ constexpr std::array<std::string_view, 15> kOverview{
     "rpe_position", "ate_position", "missed",         "n_lines", "s_mean",         "d_mean",
     "t_total",      "t_scan",       "t_match"};
 
-/// What describes a pipeline but does not judge it: one line per point has no distances, and the fastest may find
+/// A sentence names at most so many pipelines that share the best value.
+constexpr std::size_t kMostNamed = 3;
+
+/// What describes a pipeline but does not judge it alone: one line per point has no distances, and the fastest may find
 /// nothing.
-constexpr std::array<std::string_view, 5> kNoVerdict{"s_mean", "d_mean", "t_total", "t_scan", "t_match"};
+bool judges_nothing(std::string_view metric) {
+  constexpr std::array<std::string_view, 5> kDescribing{"s_mean", "d_mean", "d_max", "d_mean_pts", "d_max_scan"};
+  return metric.starts_with("t_") || std::ranges::count(kDescribing, metric) > 0;
+}
 
 using Key = std::pair<std::string, std::string>;  // metric, subject
 
@@ -147,7 +153,7 @@ class TableBuilder {
     std::vector<bool> eligible;
     for (std::size_t i = 0; i < values.size(); ++i) {
       means.push_back(values[i].mean);
-      eligible.push_back(values[i].complete && (!gated(metric) || gate_passed_[i]));
+      eligible.push_back(values[i].complete && !unjudged(metric) && (!gated(metric) || gate_passed_[i]));
     }
     mark_best(cells, means, metric, eligible);
   }
@@ -246,6 +252,9 @@ class TableBuilder {
            metric.direction != Direction::neither;
   }
 
+  /// True for times and distances if nothing shows which pipeline finds the right lines.
+  bool unjudged(const MetricDescription& metric) const { return gate_ == nullptr && judges_nothing(metric.metric); }
+
   std::string caption(const Family& family) const {
     std::vector<std::string> parts;
     if (results_.pipelines.size() > 1) explain_marks(family, parts);
@@ -260,7 +269,17 @@ class TableBuilder {
   }
 
   void explain_marks(const Family& family, std::vector<std::string>& parts) const {
+    const auto any = [&](const auto& holds) {
+      return std::ranges::any_of(family.metrics, [&](const auto& m) { return reported(m.metric) && holds(m); });
+    };
+    const auto has_best = [&](const auto& m) { return m.direction != Direction::neither; };
+    if (!any([&](const auto& m) { return has_best(m) && !unjudged(m); })) {
+      parts.emplace_back("no value is marked as the best: they do not show which pipeline is right");
+      return;
+    }
     parts.emplace_back("* marks the best value");
+    if (any([&](const auto& m) { return has_best(m) && unjudged(m); }))
+      parts.back() += "; times and distances from lines have no mark, because they do not show which pipeline is right";
     if (std::ranges::any_of(family.metrics, [&](const auto& m) { return gated(m) && reported(m.metric); }))
       parts.back() += fmt::format("; of errors and costs among pipelines within {} of the best {}", kCompletenessMargin,
                                   gate_->metric);
@@ -325,25 +344,60 @@ std::optional<Table> overview_table(const Scenario& scenario, const ComparableRo
   return table;
 }
 
+namespace {
+
+/// The rows among `rows` that are the best of a column; empty for a column that judges nothing.
+std::vector<const Table::Row*> best_of(const Table& table, std::size_t column,
+                                       const std::vector<const Table::Row*>& rows) {
+  std::vector<const Table::Row*> best;
+  const std::string& head = table.columns[column].head;
+  if (judges_nothing(std::string_view(head).substr(0, head.find(" [")))) return best;
+  for (const Table::Row* row : rows)
+    if (row->cells[column].best) best.push_back(row);
+  return best;
+}
+
+/// "a (0.98), b (0.98)"
+std::string named(const std::vector<const Table::Row*>& rows, std::size_t column) {
+  std::vector<std::string> names;
+  for (const Table::Row* row : rows)
+    names.push_back(fmt::format("{} ({})", row->heads.front(), row->cells[column].text));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
 std::string overview_sentence(const Table& overview) {
   if (overview.rows.size() < 2) return "";
-  bool any_judges = false;
-  for (std::size_t c = 0; c < overview.columns.size(); ++c) {
-    const std::string& head = overview.columns[c].head;
-    if (std::ranges::count(kNoVerdict, std::string_view(head).substr(0, head.find(" ["))) > 0) continue;
-    any_judges = true;
-    std::vector<std::string> best;
-    for (const auto& row : overview.rows)
-      if (row.cells[c].best) best.push_back(fmt::format("{} ({})", row.heads.front(), row.cells[c].text));
-    if (!best.empty())
-      return fmt::format("Best {} of {} pipelines: {}.", overview.columns[c].head, overview.rows.size(),
-                         fmt::join(best, ", "));
+  std::vector<const Table::Row*> rows;
+  for (const auto& row : overview.rows) rows.push_back(&row);
+  std::size_t c = 0;
+  std::vector<const Table::Row*> best;
+  for (; c < overview.columns.size(); ++c)
+    if (best = best_of(overview, c, rows); !best.empty()) break;
+  if (best.empty()) {
+    const bool any_judges = std::ranges::any_of(overview.columns, [](const auto& column) {
+      return !judges_nothing(std::string_view(column.head).substr(0, column.head.find(" [")));
+    });
+    return any_judges
+               ? "No pipeline is called best: none of these values has a best one that every pipeline is eligible for."
+               : "No pipeline is called best: neither the distances of points from their lines nor the number of lines "
+                 "nor times show which one is right. The metric segments would, where there is a truth to compare "
+                 "with.";
   }
-  if (!any_judges)
-    return "No pipeline is called best: without a truth, neither the distances of points from their lines nor the "
-           "number "
-           "of lines nor times show which one is right.";
-  return "No pipeline is called best: none of these values has a best one that every pipeline is eligible for.";
+  if (best.size() <= kMostNamed)
+    return fmt::format("Best {} of {} pipelines: {}.", overview.columns[c].head, overview.rows.size(), named(best, c));
+  std::string text = fmt::format("{} of {} pipelines share the best {}, {}", best.size(), overview.rows.size(),
+                                 overview.columns[c].head, best.front()->cells[c].text);
+  for (std::size_t next = c + 1; next < overview.columns.size(); ++next) {
+    const auto also = best_of(overview, next, best);
+    if (also.empty()) continue;
+    const std::string& metric = overview.columns[next].head;
+    return text + (also.size() <= kMostNamed ? fmt::format("; of these, best {}: {}.", metric, named(also, next))
+                                             : fmt::format("; {} of these share the best {}, {}.", also.size(), metric,
+                                                           also.front()->cells[next].text));
+  }
+  return text + ".";
 }
 
 }  // namespace scanbench::harness

@@ -44,6 +44,7 @@ BenchmarkSubject extractors() {
                "* marks the best value; of errors, times and other costs among extractors within 5 points of the best "
                "F1. An "
                "extractor with missing cells has no mark."},
+      .bound = {"efficiency_offset", "line offsets"},
       .method =
           "A true line is a run of consecutive beams on one wall with at least 9 returns over 0.5 m. A found line "
           "matches it if they differ by at most 10° and 15 cm and overlap by more than half of the shorter; pairs are "
@@ -101,8 +102,10 @@ BenchmarkSubject matchers() {
       .required = {{"pose_efficiency", "errors"}, {"trajectory", ""}, {"timing", ""}},
       .fair = {"pose_unmatched", 0.05,
                "* marks the best value, among matchers whose share of unmatched pairs is within 5 points of the "
-               "smallest. A "
-               "matcher with missing cells has no mark."},
+               "smallest; of times among those of them whose MSE / bound is at most twice the best. A matcher with "
+               "missing cells has no mark.",
+               2.0},
+      .bound = {"pose_efficiency", "poses"},
       .method =
           "Consecutive scans are matched, with the odometry between them as the guess. A pair counts if the "
           "unknown-walls bound of its pose leaves no motion a standard deviation above 25 cm. For every seed a value "
@@ -155,6 +158,7 @@ BenchmarkSubject aligners() {
       .fair = {"placed", 0.05,
                "* marks the best value; of errors and times among aligners within 5 points of the largest share of "
                "scans placed. An aligner with missing cells has no mark."},
+      .bound = {"alignment_efficiency", "poses"},
       .method =
           "Every scan is given with a pose whose error is drawn from a normal distribution; the poses are not chained. "
           "An aligner that gives no answer leaves the poses as they were given, and these are scored. For every seed a "

@@ -37,6 +37,15 @@ struct FairComparison {
   std::string metric;   ///< of a column: how much a pipeline answers
   double margin = 0.0;  ///< largest distance from the best value that still takes part
   std::string caption;  ///< the rule in words, below the ranking
+  /// Times are compared among pipelines whose first column is at most this many times the best; 0: among all of the
+  /// above. Who answers wrongly may be fast.
+  double times = 0.0;
+};
+
+/// How far a pipeline is from the best possible.
+struct DistanceFromBound {
+  std::string metric;  ///< of a column: a mean square error over its bound
+  std::string of;      ///< what errs: "poses"
 };
 
 struct BenchmarkSubject {
@@ -48,6 +57,7 @@ struct BenchmarkSubject {
   std::vector<BenchmarkColumn> columns;  ///< the first one decides the rank
   std::vector<RequiredMetric> required;
   FairComparison fair;
+  DistanceFromBound bound;
   std::string method;               ///< how the values of the ranking are made
   std::vector<std::string> limits;  ///< what the page does not show
   bool shows_example = false;       ///< one scan as every pipeline sees it, and errors of lines over range

@@ -1,6 +1,9 @@
 // Makes the items of each panel, from back to front: the other methods, the reference, the curves.
 #include "render/charts/facets.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "render/palette.hpp"
 
 namespace scanbench::render {
@@ -43,6 +46,21 @@ void add_legend_entries(const FacetChart& chart, Scene& scene) {
 }
 
 }  // namespace
+
+std::pair<double, double> log_range(const std::vector<Facet>& facets, int coordinate) {
+  constexpr double kRoom = 0.1;  // of the length of the axis: 6 pt or more of a panel, for a marker and an arrow
+  double low = INFINITY, high = 0.0;
+  const auto take = [&](const std::vector<Vec2>& points) {
+    for (const Vec2& p : points) low = std::min(low, p[coordinate]), high = std::max(high, p[coordinate]);
+  };
+  for (const Facet& facet : facets) {
+    take(facet.reference);
+    for (const FacetCurve& curve : facet.curves) take(curve.points);
+  }
+  if (!(low < high)) return {0.1, 10.0};
+  const double grow = std::max(1.25, std::pow(high / low, kRoom));
+  return {low / grow, high * grow};
+}
 
 Scene facet_scene(const FacetChart& chart) {
   Scene scene;

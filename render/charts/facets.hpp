@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/scene.hpp"
@@ -31,6 +32,10 @@ struct FacetChart {
   std::string reference_name{};            ///< empty: no reference
   std::string others_name{};               ///< of the first curves of all others, in grey; empty: not drawn
 };
+
+/// The range of a logarithmic axis that contains the points of the curves, but not their intervals. Between a point and
+/// the edge of a panel is room for the arrow that ends an interval which leaves the panel.
+std::pair<double, double> log_range(const std::vector<Facet>& facets, int coordinate);
 
 /// Four columns, five for more than a dozen facets, at the width of two text columns, so labels of the x axis must be
 /// short. Facets without points keep their cell.

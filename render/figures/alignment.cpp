@@ -13,8 +13,12 @@
 namespace scanbench::render {
 namespace {
 
-const Stroke kPathStroke{kPathColor, 0.7, Dash::solid};
 constexpr std::size_t kMostColored = 40;  // the colours of more scans mix to grey
+
+/// Beside scans in all colours the sensor is grey, which is the colour of none of them.
+Stroke path_stroke(std::size_t scans) {
+  return {scans <= kMostColored ? kGrey : kPathColor, 0.7, Dash::solid};
+}
 
 class Alignment : public Figure {
  public:
@@ -68,7 +72,7 @@ class Alignment : public Figure {
                      .marker = Marker::dot,
                      .marker_color = kScanColor,
                      .marker_size_pt = 2.4},
-                    path_legend(input, kPathStroke)};
+                    path_legend(input, path_stroke(frames.size()))};
     return {
         {"alignment",
          fmt::format("{}: the points of {} superimposed: {}.", input.title, counted(frames.size(), "scan"), sources),
@@ -99,7 +103,7 @@ class Alignment : public Figure {
       points = all_points(recording, poses, kPointBudget / panels);
       panel.items.emplace_back(Points{.points = points, .color = kScanColor, .size_pt = 0.7});
     }
-    add_path(input, poses, kPathStroke, panel);
+    add_path(input, poses, path_stroke(poses.size()), panel);
     set_view(points, places, panel);
     if (points.empty()) add_note("no scan points", panel);
     scene.panels.push_back(std::move(panel));

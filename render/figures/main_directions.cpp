@@ -217,7 +217,7 @@ class MainDirections : public Figure {
       for (std::size_t k = 0; k < angles.size(); ++k)
         (k == 0 ? strongest : others).points.emplace_back(frame, shown_deg(angles[k]));
     panel.y.range = {-50.0, 140.0};  // 0 and 90 degrees, the usual ones, are inside
-    panel.y.ticks = {{-45, "-45"}, {0, "0"}, {45, "45"}, {90, "90"}, {135, "135"}};
+    panel.y.ticks = {{-45, "\u221245"}, {0, "0"}, {45, "45"}, {90, "90"}, {135, "135"}};
     panel.items.emplace_back(std::move(others));
     panel.items.emplace_back(std::move(strongest));
     scene.panels.push_back(std::move(panel));

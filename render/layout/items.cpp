@@ -131,6 +131,7 @@ class ItemDrawer {
   void draw(const ErrorBars& item) {
     StrokeShape bars{.stroke = item.stroke, .round = false};
     FillShape arrows{.color = item.stroke.color};
+    constexpr double kBesideFrame = 1.0;  // pt; on the frame a cap cannot be seen
     const double half = 0.5 * item.cap_pt;
     for (const auto& [x, low, high] : item.intervals) {
       if (std::isnan(low) || std::isnan(high) || !drawable({x, 0.0})) continue;
@@ -140,9 +141,10 @@ class ItemDrawer {
       push_segment({px, bottom}, {px, top}, bars);
       bars.end_path();
       for (const double end : {bottom, top}) {
-        if (end >= box_.y0 && end <= box_.y1)
-          push_segment({px - half, end}, {px + half, end}, bars);
-        else
+        if (end >= box_.y0 && end <= box_.y1) {
+          const double cap = std::clamp(end, box_.y0 + kBesideFrame, box_.y1 - kBesideFrame);
+          push_segment({px - half, cap}, {px + half, cap}, bars);
+        } else
           push_edge_arrow(px, end < box_.y0, half, arrows);
         bars.end_path();
       }
@@ -165,7 +167,7 @@ class ItemDrawer {
   /// Draws halos, then the solid lines below them again, then the texts, so that a halo hides no wall.
   void place_texts() {
     const std::vector<Rect> rects = place_labels(labels_, font_pt_, box_, segments_, dots_);
-    for (std::size_t i = 0; i < labels_.size(); ++i) add_leader(*labels_[i].text, labels_[i].at, rects[i]);
+    for (std::size_t i = 0; i < labels_.size(); ++i) add_leader(labels_[i], rects[i]);
     for (std::size_t i = 0; i < labels_.size(); ++i)
       if (labels_[i].text->halo) {
         shapes_.push_back({text_shape(*labels_[i].text, rects[i], true), index_});
@@ -177,11 +179,11 @@ class ItemDrawer {
 
  private:
   /// A line from a label to its point, if the label is not beside it.
-  void add_leader(const Text& text, const Vec2& at, const Rect& r) {
-    const Vec2 nearest(std::clamp(at.x(), r.x0, r.x1), std::clamp(at.y(), r.y0, r.y1));
-    if (!text.movable || (nearest - at).norm() <= 1.9 * std::max(text.offset_pt.norm(), 3.0)) return;
+  void add_leader(const Label& label, const Rect& placed) {
+    const auto line = leader_of(label, placed);
+    if (!line) return;
     StrokeShape leader{.stroke = {kGrey, 0.35, Dash::solid}};
-    leader.add_segment(snap(at), snap(nearest));
+    leader.add_segment(snap(line->a), snap(line->b));
     shapes_.push_back({std::move(leader), index_});
   }
 

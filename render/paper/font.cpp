@@ -164,7 +164,10 @@ std::string fit_text(std::string_view text, double width_em) {
   return std::string(text) + ellipsis;
 }
 
-std::vector<std::string> wrap_text(std::string_view text, double width_em, int most_lines) {
+namespace {
+
+/// Every line but the last as full as it can be.
+std::vector<std::string> filled_lines(std::string_view text, double width_em, int most_lines) {
   const Font& font = Font::get();
   std::vector<std::string> lines;
   while (!text.empty()) {
@@ -180,6 +183,31 @@ std::vector<std::string> wrap_text(std::string_view text, double width_em, int m
     text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
   }
   return lines;
+}
+
+/// Whether no text was shortened.
+bool holds_all(const std::vector<std::string>& lines, std::string_view text) {
+  std::string joined;
+  for (const auto& line : lines) joined += (joined.empty() ? "" : " ") + line;
+  return joined == text;
+}
+
+}  // namespace
+
+std::vector<std::string> wrap_text(std::string_view text, double width_em, int most_lines) {
+  const std::vector<std::string> lines = filled_lines(text, width_em, most_lines);
+  if (lines.size() < 2 || !holds_all(lines, text)) return lines;
+  // Of about equal width, so that the last line is not a single word: the narrowest with as many lines.
+  double narrow = 0.0, wide = width_em;
+  std::vector<std::string> best = lines;
+  for (int step = 0; step < 12; ++step) {
+    const double middle = 0.5 * (narrow + wide);
+    std::vector<std::string> tried = filled_lines(text, middle, most_lines);
+    const bool fits = tried.size() == lines.size() && holds_all(tried, text);
+    if (fits) best = std::move(tried);
+    (fits ? wide : narrow) = middle;
+  }
+  return best;
 }
 
 }  // namespace scanbench::render

@@ -51,8 +51,8 @@ class Font {
 /// The text, shortened with an ellipsis if it is wider than `width_em`.
 std::string fit_text(std::string_view text, double width_em);
 
-/// The text in lines of at most `width_em`, broken at spaces; what does not fit in `most_lines` is shortened with an
-/// ellipsis. Empty without text.
+/// The text in as few lines of at most `width_em` as possible, of about equal width, broken at spaces; what does not
+/// fit in `most_lines` is shortened with an ellipsis. Empty without text.
 std::vector<std::string> wrap_text(std::string_view text, double width_em, int most_lines);
 
 }  // namespace scanbench::render

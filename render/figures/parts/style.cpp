@@ -39,8 +39,7 @@ Color method_color(const std::vector<NamedResult>& results, std::size_t index) {
 void add_method_legend(const std::vector<NamedResult>& results, const std::vector<std::vector<std::size_t>>& groups,
                        double width_pt, Scene& scene) {
   if (groups.size() > kListedMethods)
-    scene.legend.push_back(
-        {.text = "lines found, in the colour of the method", .stroke = Stroke{kGrey, width_pt, Dash::solid}});
+    scene.legend.push_back({.text = "lines, coloured by method", .stroke = Stroke{kGrey, width_pt, Dash::solid}});
   else
     for (const auto& group : groups)
       scene.legend.push_back({.text = names_of(results, group),

@@ -203,6 +203,17 @@ TEST(Benchmark, NamesTheBestAtEveryLevelOfAFactor) {
               HasSubstr("b has the best F1 at light night, place here; a at light day."));  // here: a 0.845, b 0.85
 }
 
+TEST(Benchmark, NamesAFactorOnceForAllOfItsLevels) {
+  const std::vector<std::string> names{"a", "b"};
+  std::vector<LevelResult> results;
+  for (const char* level : {"1cm", "3cm"}) results.push_back({"noise", level, {}, 0, 1, 0.5});
+  results.push_back({"sensor", "urg", {}, 0, 1, 0.5});
+  results.push_back({"sensor", "pls", {}, 1, 0, 0.01});
+  EXPECT_EQ(best_by_level_text(results, names, kSpec),
+            "a has the best F1 at noise 1cm / 3cm, sensor urg; b at sensor pls. The seeds do not separate a and b at "
+            "noise 1cm / 3cm, sensor urg (paired t tests, Holm).");
+}
+
 TEST(Benchmark, APipelineWithMissingCellsHasNoValueAtTheirLevel) {
   auto rows = made_up_rows();
   std::erase_if(rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
@@ -233,7 +244,7 @@ TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
   input.rows = made_up_rows();
   input.cells = {{"x", "a", 1, "ok", "", 0, 0}, {"x", "b", 1, "timeout", "after 3 s", 0, 0}};
   for (const std::string& page : {benchmark_html(input, kSpec), benchmark_markdown(input, kSpec)}) {
-    EXPECT_THAT(page, HasSubstr("b ranks first of 3 extractors, with F1 [%] 85.00; a is next with 80.00, a difference "
+    EXPECT_THAT(page, HasSubstr("b ranks first of 3 extractors, with F1 85.00 %; a is next with 80.00 %, a difference "
                                 "that may be chance."));
     EXPECT_THAT(page, HasSubstr("3 extractors on 2 conditions"));
     EXPECT_THAT(page, HasSubstr("2 seeds make 4 recordings with 40 scans"));
@@ -262,7 +273,7 @@ TEST(Benchmark, PageBeginsWithTheFirstInRankAndNamesMissingCells) {
   input.scenarios = two_scenarios();
   input.rows = made_up_rows();
   std::erase_if(input.rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
-  EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr("<p><b>a ranks first of 3 extractors, with F1 [%] 80.00"));
+  EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr("<p><b>a ranks first of 3 extractors, with F1 80.00 %"));
   std::erase_if(input.rows, [](const SummaryRow& r) { return r.scenario == "y" && r.seed == 2; });
   EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr("<p><b>No extractor has a result in every cell"));
 }
@@ -302,7 +313,30 @@ TEST(Benchmark, RanksMatchersByTheLowestErrorOverBound) {
   input.title = "small";
   input.scenarios = scenarios;
   input.rows = rows;
-  EXPECT_THAT(benchmark_html(input, spec), HasSubstr("2 matchers on 2 conditions"));
+  const std::string page = benchmark_html(input, spec);
+  EXPECT_THAT(page, HasSubstr("2 matchers on 2 conditions"));
+  EXPECT_THAT(page, HasSubstr("The mean square error of b&#39;s poses is 1.5 times the Cramér–Rao bound, the best "
+                              "possible."));
+}
+
+TEST(Benchmark, AFastMatcherThatErrsFarMoreThanTheBestHasNoMarkForItsTime) {
+  const std::string scene = matching_scene("[{name: pose_efficiency, params: {errors: true}}, trajectory, timing]");
+  const std::vector<Scenario> scenarios{parse_scenario(scene, "x.yaml"), parse_scenario(scene, "y.yaml")};
+  for (const double ratio : {2.0, 2.1}) {  // at most twice the best takes part
+    std::vector<SummaryRow> rows;
+    add_rows(rows, "a", "pose_efficiency", {ratio, ratio, ratio, ratio});
+    add_rows(rows, "b", "pose_efficiency", {1, 1, 1, 1});
+    add_rows(rows, "a", "t_match", {1, 1, 1, 1});
+    add_rows(rows, "b", "t_match", {5, 5, 5, 5});
+    for (const char* name : {"a", "b"}) add_rows(rows, name, "pose_unmatched", {0, 0, 0, 0});
+    const BenchmarkSpec spec{"what", "a", "x", "match"};
+    const Table table = ranking_table(rank_pipelines(scenarios, rows, spec), spec);
+    const auto time = std::ranges::find(table.columns, "time / a", &TableColumn::head) - table.columns.begin();
+    for (const auto column : {time - 1, time}) {
+      EXPECT_EQ(table.rows[0].cells[static_cast<std::size_t>(column)].best, ratio > 2.0) << ratio;
+      EXPECT_EQ(table.rows[1].cells[static_cast<std::size_t>(column)].best, ratio <= 2.0) << ratio;
+    }
+  }
 }
 
 TEST(Benchmark, AMatcherThatLeavesOutManyPairsHasNoMark) {
@@ -360,8 +394,8 @@ TEST(Benchmark, RanksAlignersByTheShareOfScansPlacedAndAnAlignerThatFailsLast) {
   ReportInput input;
   input.scenarios = scenarios;
   input.rows = rows;
-  EXPECT_THAT(benchmark_html(input, spec), HasSubstr("<b>b ranks first of 2 aligners, with scans placed [%] 95.0; a is "
-                                                     "next with 75.0"));
+  EXPECT_THAT(benchmark_html(input, spec), HasSubstr("<b>b ranks first of 2 aligners, with scans placed 95.0 %; a is "
+                                                     "next with 75.0 %"));
   std::erase_if(rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
   EXPECT_EQ(rank_pipelines(scenarios, rows, spec)[0].name, "a");
 }

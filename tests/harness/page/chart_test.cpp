@@ -25,6 +25,27 @@ TEST(ScatterChart, HasAPointANameAndAHintForEveryFinitePoint) {
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
+TEST(ScatterChart, SaysHowManyNamesHaveNoRoom) {
+  ScatterChart chart{"t", "y", {}};
+  for (int k = 0; k < 40; ++k)
+    chart.points.push_back({1.0 + 0.001 * k, 0.5, "a_long_name_" + std::to_string(k), false});
+  chart.points.push_back({100.0, 0.9, "apart", false});
+  const std::string svg = scatter_chart(chart);
+  std::size_t named = 0;
+  for (std::size_t at = svg.find(">a_long_name_"); at != std::string::npos; at = svg.find(">a_long_name_", at + 1))
+    named += svg.compare(at - 7, 7, "<title>") == 0 ? 0 : 1;
+  named -= 40;  // the hints
+  EXPECT_THAT(svg, HasSubstr(std::to_string(40 - named) + " names have no room"));
+  EXPECT_THAT(scatter_chart({"t", "y", {{1.0, 1.0, "a", false}}}), Not(HasSubstr("no room")));
+}
+
+TEST(ScatterChart, NamesAPointOfTheFrontInACornerBelowAnother) {
+  // In the lower left corner there is room to the right and below alone.
+  const ScatterChart chart{
+      "t", "y", {{1.0, 0.10, "mean_shift_060", true}, {1.4, 0.11, "chain_20", false}, {4.0, 0.9, "greedy", true}}};
+  EXPECT_THAT(scatter_chart(chart), HasSubstr(">mean_shift_060</text>"));
+}
+
 TEST(ScatterChart, EscapesNamesAndIsEmptyWithoutPoints) {
   EXPECT_THAT(scatter_chart({"t", "y", {{1.0, 1.0, "<script>", false}}}), Not(HasSubstr("<script>")));
   EXPECT_THAT(scatter_chart({"t", "y", {{0.0, 1.0, "a", false}, {1.0, kInf, "b", false}}}), IsEmpty());

@@ -130,11 +130,11 @@ TEST(ResultTables, SayHowManyCellsAPipelineFinishedAndMarkNoneThatDidNotFinishAl
 
 TEST(ResultTables, ExplainNoMarksOfASinglePipeline) {
   const auto caption = [](const std::vector<std::string>& pipelines) {
-    const Scenario scenario = scenario_of(pipelines, {"timing"});
+    const Scenario scenario = scenario_of(pipelines, {"segments"});
     std::vector<SummaryRow> rows;
     std::vector<CellLine> cells;
     for (const auto& name : pipelines) {
-      rows.push_back(row(name, "t_scan", 1));
+      rows.push_back(row(name, "f1", 1));
       cells.push_back(cell(name, 1, "ok"));
     }
     return result_tables(scenario, comparable_rows(scenario, rows, cells)).front().caption;
@@ -202,6 +202,16 @@ TEST(ResultTables, GiveRemarksThatDifferInTheirNumbersOneRow) {
               AllOf(HasSubstr("for example align: 1 max_iterations | 2 |"), HasSubstr("align: 7 degenerate | 1 |")));
 }
 
+TEST(Remarks, NameTheScenarioOfARowThatHasOne) {
+  std::vector<CellLine> cells;
+  for (int k = 0; k < 26; ++k) {  // so many rows that scenarios are taken together
+    cells.push_back(cell("a", 1, "ok", "match: 1 degenerate"));
+    cells.back().scenario = "s" + std::to_string(k);
+  }
+  cells.push_back(cell("b", 1, "ok", "match: 1 no_match"));
+  EXPECT_THAT(markdown_remarks(cells), AllOf(HasSubstr("| 26 scenarios | a |"), HasSubstr("| s | b |")));
+}
+
 TEST(Display, ShowsThreeDigitsOfEveryValueAndNoValueAsZero) {
   const Display metres = display_for("m", 12.0);
   EXPECT_EQ(metres.unit, "m");
@@ -238,7 +248,44 @@ TEST(Overview, DoesNotCallAnExtractorBestForItsDistancesOrItsTime) {
   };
   EXPECT_THAT(
       sentence({row("a", "d_mean", 0.01), row("b", "d_mean", 0.02), row("a", "t_scan", 3), row("b", "t_scan", 1)}),
-      HasSubstr("No pipeline is called best: without a truth"));
+      HasSubstr("No pipeline is called best: neither the distances"));
+}
+
+TEST(Overview, MarksNoDistanceAndNoTimeUnlessAMetricShowsWhichPipelineIsRight) {
+  const Scenario scenario = scenario_of({"a", "b"}, {"siadat1997", "segments"});
+  const std::vector<CellLine> cells{cell("a", 1, "ok"), cell("b", 1, "ok")};
+  std::vector<SummaryRow> rows{row("a", "d_mean", 0.01), row("b", "d_mean", 0.02), row("a", "t_total", 3),
+                               row("b", "t_total", 1)};
+  const auto without = overview_table(scenario, comparable_rows(scenario, rows, cells));
+  ASSERT_TRUE(without);
+  EXPECT_FALSE(at(*without, "a", "d_mean").best);
+  EXPECT_FALSE(at(*without, "b", "t_total").best);
+  EXPECT_THAT(without->caption, HasSubstr("no value is marked as the best"));
+  for (const auto& table : result_tables(scenario, comparable_rows(scenario, rows, cells), {}))
+    for (const auto& line : table.rows)
+      for (const auto& value : line.cells) EXPECT_FALSE(value.best) << table.id;
+  rows.push_back(row("a", "f1", 0.90));
+  rows.push_back(row("b", "f1", 0.91));
+  const auto with = overview_table(scenario, comparable_rows(scenario, rows, cells));
+  ASSERT_TRUE(with);
+  EXPECT_TRUE(at(*with, "a", "d_mean").best);
+  EXPECT_TRUE(at(*with, "b", "t_total").best);
+}
+
+TEST(Overview, CountsThePipelinesThatShareTheBestValueRatherThanNameThemAll) {
+  const std::vector<std::string> names{"a", "b", "c", "d", "e"};
+  const Scenario scenario = scenario_of(names, {"map_truth"});
+  std::vector<SummaryRow> rows;
+  std::vector<CellLine> cells;
+  for (const auto& name : names) {
+    rows.push_back(row(name, "covered_5cm", name == "e" ? 0.97 : 1.0));
+    rows.push_back(row(name, "lines_per_wall", name == "a" || name == "e" ? 1.0 : 1.5));
+    cells.push_back(cell(name, 1, "ok"));
+  }
+  const auto table = overview_table(scenario, comparable_rows(scenario, rows, cells));
+  ASSERT_TRUE(table);
+  EXPECT_EQ(overview_sentence(*table),
+            "4 of 5 pipelines share the best covered_5cm, 1.00; of these, best lines_per_wall: a (1.00).");
 }
 
 }  // namespace

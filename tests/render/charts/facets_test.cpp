@@ -1,6 +1,7 @@
 // Facet charts: the items of each panel.
 #include "render/charts/facets.hpp"
 #include "render/backends/cairo.hpp"
+#include "render/layout/layout.hpp"
 
 #include <gtest/gtest.h>
 
@@ -50,6 +51,24 @@ TEST(FacetScene, HasOnePanelAFacetWithTheOthersBehind) {
   EXPECT_EQ(items_of<ErrorBars>(scene.panels[0]).at(0).intervals.size(), 2u);
   // A facet without points still shows the others.
   EXPECT_EQ(items_of<Polyline>(scene.panels[2]).size(), 2u);
+}
+
+TEST(FacetScene, LeavesRoomBetweenAPointAndTheArrowOfItsBar) {
+  for (const double highest : {3.0, 130.0, 1e5}) {
+    FacetChart four = chart();
+    four.facets = {
+        {.title = "one",
+         .curves = {{.points = {Vec2(1, 1), Vec2(2, highest)}, .intervals = {{1.0, 1e-9, 2.0}, {2.0, 1.0, 1e9}}}}}};
+    four.facets.resize(4, four.facets[0]);
+    four.y.range = log_range(four.facets, 1);
+    const Scene scene = facet_scene(four);
+    const Layout placed = layout(scene);
+    const PanelLayout& panel = placed.panels[0];
+    const double size = items_of<Points>(scene.panels[0]).front().size_pt;
+    const double arrow = items_of<ErrorBars>(scene.panels[0]).front().cap_pt;  // as long as it is wide
+    EXPECT_GT(panel.to_device({2.0, highest}).y() - panel.box.y0, 0.5 * size + 0.5 + arrow) << highest;
+    EXPECT_GT(panel.box.y1 - panel.to_device({1.0, 1.0}).y(), 0.5 * size + 0.5 + arrow) << highest;
+  }
 }
 
 TEST(FacetScene, DrawsTwoCurvesThatDifferWithoutColour) {

@@ -187,6 +187,21 @@ TEST(ErrorBars, ThatLeaveThePanelEndInAnArrowAtItsEdge) {
   }
 }
 
+TEST(ErrorBars, ThatEndAtTheFrameHaveACapBesideIt) {
+  Scene scene = one_panel({ErrorBars{.intervals = {{1, 0.0, 1.0}}}});
+  scene.panels[0].equal_aspect = false;
+  scene.panels[0].x.range = {0, 2};
+  scene.panels[0].y.range = {0, 1};
+  const Layout placed = layout(scene);
+  const Rect box = placed.panels[0].box;
+  std::vector<double> caps;
+  for (const StrokeShape* bars : shapes_of<StrokeShape>(placed, 0))
+    for (std::size_t k = 0; k + 1 < bars->points.size(); ++k)
+      if (bars->points[k].y() == bars->points[k + 1].y()) caps.push_back(bars->points[k].y());
+  ASSERT_EQ(caps.size(), 2U);
+  for (const double y : caps) EXPECT_GE(std::min(y - box.y0, box.y1 - y), 0.9);
+}
+
 TEST(Layout, OfARaggedGridKeepsTheSpacingOfItsRowsAndPutsTheLegendIntoTheFreeCells) {
   Scene scene = one_panel({Lines{.segments = {{{0, 0}, {10, 8}}}}});
   scene.panels.resize(7, scene.panels[0]);
@@ -225,6 +240,15 @@ TEST(Layout, WrapsLongTitlesAndLosesNoWord) {
   EXPECT_NE(all.find(scene.panels[0].title), std::string::npos) << all;
 }
 
+TEST(Layout, BreaksATitleIntoLinesOfAboutEqualWidth) {
+  // A greedy break leaves "lines" alone in the second line.
+  const double width = Font::get().width_em("a_method, median: 54") + 0.1;
+  EXPECT_EQ(wrap_text("a_method, median: 54 lines", width, 3),
+            (std::vector<std::string>{"a_method,", "median: 54 lines"}));
+  EXPECT_EQ(wrap_text("in one line", 100, 3), std::vector<std::string>{"in one line"});
+  EXPECT_TRUE(wrap_text("one two three four five six", 2, 2).back().ends_with("\u2026")) << "still shortened";
+}
+
 TEST(Layout, SaysHowManyPointsAreOutsideOfAPanel) {
   for (const int stray : {0, 1, 2}) {
     std::vector<Vec2> points{{1, 1}, {2, 2}};
@@ -258,6 +282,20 @@ TEST(Labels, DoNotCoverEachOtherWhereThereIsRoom) {
                    rects[j].y0 < rects[i].y1)
           << i << " covers " << j;
   }
+}
+
+TEST(Labels, TheLineToALabelRunsThroughNoOtherLabel) {
+  // Walls above, below and beside the point make its label move away; straight above them is another one.
+  std::vector<Vec2> walls;
+  for (const double y : {93.0, 96.0, 98.0, 102.0, 104.0, 107.0}) walls.insert(walls.end(), {Vec2(40, y), Vec2(160, y)});
+  const Text other{.text = "12", .offset_pt = {0, 0}, .movable = false}, own{.text = "wall", .offset_pt = {0, 3}};
+  const std::vector<Label> labels{{&other, {100, 88.7}}, {&own, {100, 100}}};
+  const std::vector<Rect> rects = place_labels(labels, 8, Rect{40, 0, 160, 108}, walls, {});
+  EXPECT_FALSE(leader_of(labels[0], rects[0]));
+  const auto leader = leader_of(labels[1], rects[1]);
+  ASSERT_TRUE(leader);
+  Vec2 a = leader->a, b = leader->b;
+  EXPECT_FALSE(cut(a, b, rects[0]));
 }
 
 TEST(FillTriangles, CoverTheAreaOfAPolygonWithAHole) {
