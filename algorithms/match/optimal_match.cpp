@@ -37,6 +37,7 @@ struct RoundRow {
 };
 
 constexpr int kMostRounds = 12;
+constexpr double kStill = 1e-6;  // a step of a thousandth of the pose's standard deviation, squared
 // Further starts where the first two are in doubt: turns of the guess, in its standard deviations.
 constexpr double kTurns[] = {-2.0, 2.0, -4.0, 4.0, -6.0, 6.0};
 constexpr double kSurprise = 16.3;  // 99.9 % of chi-square with 3 degrees of freedom
@@ -150,13 +151,14 @@ class OptimalMatch final : public ScanMatcher {
       const Determined determined(sum.equations, lever_m, kLeastRatio);
       const Motion step = determined.solve(sum.equations.rhs);
       pose = moved(pose, step);
-      const double still = doubtful ? 1e-4 : 1e-7;  // metres, and a tenth of it in radians
-      const bool same = paired == walls && step.head<2>().norm() < still && std::fabs(step.z()) < 0.1 * still;
+      const bool same = paired == walls && (doubtful ? step.head<2>().norm() < 1e-4 && std::fabs(step.z()) < 1e-5
+                                                     : step.dot(sum.equations.matrix * step) < kStill);
       settled = same && !doubtful;
       const bool open = determined.rank() < 3;
       const Pose2 answer = open ? moved(guess, determined.project(motion_between(guess, pose))) : pose;
       const Status status = open ? Status::degenerate : settled ? Status::converged : Status::max_iterations;
-      result = {{status, answer, determined.covariance(1.0)}, sum.evidence - 0.5 * surprise(guess, answer)};
+      result = {{status, answer, determined.covariance(excess(sum, step))},
+                sum.evidence - 0.5 * surprise(guess, answer)};
       // Pairs that change in turn: the pose is not known better than they move it.
       if (status == Status::max_iterations) result.match.covariance += step * step.transpose();
       if (doubtful)
@@ -170,11 +172,26 @@ class OptimalMatch final : public ScanMatcher {
     return result;
   }
 
-  /// Mean squared difference that is left after the step, in variances; at least 1. Walls that contradict each other
-  /// say that some are in wrong pairs, so that the pose is not known as well as their number says.
+  /// Sum of the squared differences that are left after the step, in variances, and their degrees of freedom.
+  struct Misfit {
+    Misfit(const WallEquations& sum, const Motion& step)
+        : value(sum.misfit - step.dot(sum.equations.rhs)), freedom(std::max(sum.coordinates - 3.0, 1.0)) {}
+    double mean() const { return value / freedom; }
+    double value;
+    double freedom;
+  };
+
+  /// Mean squared difference; at least 1. Walls that contradict each other say that some are in wrong pairs, so that
+  /// the pose is not known as well as their number says.
   static double contradiction(const WallEquations& sum, const Motion& step) {
-    const double freedom = std::max(2.0 * sum.walls - 3.0, 1.0);
-    return std::max((sum.misfit - step.dot(sum.equations.rhs)) / freedom, 1.0);
+    return std::max(Misfit(sum, step).mean(), 1.0);
+  }
+
+  /// The same, but 1 unless the differences exceed their mean by two standard deviations of chi-square. Then lines are
+  /// not the walls that their covariances take them for, and the pose inherits it.
+  static double excess(const WallEquations& sum, const Motion& step) {
+    const Misfit misfit(sum, step);
+    return misfit.value > misfit.freedom + 2.0 * std::sqrt(2.0 * misfit.freedom) ? misfit.mean() : 1.0;
   }
 
   RegistrationRules start_;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/LU>
+
 #include "core/index.hpp"
 #include "core/number_text.hpp"
 #include "core/rng.hpp"

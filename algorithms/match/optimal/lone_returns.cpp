@@ -59,6 +59,7 @@ void add_best(const LoneReturn& reading, std::span<const MeasuredLine> lines, co
   sum.equations.add(on->normal, best->point - sensor, -sign * best->distance, weight / best->variance,
                     on->covariance(1, 1));
   sum.misfit += weight * squared;
+  sum.coordinates += weight;
 }
 
 std::vector<MeasuredLine> unpaired(std::span<const MeasuredLine> lines, std::span<const WallPair> walls,

@@ -32,25 +32,37 @@ std::vector<std::vector<extract::BeamReading>> support(const Observation& observ
   return readings;
 }
 
+/// Sets the plain line; without a fit it remains the line itself.
+void set_plain(MeasuredLine& line, const std::optional<extract::BeamLine>& fit) {
+  line.plain_covariance = line.covariance;
+  if (!fit) return;
+  const Eigen::Matrix2d covariance = extract::line_covariance(*fit, line.middle);
+  const double cosine = fit->normal().dot(line.normal);
+  if (!usable(covariance) || !(cosine > 0)) return;
+  line.plain_covariance = covariance;
+  line.plain_place << (fit->rho() - fit->normal().dot(line.middle)) / cosine,
+      std::atan2(cross(line.normal, fit->normal()), cosine);
+}
+
 std::vector<MeasuredLine> extracted_lines(const Observation& observation) {
   std::vector<MeasuredLine> result;
-  std::vector<std::vector<extract::BeamReading>> readings;
+  const std::vector<std::vector<extract::BeamReading>> readings = support(observation);
   for (std::size_t k = 0; k < observation.lines.lines.size(); ++k) {
     const LineFeature& line = observation.lines.lines[k];
-    MeasuredLine measured{line.segment.midpoint(), line.line.normal(), 0.5 * line.segment.length(),
-                          Eigen::Matrix2d::Zero()};
+    MeasuredLine measured{line.segment.midpoint(), line.line.normal(), 0.5 * line.segment.length()};
     if (!measured.middle.allFinite() || !(measured.half_length > 0)) continue;
+    const auto fit = extract::fit_beam_line(readings[k], observation.scan.sensor.noise);
     if (line.covariance) {
       measured.covariance = *line.covariance;
     } else {
-      if (readings.empty()) readings = support(observation);
-      const auto fit = extract::fit_beam_line(readings[k], observation.scan.sensor.noise);
       if (!fit) continue;
       measured.normal = fit->normal();
       measured.middle -= (measured.normal.dot(measured.middle) - fit->rho()) * measured.normal;
       measured.covariance = extract::line_covariance(*fit, measured.middle);
     }
-    if (usable(measured.covariance)) result.push_back(measured);
+    if (!usable(measured.covariance)) continue;
+    set_plain(measured, fit);
+    result.push_back(measured);
   }
   return result;
 }
@@ -128,8 +140,9 @@ class Unexplained {
   void keep(std::span<const extract::BeamReading> run, const extract::BeamLine& line) {
     const Vec2 first = line.range(run.front().direction) * run.front().direction;
     const Vec2 last = line.range(run.back().direction) * run.back().direction;
-    MeasuredLine measured{0.5 * (first + last), line.normal(), 0.5 * (last - first).norm(), Eigen::Matrix2d::Zero()};
-    measured.covariance = extract::line_covariance(line, measured.middle);
+    const Vec2 middle = 0.5 * (first + last);
+    const MeasuredLine measured{middle, line.normal(), 0.5 * (last - first).norm(),
+                                extract::line_covariance(line, middle)};
     if (usable(measured.covariance) && measured.covariance(1, 1) <= kLargestAngleSigma * kLargestAngleSigma &&
         measured.half_length > 0)
       found_.lines.push_back(measured);
@@ -170,7 +183,10 @@ ScanMeasurements measurements(const Observation& observation) {
 }
 
 MeasuredLine moved(const Pose2& b_from_a, const MeasuredLine& line) {
-  return {b_from_a * line.middle, b_from_a.rotate(line.normal), line.half_length, line.covariance};
+  MeasuredLine result = line;
+  result.middle = b_from_a * line.middle;
+  result.normal = b_from_a.rotate(line.normal);
+  return result;
 }
 
 }  // namespace scanbench::matching

@@ -9,11 +9,15 @@
 namespace scanbench::matching {
 
 /// A line in the frame of its sensor, or of another after moved(). The normal points away from the sensor that saw it.
+/// An extractor's line and covariance are means over what it doubts: where the wall ends, whether it has a hidden
+/// break. The plain line is the one of greatest likelihood through the same readings if nothing is in doubt.
 struct MeasuredLine {
   Vec2 middle = Vec2::Zero();  ///< midpoint of the part that was seen, on the line
   Vec2 normal = Vec2::Zero();  ///< unit
   double half_length = 0.0;
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (offset along the normal at the middle, angle)
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();   ///< of (offset along the normal at the middle, angle)
+  Eigen::Vector2d plain_place = Eigen::Vector2d::Zero();  ///< (offset, angle) of the plain line from this one
+  Eigen::Matrix2d plain_covariance = covariance;          ///< by the noise of the readings alone
 };
 
 /// A return that no line explains.

@@ -2,6 +2,7 @@
 #include "algorithms/match/optimal/wall_pairs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -15,17 +16,30 @@ namespace {
 constexpr double kGate = 13.8;          // 99.9 % of chi-square with 2 degrees of freedom
 constexpr double kLeastCosine = 0.8;    // lines that differ by more are no measurements of one angle
 constexpr double kLeastOverlap = 0.25;  // of the shorter line
+constexpr double kAlike = 0.5;          // share of walls whose lines are moved alike by what they doubt
 constexpr double kStray = 0.02;         // share of pairs that are not one wall ...
 constexpr double kStrayDensity = 2.0;   // ... and whose differences spread over a metre and half a radian
+
+/// Turning a line moves it by -t d alpha at the point t along it.
+Eigen::Matrix2d shift_to(const Vec2& point, const MeasuredLine& line) {
+  Eigen::Matrix2d shift;
+  shift << 1.0, -perpendicular(line.normal).dot(point - line.middle), 0.0, 1.0;
+  return shift;
+}
 
 /// A line at a point near it, against a normal.
 WallPlace place_at(const MeasuredLine& line, const Vec2& point, const Vec2& normal) {
   const double cosine = line.normal.dot(normal);
-  const double along = perpendicular(line.normal).dot(point - line.middle);
-  Eigen::Matrix2d shift;  // turning a line moves it by -t d alpha at the point t along it
-  shift << 1.0, -along, 0.0, 1.0;
+  const Eigen::Matrix2d shift = shift_to(point, line);
   return {{line.normal.dot(line.middle - point) / cosine, std::atan2(cross(normal, line.normal), cosine)},
           shift * line.covariance * shift.transpose()};
+}
+
+/// The same of its plain line.
+WallPlace plain_place_at(const MeasuredLine& line, const Vec2& point, const Vec2& normal) {
+  const Eigen::Matrix2d shift = shift_to(point, line);
+  return {place_at(line, point, normal).place + shift * line.plain_place,
+          shift * line.plain_covariance * shift.transpose()};
 }
 
 /// Mean of two independent places of one wall.
@@ -77,12 +91,25 @@ std::optional<std::size_t> least(std::span<const double> values) {
   return static_cast<std::size_t>(at - values.begin());
 }
 
+using PlaceAt = WallPlace (*)(const MeasuredLine&, const Vec2& point, const Vec2& normal);
+
 /// Place of a wall by all its lines of one scan.
 WallPlace place_of(std::span<const std::size_t> members, std::span<const MeasuredLine> lines, const Vec2& point,
-                   const Vec2& normal) {
+                   const Vec2& normal, PlaceAt place_at) {
   WallPlace place = place_at(lines[members.front()], point, normal);
   for (const std::size_t k : members.subspan(1)) place = mean_place(place, place_at(lines[k], point, normal));
   return place;
+}
+
+/// The two places of a wall, for one of the ways in which its lines can be one wall.
+struct Difference {
+  Eigen::Vector2d off;
+  Eigen::Matrix2d covariance;
+  double angle_variance;  ///< of the current scan
+};
+
+Difference difference_of(const WallPlace& there, const WallPlace& here) {
+  return {there.place - here.place, there.covariance + here.covariance, here.covariance(1, 1)};
 }
 
 }  // namespace
@@ -129,6 +156,8 @@ std::vector<WallPair> pair_walls(std::span<const MeasuredLine> reference, std::s
 WallEquations wall_equations(std::span<const WallPair> walls, std::span<const MeasuredLine> reference,
                              std::span<const MeasuredLine> current, const Pose2& reference_from_current,
                              const Eigen::Matrix3d& doubt) {
+  constexpr std::array<PlaceAt, 2> kWays{plain_place_at, place_at};
+  constexpr std::array<double, 2> kShares{kAlike, 1.0 - kAlike};
   WallEquations result;
   std::vector<MeasuredLine> placed;
   for (const MeasuredLine& line : current) placed.push_back(moved(reference_from_current, line));
@@ -136,23 +165,30 @@ WallEquations wall_equations(std::span<const WallPair> walls, std::span<const Me
   for (const WallPair& wall : walls) {
     const Vec2& point = placed[wall.current.front()].middle;
     const Vec2& normal = placed[wall.current.front()].normal;
-    const WallPlace there = place_of(wall.reference, reference, point, normal);
-    const WallPlace here = place_of(wall.current, placed, point, normal);
-    const Eigen::Matrix2d covariance = there.covariance + here.covariance;
-    const Eigen::Matrix2d information = covariance.inverse();
-    const Eigen::Vector2d off = there.place - here.place;
     const Eigen::Matrix<double, 2, 3> jacobian = jacobian_at(point, normal, sensor);
-    const Eigen::Matrix2d allowed = covariance + jacobian * doubt * jacobian.transpose();
-    const double density = std::exp(-0.5 * normalised(off, allowed)) / (kTwoPi * std::sqrt(allowed.determinant()));
-    const double weight = (1.0 - kStray) * density / ((1.0 - kStray) * density + kStray * kStrayDensity);
-    result.equations.matrix += weight * jacobian.transpose() * information * jacobian;
-    result.equations.rhs += weight * jacobian.transpose() * (information * off);
     const Motion turned = gradient(perpendicular(normal), point - sensor);
-    result.equations.by_chance +=
-        (weight * information(0, 0) * std::min(here.covariance(1, 1), 1.0)) * turned * turned.transpose();
-    result.misfit += weight * off.dot(information * off);
-    result.walls += weight;
-    result.evidence += std::log1p((1.0 - kStray) * density / (kStray * kStrayDensity));
+    std::array<Difference, 2> ways;
+    std::array<double, 2> densities{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      ways[k] = difference_of(place_of(wall.reference, reference, point, normal, kWays[k]),
+                              place_of(wall.current, placed, point, normal, kWays[k]));
+      const Eigen::Matrix2d allowed = ways[k].covariance + jacobian * doubt * jacobian.transpose();
+      densities[k] =
+          kShares[k] * std::exp(-0.5 * normalised(ways[k].off, allowed)) / (kTwoPi * std::sqrt(allowed.determinant()));
+    }
+    const double one_wall = (1.0 - kStray) * (densities[0] + densities[1]), stray = kStray * kStrayDensity;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double weight = (1.0 - kStray) * densities[k] / (one_wall + stray);
+      const Eigen::Matrix2d information = weight * ways[k].covariance.inverse();
+      result.equations.matrix += jacobian.transpose() * information * jacobian;
+      result.equations.rhs += jacobian.transpose() * (information * ways[k].off);
+      result.equations.by_chance +=
+          (information(0, 0) * std::min(ways[k].angle_variance, 1.0)) * turned * turned.transpose();
+      result.misfit += ways[k].off.dot(information * ways[k].off);
+    }
+    result.walls += one_wall / (one_wall + stray);
+    result.coordinates += 2.0 * one_wall / (one_wall + stray);
+    result.evidence += std::log1p(one_wall / stray);
   }
   return result;
 }

@@ -38,12 +38,16 @@ std::vector<WallPair> pair_walls(std::span<const MeasuredLine> reference, std::s
                                  const PoseBelief& belief);
 
 /// Equations of the motion of the current scan, each wall weighted with the probability that its lines are one wall.
+/// A wall is one in two ways, which are equally probable: what its lines doubt may move them apart, with their whole
+/// covariances; or it moves both alike, because both scans see the wall from nearly one place, and only the noise of
+/// the plain lines is between them.
 /// That probability is of the difference which the lines and `doubt`, the covariance of the pose [m, m, rad], allow. A
 /// pose that may be off by ten times the noise of a line says nothing against the pair if they differ by as much.
 struct WallEquations {
   PoseEquations equations;
-  double misfit = 0.0;  ///< sum of weighted squared differences, in standard deviations
-  double walls = 0.0;   ///< sum of the weights
+  double misfit = 0.0;       ///< sum of weighted squared differences, in standard deviations
+  double walls = 0.0;        ///< sum of the weights
+  double coordinates = 0.0;  ///< that were measured: two of each wall and one of each lone return, times their weights
   /// Sum over the walls of the logarithm of the odds that a pair is one wall.
   double evidence = 0.0;
 };

@@ -222,6 +222,58 @@ TEST(WallEquations, AreThoseOfNumericalDerivatives) {
   }
 }
 
+/// A wall whose two lines are each in doubt: the plain lines are elsewhere, and better known.
+struct DoubtedWall {
+  std::vector<MeasuredLine> reference, current;
+  Pose2 pose{0.5, -0.3, 0.7};
+  std::vector<WallPair> pairs{{{0}, {0}}};
+
+  /// `apart_m`: between the plain lines.
+  explicit DoubtedWall(double apart_m) {
+    Eigen::Matrix2d wide, plain;
+    wide << 4e-4, 1e-5, 1e-5, 9e-5;
+    plain << 4e-6, -1e-6, -1e-6, 2e-6;
+    const Vec2 normal(std::cos(0.4), std::sin(0.4));
+    const MeasuredLine line{2.0 * normal, normal, 1.0, wide, {0.004, 0.002}, plain};
+    MeasuredLine other = line;
+    other.plain_place.x() += apart_m;
+    reference = {line};
+    current = {moved(pose.inverse(), other)};
+  }
+  WallEquations equations(const Motion& motion = Motion::Zero()) const {
+    return wall_equations(pairs, reference, current, moved(pose, motion), Eigen::Matrix3d::Zero());
+  }
+};
+
+TEST(WallEquations, AreTheSlopeOfTheProbabilityOverAllWaysInWhichLinesAreOneWall) {
+  // The evidence is the logarithm of a mixture, but for a constant. Its slope is the sum of the slopes of the parts,
+  // weighted with their probabilities (Dempster, Laird & Rubin 1977).
+  for (const double apart_m : {0.0, 0.003, 0.008, 0.02}) {
+    const DoubtedWall wall(apart_m);
+    const WallEquations found = wall.equations();
+    const double h = 1e-6;
+    for (int k = 0; k < 3; ++k) {
+      const Motion e = h * Motion::Unit(k);
+      const double slope = (wall.equations(e).evidence - wall.equations(-e).evidence) / (2 * h);
+      // What remains is the change of the normals by the motion, which the equations leave out.
+      EXPECT_NEAR(slope, found.equations.rhs(k), 0.02 * found.equations.rhs.norm() + 0.5) << apart_m << ' ' << k;
+    }
+  }
+}
+
+TEST(WallEquations, DoubtThatMovesBothLinesAlikeIsNotBetweenThem) {
+  // Plain lines that agree to a fraction of their noise know the wall's offset to sqrt(2) 2 mm; if they are ten of
+  // their standard deviations apart, doubt moved one of them, and the offset is known to sqrt(2) 20 mm.
+  const auto sigma_m = [](double apart_m) {
+    const WallEquations found = DoubtedWall(apart_m).equations();
+    const Motion along(std::cos(0.4), std::sin(0.4), 0.0);
+    return 1.0 / std::sqrt(along.dot(found.equations.matrix * along));
+  };
+  const double plain = std::sqrt(2.0) * 0.002, wide = std::sqrt(2.0) * 0.02;
+  EXPECT_NEAR(sigma_m(0.0), plain, 0.1 * plain);
+  EXPECT_NEAR(sigma_m(10.0 * plain), wide, 0.1 * wide);
+}
+
 TEST(WallEquations, AWallKnownToAMillimetreCountsWhileThePoseIsKnownToADecimetre) {
   const Eigen::Matrix2d c = 1e-6 * Eigen::Matrix2d::Identity();
   const Vec2 ahead(1, 0);
