@@ -8,10 +8,10 @@
 // registration, and from turned guesses if neither comes to rest; the most probable result is kept.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/LU>
 
+#include "algorithms/match/optimal/guess.hpp"
 #include "algorithms/match/optimal/lone_returns.hpp"
 #include "algorithms/match/optimal/wall_pairs.hpp"
 #include "algorithms/match/parts/point_line_registration.hpp"
@@ -40,7 +40,9 @@ constexpr int kMostRounds = 12;
 constexpr double kStill = 1e-6;  // a step of a thousandth of the pose's standard deviation, squared
 // Further starts where the first two are in doubt: turns of the guess, in its standard deviations.
 constexpr double kTurns[] = {-2.0, 2.0, -4.0, 4.0, -6.0, 6.0};
-constexpr double kSurprise = 16.3;  // 99.9 % of chi-square with 3 degrees of freedom
+// Of the pairs that speak for a position which the guess excludes against one which it allows: along a corridor with
+// doors at equal distances, walls that fit by chance at one door fit together.
+constexpr double kIndependent = 1.0 / 3.0;
 // The least ratio of a motion's information to what errors of the normals give an open motion. For the two walls of a
 // corridor that ratio is half a squared normal variable, which exceeds 10 once in 130 000 cases.
 constexpr double kLeastRatio = 10.0;
@@ -68,13 +70,13 @@ class OptimalMatch final : public ScanMatcher {
                .trim = 3.0,
                .by_noise = false,
                .min_overlap = p.min_overlap,
-               .max_iterations = 20} {
-    const double turn = radians(p.guess_sigma_deg);
-    guess_covariance_.diagonal() << p.guess_sigma_m * p.guess_sigma_m, p.guess_sigma_m * p.guess_sigma_m, turn * turn;
-  }
+               .max_iterations = 20},
+        guess_sigma_m_(p.guess_sigma_m),
+        guess_sigma_rad_(radians(p.guess_sigma_deg)) {}
 
-  Match match(const Observation& reference, const Observation& current, const Pose2& guess,
+  Match match(const Observation& reference, const Observation& current, const Pose2& guessed,
               Trace& trace) const override {
+    const Guess guess(guessed, guess_sigma_m_, guess_sigma_rad_);
     trace.stage(Stage::pre);
     const ReturnedPoints seen = returned_points(reference.scan), now = returned_points(current.scan);
     trace.stage(Stage::start);
@@ -82,7 +84,7 @@ class OptimalMatch final : public ScanMatcher {
     const auto registered = [&](const Pose2& from) {
       return register_points_on_lines(seen, local_lines(seen), now, local_lines(now), from, start_, trace);
     };
-    const Match start = points ? registered(guess) : Match{};
+    const Match start = points ? registered(guessed) : Match{};
     const bool lost = points && start.status == Status::no_match;
     trace.stage(Stage::walls);
     const ScanMeasurements there = measurements(reference), here = measurements(current);
@@ -90,64 +92,67 @@ class OptimalMatch final : public ScanMatcher {
     const auto candidate = [&](const Pose2& from, const Eigen::Matrix3d& covariance) {
       return by_walls(there, here, {from, covariance}, guess, lever, trace);
     };
-    Candidate best{no_match(guess), -std::numeric_limits<double>::infinity()};
-    if (!lost) best = more_probable(best, candidate(guess, guess_covariance_));
+    Candidate best{no_match(guessed)};
+    if (!lost) best = more_probable(best, candidate(guessed, guess.covariance()), guess);
     if (!lost && points) {
       const bool known = start.status == Status::converged;
-      best = more_probable(best,
-                           candidate(start.reference_from_current, known ? 4.0 * start.covariance : guess_covariance_));
+      best = more_probable(
+          best, candidate(start.reference_from_current, known ? 4.0 * start.covariance : guess.covariance()), guess);
     }
     if (in_question(best.match, guess))
       for (const double turn : kTurns) {
-        const Motion motion(0.0, 0.0, turn * std::sqrt(guess_covariance_(2, 2)));
-        const Candidate other = candidate(moved(guess, motion), 4.0 * guess_covariance_);
-        // Two parallel walls fit at many headings: what leaves a motion open confirms no turn.
-        if (other.match.status != Status::degenerate) best = more_probable(best, other);
+        const Candidate other = candidate(guess.turned(turn), 4.0 * guess.covariance());
+        // Two parallel walls fit at many headings: what leaves a motion open confirms none that the guess excludes.
+        if (other.match.status != Status::degenerate || !guess.excludes(other.match.reference_from_current))
+          best = more_probable(best, other, guess);
       }
     if (!lost) return best.match;
     const bool found = best.match.status == Status::converged &&
                        registered(best.match.reference_from_current).status != Status::no_match;
-    return found ? best.match : no_match(guess);
+    return found ? best.match : no_match(guessed);
   }
 
  private:
   struct Candidate {
     Match match;
-    double evidence = 0.0;  ///< logarithm of its probability, but for a constant
+    // Logarithms of odds, together of this match against no pair at all at the guess.
+    double by_pairs = 0.0;
+    double by_guess = 0.0;
+
+    double evidence(double share_of_pairs = 1.0) const { return share_of_pairs * by_pairs + by_guess; }
   };
 
-  static const Candidate& more_probable(const Candidate& a, const Candidate& b) {
-    return b.match.status != Status::no_match && b.evidence >= a.evidence ? b : a;
+  static const Candidate& more_probable(const Candidate& a, const Candidate& b, const Guess& guess) {
+    if (b.match.status == Status::no_match) return a;
+    if (a.match.status == Status::no_match) return b.evidence() >= 0.0 ? b : a;
+    const bool only_one_excluded = guess.excludes_position(a.match.reference_from_current) !=
+                                   guess.excludes_position(b.match.reference_from_current);
+    const double share = only_one_excluded ? kIndependent : 1.0;
+    return b.evidence(share) >= a.evidence(share) ? b : a;
   }
 
-  /// Squared distance from the guess, in standard deviations of the guess.
-  double surprise(const Pose2& guess, const Pose2& pose) const {
-    const Motion off = motion_between(guess, pose);
-    return off.dot(guess_covariance_.inverse() * off);
-  }
-
-  bool in_question(const Match& match, const Pose2& guess) const {
+  static bool in_question(const Match& match, const Guess& guess) {
     return match.status == Status::no_match || match.status == Status::max_iterations ||
-           surprise(guess, match.reference_from_current) > kSurprise;
+           guess.excludes(match.reference_from_current);
   }
 
   /// Pairs walls and steps in turn until neither changes: first with the doubt about the pose in the weights, so that
   /// walls known to millimetres count although the guess is off by centimetres, then without.
   Candidate by_walls(const ScanMeasurements& reference, const ScanMeasurements& current, PoseBelief belief,
-                     const Pose2& guess, double lever_m, Trace& trace) const {
-    Candidate result{{Status::max_iterations, guess, Eigen::Matrix3d::Zero()}, 0.0};
+                     const Guess& guess, double lever_m, Trace& trace) const {
+    Candidate result{{Status::max_iterations, guess.pose(), Eigen::Matrix3d::Zero()}};
     const Eigen::Matrix3d before = belief.covariance.inverse();
     Pose2& pose = belief.reference_from_current;
     std::vector<WallPair> walls;
     bool settled = false, doubtful = true;
     for (int round = 0; round < kMostRounds && !settled; ++round) {
       std::vector<WallPair> paired = pair_walls(reference.lines, current.lines, belief);
-      if (paired.empty()) return {no_match(guess), 0.0};
+      if (paired.empty()) return {no_match(guess.pose())};
       const Eigen::Matrix3d doubt = doubtful ? belief.covariance : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
       WallEquations sum = wall_equations(paired, reference.lines, current.lines, pose, doubt);
       add_lone_returns(remainder(paired, reference, current), belief, doubt, sum);
       // What the walls know less well than the guess does is open too.
-      sum.equations.by_chance += guess_covariance_.inverse() / kLeastRatio;
+      sum.equations.by_chance += guess.covariance().inverse() / kLeastRatio;
       const Determined determined(sum.equations, lever_m, kLeastRatio);
       const Motion step = determined.solve(sum.equations.rhs);
       pose = moved(pose, step);
@@ -155,10 +160,9 @@ class OptimalMatch final : public ScanMatcher {
                                                      : step.dot(sum.equations.matrix * step) < kStill);
       settled = same && !doubtful;
       const bool open = determined.rank() < 3;
-      const Pose2 answer = open ? moved(guess, determined.project(motion_between(guess, pose))) : pose;
+      const Pose2 answer = open ? moved(guess.pose(), determined.project(motion_between(guess.pose(), pose))) : pose;
       const Status status = open ? Status::degenerate : settled ? Status::converged : Status::max_iterations;
-      result = {{status, answer, determined.covariance(excess(sum, step))},
-                sum.evidence - 0.5 * surprise(guess, answer)};
+      result = {{status, answer, determined.covariance(excess(sum, step))}, sum.evidence, guess.log_density(answer)};
       // Pairs that change in turn: the pose is not known better than they move it.
       if (status == Status::max_iterations) result.match.covariance += step * step.transpose();
       if (doubtful)
@@ -195,7 +199,8 @@ class OptimalMatch final : public ScanMatcher {
   }
 
   RegistrationRules start_;
-  Eigen::Matrix3d guess_covariance_ = Eigen::Matrix3d::Zero();
+  double guess_sigma_m_;
+  double guess_sigma_rad_;
 };
 
 [[maybe_unused]] const bool registered = Registry<ScanMatcher>::add<OptimalMatch>(

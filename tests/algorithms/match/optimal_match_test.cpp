@@ -1,4 +1,4 @@
-// optimal_match: guesses that are far off, and walls that know less than the guess.
+// optimal_match: what the guess and the walls say about each other.
 #include <cmath>
 #include <vector>
 
@@ -62,22 +62,33 @@ TEST(OptimalMatch, StatesNoWrongPoseFromGuessesSeveralStandardDeviationsOff) {
   EXPECT_GE(stated, 57);
 }
 
-// Two parallel walls, and one across them whose place both scans know with a standard deviation of `sigma_m`.
-Match match_with_a_wall_across(double sigma_m, const Pose2& guess) {
-  const auto line = [](Vec2 a, Vec2 b, double sigma) {
-    LineFeature feature;
-    feature.segment = {a, b};
-    feature.line = line_through(a, b);
-    feature.covariance = Eigen::Vector2d(sigma * sigma, 1e-6).asDiagonal().toDenseMatrix();
-    return feature;
-  };
+/// A wall from a to b, known to `sigma_m` and `sigma_rad`.
+LineFeature wall(Vec2 a, Vec2 b, double sigma_m, double sigma_rad = 0.001) {
+  LineFeature feature;
+  feature.segment = {a, b};
+  feature.line = line_through(a, b);
+  feature.covariance = Eigen::Vector2d(sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal().toDenseMatrix();
+  return feature;
+}
+
+/// Two scans of these walls from one place; the parameters state 0.1 m and 3 degrees for the guess.
+Match match_with_itself(const std::vector<LineFeature>& walls, const Pose2& guess) {
   const SensorModel sensor = fan_sensor(3, 1.0);
   const OwnedScan none{sensor, {kInf, kInf, kInf}, {}};
   ScanLines lines;
-  lines.lines = {line({-4, 1}, {4, 1}, 0.001), line({4, -1}, {-4, -1}, 0.001), line({5, 1}, {5, -1}, sigma_m)};
+  lines.lines = walls;
   lines.labels = {-1, -1, -1};
   Trace silent;
   return Registry<ScanMatcher>::make("optimal_match")->match({none.view(), lines}, {none.view(), lines}, guess, silent);
+}
+
+const std::vector<LineFeature> kCorridor{wall({-4, 1}, {4, 1}, 0.001), wall({4, -1}, {-4, -1}, 0.001)};
+
+// The corridor, and a wall across it.
+Match match_with_a_wall_across(double sigma_m, const Pose2& guess) {
+  std::vector<LineFeature> walls = kCorridor;
+  walls.push_back(wall({5, 1}, {5, -1}, sigma_m));
+  return match_with_itself(walls, guess);
 }
 
 TEST(OptimalMatch, LeavesOpenWhatTheWallsKnowLessWellThanTheGuess) {
@@ -91,6 +102,27 @@ TEST(OptimalMatch, LeavesOpenWhatTheWallsKnowLessWellThanTheGuess) {
   EXPECT_NEAR(open.reference_from_current.translation().x(), guess.translation().x(), 1e-6);
   EXPECT_NEAR(open.reference_from_current.translation().y(), 0.0, 1e-6);
   EXPECT_GT(open.covariance(0, 0), 100.0);
+}
+
+TEST(OptimalMatch, FindsTheHeadingInACorridorFromAGuessThatIsTurnedTooFarForItsWallsToPair) {
+  // 3.8 standard deviations: a wall in a thousand differs by so much from its partner, a pose in a hundred.
+  const Match found = match_with_itself(kCorridor, Pose2(0.05, 0.0, radians(11.5)));
+  EXPECT_EQ(found.status, Status::degenerate);
+  EXPECT_NEAR(found.reference_from_current.yaw(), 0.0, 1e-6);
+  EXPECT_NEAR(found.reference_from_current.y(), 0.0, 1e-6);
+}
+
+TEST(OptimalMatch, IsNoMatchWhereItIsLessProbableThanNoPairAtAll) {
+  // Two short walls, known to 5 cm and 3 degrees, and a guess that they move by six standard deviations along both
+  // axes: either fits by chance more often than a guess is so wrong. Long walls that are known well outweigh it.
+  const Pose2 guess(0.45, 0.45, 0.0);
+  const auto corner = [](double sigma_m, double sigma_rad) {
+    return std::vector<LineFeature>{wall({4, 0}, {4, 2}, sigma_m, sigma_rad), wall({2, 4}, {0, 4}, sigma_m, sigma_rad)};
+  };
+  EXPECT_EQ(match_with_itself(corner(0.05, 0.05), guess).status, Status::no_match);
+  const Match known = match_with_itself(corner(1e-5, 1e-5), guess);
+  EXPECT_EQ(known.status, Status::converged);
+  EXPECT_NEAR(known.reference_from_current.x(), 0.0, 1e-6);
 }
 
 }  // namespace
