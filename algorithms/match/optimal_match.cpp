@@ -37,7 +37,8 @@ struct RoundRow {
 };
 
 constexpr int kMostRounds = 12;
-constexpr double kStill = 1e-6;  // a step of a thousandth of the pose's standard deviation, squared
+constexpr double kStill = 1e-6;          // a step of a thousandth of the pose's standard deviation, squared
+constexpr double kFewWalls = 1.0 / 3.0;  // of the scan with fewer lines: less in pairs puts a match in doubt
 // Further starts where the first two are in doubt: turns of the guess, in its standard deviations.
 constexpr double kTurns[] = {-2.0, 2.0, -4.0, 4.0, -6.0, 6.0};
 // Of the pairs that speak for a position which the guess excludes against one which it allows: along a corridor with
@@ -99,7 +100,8 @@ class OptimalMatch final : public ScanMatcher {
       best = more_probable(
           best, candidate(start.reference_from_current, known ? 4.0 * start.covariance : guess.covariance()), guess);
     }
-    if (in_question(best.match, guess))
+    const auto lines = static_cast<double>(std::min(there.lines.size(), here.lines.size()));
+    if (in_question(best.match, guess) || best.walls < kFewWalls * lines)
       for (const double turn : kTurns) {
         const Candidate other = candidate(guess.turned(turn), 4.0 * guess.covariance());
         // Two parallel walls fit at many headings: what leaves a motion open confirms none that the guess excludes.
@@ -118,6 +120,7 @@ class OptimalMatch final : public ScanMatcher {
     // Logarithms of odds, together of this match against no pair at all at the guess.
     double by_pairs = 0.0;
     double by_guess = 0.0;
+    double walls = 0.0;  ///< in pairs, sum of their weights
 
     double evidence(double share_of_pairs = 1.0) const { return share_of_pairs * by_pairs + by_guess; }
   };
@@ -162,7 +165,10 @@ class OptimalMatch final : public ScanMatcher {
       const bool open = determined.rank() < 3;
       const Pose2 answer = open ? moved(guess.pose(), determined.project(motion_between(guess.pose(), pose))) : pose;
       const Status status = open ? Status::degenerate : settled ? Status::converged : Status::max_iterations;
-      result = {{status, answer, determined.covariance(excess(sum, step))}, sum.evidence, guess.log_density(answer)};
+      result = {{status, answer, determined.covariance(excess(sum, step))},
+                sum.evidence,
+                guess.log_density(answer),
+                sum.walls};
       // Pairs that change in turn: the pose is not known better than they move it.
       if (status == Status::max_iterations) result.match.covariance += step * step.transpose();
       if (doubtful)
