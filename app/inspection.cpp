@@ -12,6 +12,7 @@
 #include "app/foreign.hpp"
 #include "app/inputs.hpp"
 #include "harness/gallery/catalogue.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/report/catalog.hpp"
 #include "harness/run/make_recording.hpp"
 #include "harness/run/run_plan.hpp"
@@ -23,8 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Text of foreign modules must not control the terminal.
 void print(const std::string& text) {
-  fmt::print("{}", text);
+  fmt::print("{}", harness::plain_text(text));
 }
 
 std::string counted(std::size_t count, const std::string& thing) {

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/modules.hpp"
@@ -22,8 +26,15 @@ constexpr std::array kTypes{ParamType::boolean,     ParamType::integer,     Para
                             ParamType::text,        ParamType::choice,      ParamType::number_list,
                             ParamType::number_rows, ParamType::named_points};
 
+constexpr std::uint64_t kLargestInteger = std::numeric_limits<std::int64_t>::max();
+
 [[noreturn]] void refuse(const std::string& what) {
   throw ForeignFault("describes itself wrongly: " + what);
+}
+
+[[noreturn]] void refuse_type(const std::string& key, const std::string& owner, const json& found,
+                              const std::string& allowed) {
+  refuse("`" + key + "` of " + owner + " is of the JSON type " + found.type_name() + "; allowed: " + allowed);
 }
 
 std::string text_of(const json& object, const std::string& key, const std::string& owner, bool required) {
@@ -32,7 +43,7 @@ std::string text_of(const json& object, const std::string& key, const std::strin
     if (required) refuse(owner + " has no `" + key + "`");
     return "";
   }
-  if (!found->is_string()) refuse("`" + key + "` of " + owner + " is no text");
+  if (!found->is_string()) refuse_type(key, owner, *found, "a text");
   return found->get<std::string>();
 }
 
@@ -41,11 +52,17 @@ bool is_name(const std::string& text) {
          text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
 }
 
-double number_of(const json& object, const std::string& key, double fallback) {
+/// A value of a parameter; `fallback` if the key is absent or null.
+template <class T>
+T value_of(const json& object, const std::string& key, const std::string& owner, T fallback,
+           const std::string& allowed) {
   const auto found = object.find(key);
   if (found == object.end() || found->is_null()) return fallback;
-  if (!found->is_number()) refuse("`" + key + "` of a parameter is no number");
-  return found->get<double>();
+  try {
+    return found->get<T>();
+  } catch (const json::exception&) {
+    refuse_type(key, owner, *found, allowed);
+  }
 }
 
 ParamType type_named(const std::string& name) {
@@ -56,12 +73,14 @@ ParamType type_named(const std::string& name) {
   refuse("a parameter has the type '" + name + "'; allowed: " + join(known));
 }
 
-ParamValue value_of(const json& value, ParamType type) {
+/// Throws json::exception for a value of another type.
+ParamValue typed(const json& value, ParamType type) {
   switch (type) {
     case ParamType::boolean:
       return value.get<bool>();
     case ParamType::integer:
-      if (!value.is_number_integer()) refuse("the default of an integer is no whole number");
+      if (!value.is_number_integer() || (value.is_number_unsigned() && value.get<std::uint64_t>() > kLargestInteger))
+        refuse("the default of an integer is " + value.dump().substr(0, 60) + "; allowed: a whole number of 64 bits");
       return value.get<std::int64_t>();
     case ParamType::number:
       return value.get<double>();
@@ -81,6 +100,19 @@ ParamValue value_of(const json& value, ParamType type) {
   throw InternalError("a parameter type without a reader");
 }
 
+ParamValue default_of(const json& object, const ParamSpec& spec) {
+  const auto found = object.find("default");
+  if (found == object.end()) refuse(spec.name + " has no `default`");
+  try {
+    return checked(spec, typed(*found, spec.type));
+  } catch (const json::exception&) {
+    refuse("`default` of " + spec.name + " is " + found->dump().substr(0, 60) +
+           "; allowed: " + std::string(to_string(spec.type)));
+  } catch (const ParamError& error) {
+    refuse("the default of " + std::string(error.what()));
+  }
+}
+
 ParamSpec read_spec(const json& object) {
   if (!object.is_object()) refuse("a parameter is no object");
   ParamSpec spec;
@@ -89,18 +121,11 @@ ParamSpec read_spec(const json& object) {
   spec.type = type_named(text_of(object, "type", spec.name, true));
   spec.unit = text_of(object, "unit", spec.name, false);
   spec.doc = text_of(object, "doc", spec.name, false);
-  spec.bounds.min = number_of(object, "min", -kInf);
-  spec.bounds.max = number_of(object, "max", kInf);
-  spec.bounds.open_min = object.value("open_min", false);
-  if (const auto found = object.find("choices"); found != object.end())
-    spec.choices = found->get<std::vector<std::string>>();
-  if (!object.contains("default")) refuse(spec.name + " has no `default`");
-  spec.default_value = value_of(object.at("default"), spec.type);
-  try {
-    spec.default_value = checked(spec, spec.default_value);
-  } catch (const ParamError& error) {
-    refuse("the default of " + std::string(error.what()));
-  }
+  spec.bounds.min = value_of(object, "min", spec.name, -kInf, "a number");
+  spec.bounds.max = value_of(object, "max", spec.name, kInf, "a number");
+  spec.bounds.open_min = value_of(object, "open_min", spec.name, false, "true, false");
+  spec.choices = value_of(object, "choices", spec.name, std::vector<std::string>(), "a list of texts");
+  spec.default_value = default_of(object, spec);
   return spec;
 }
 
@@ -115,12 +140,14 @@ ForeignModule read_checked(const json& hello) {
   module.version = text_of(hello, "version", "the module", true);
   module.info.summary = text_of(hello, "summary", "the module", false);
   module.info.reference = text_of(hello, "reference", "the module", false);
-  if (const auto params = hello.find("params"); params != hello.end())
+  if (const auto params = hello.find("params"); params != hello.end() && !params->is_null()) {
+    if (!params->is_array()) refuse_type("params", "the module", *params, "a list of parameters");
     for (const auto& object : *params) {
       module.params.push_back(read_spec(object));
       if (std::ranges::count(module.params, module.params.back().name, &ParamSpec::name) > 1)
         refuse("two parameters are called " + module.params.back().name);
     }
+  }
   return module;
 }
 
@@ -146,14 +173,10 @@ ForeignModule read_hello(const json& hello) {
   const auto protocol = hello.find("protocol");
   if (protocol == hello.end() || !protocol->is_number_integer())
     throw ForeignFault("does not say which version of the protocol it speaks (key `protocol`)");
-  if (protocol->get<int>() != kProtocolVersion)
+  if (protocol->get<std::int64_t>() != kProtocolVersion)
     throw ForeignFault("speaks version " + protocol->dump() + " of the protocol; this program speaks version " +
                        std::to_string(kProtocolVersion));
-  try {
-    return read_checked(hello);
-  } catch (const json::exception& error) {
-    refuse(error.what());
-  }
+  return read_checked(hello);
 }
 
 json to_hello(const ForeignModule& module) {

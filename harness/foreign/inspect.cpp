@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstring>
 #include <map>
+#include <variant>
 
 #include "harness/files/hash.hpp"
 #include "harness/foreign/call.hpp"
@@ -111,26 +112,36 @@ std::string described_by_child(const fs::path& library) {
   return texts[0];
 }
 
+ForeignModule described_by(const ForeignSource& source, bool sandbox) {
+  Program program(source, {.sandbox = sandbox, .writable_folder = {}}, ProgramOutput::captured);
+  const Call hello = Call("hello").key("scanbench", kProtocolVersion);
+  const Answer answer = program.call(hello.header(), {}, kSeconds);
+  try {
+    return read_hello(answer.header());
+  } catch (const ForeignFault& fault) {
+    throw ForeignFault("the program `" + source.text() + "` " + fault.what());
+  }
+}
+
 }  // namespace
 
 void inspect_program(ForeignSource& source, bool sandbox) {
-  static std::map<std::string, ForeignModule> known;  // a suite reads its pipelines once per scenario
+  // A scenario and a suite read a pipeline several times; a program that does not answer takes a minute each time.
+  static std::map<std::string, std::variant<ForeignModule, ForeignFault>> known;
   Sha256 hash;
   for (const auto& argument : source.program) hash.part("argument", argument);
   for (const auto& file : source.files) hash.part(file.path.string(), file.sha256);
   const std::string key = hash.hex();
   auto found = known.find(key);
   if (found == known.end()) {
-    Program program(source, {.sandbox = sandbox, .writable_folder = {}}, ProgramOutput::captured);
-    const Call hello = Call("hello").key("scanbench", kProtocolVersion);
-    const Answer answer = program.call(hello.header(), {}, kSeconds);
     try {
-      found = known.emplace(key, read_hello(answer.header())).first;
+      found = known.emplace(key, described_by(source, sandbox)).first;
     } catch (const ForeignFault& fault) {
-      throw ForeignFault("the program `" + source.text() + "` " + fault.what());
+      found = known.emplace(key, fault).first;
     }
   }
-  source.module = found->second;
+  if (const auto* fault = std::get_if<ForeignFault>(&found->second)) throw ForeignFault(*fault);
+  source.module = std::get<ForeignModule>(found->second);
 }
 
 std::vector<ForeignSource> inspect_library(const fs::path& library) {

@@ -175,7 +175,15 @@ TEST_F(Programs, ThatEndSayHow) {
 TEST_F(Programs, ThatSpeakAnotherVersionAreRefused) {
   EXPECT_THAT(fault_of("hello['protocol'] = 2\n"),
               HasSubstr("speaks version 2 of the protocol; this program speaks version 1"));
+  EXPECT_THAT(fault_of("hello['protocol'] = 2**32 + 1\n"), HasSubstr("speaks version 4294967297"));
   EXPECT_THAT(fault_of("del hello['protocol']\n"), HasSubstr("key `protocol`"));
+}
+
+TEST_F(Programs, ThatDoNotDescribeThemselvesAreAskedOnce) {
+  const auto starts = folder_.path() / "starts";
+  ForeignSource source = by_hand("open('" + starts.string() + "', 'a').write('x')\nsys.exit(3)\n");
+  for (int k = 0; k < 3; ++k) EXPECT_THROW(inspect_program(source, false), ForeignFault);
+  EXPECT_EQ(std::filesystem::file_size(starts), 1u);
 }
 
 TEST_F(Programs, ThatDescribeThemselvesWronglyAreRefused) {
@@ -185,7 +193,27 @@ TEST_F(Programs, ThatDescribeThemselvesWronglyAreRefused) {
               HasSubstr("the default of a is -1; allowed: a number >= 0"));
   EXPECT_THAT(fault_of("hello['params'] = [{'name': 'a', 'type': 'float', 'default': 1}]\n"),
               HasSubstr("type 'float'; allowed: boolean, integer, number"));
-  EXPECT_THAT(fault_of("hello['params'] = 7\n"), HasSubstr("describes itself wrongly"));
+  EXPECT_THAT(fault_of("hello['params'] = 7\n"),
+              HasSubstr("`params` of the module is of the JSON type number; allowed: a list of parameters"));
+  EXPECT_THAT(fault_of("hello['summary'] = 5\n"),
+              HasSubstr("`summary` of the module is of the JSON type number; allowed: a text"));
+}
+
+TEST_F(Programs, ThatDescribeAParameterWithAnotherTypeAreRefusedWithItsName) {
+  const auto fault_with = [&](const std::string& parameter) {
+    return fault_of("hello['params'] = [{'name': 'a', " + parameter + "}]\n");
+  };
+  EXPECT_THAT(fault_with("'type': 'number', 'default': 'x'"), HasSubstr("`default` of a is \"x\"; allowed: number"));
+  EXPECT_THAT(fault_with("'type': 'named points', 'default': {'A': [1]}"),
+              HasSubstr("`default` of a is {\"A\":[1]}; allowed: named points"));
+  EXPECT_THAT(fault_with("'type': 'named points', 'default': [1, 2]"), HasSubstr("`default` of a is [1,2]"));
+  EXPECT_THAT(fault_with("'type': 'rows of numbers', 'default': [1]"), HasSubstr("`default` of a is [1]"));
+  EXPECT_THAT(fault_with("'type': 'integer', 'default': 2**63"),
+              HasSubstr("is 9223372036854775808; allowed: a whole number of 64 bits"));
+  EXPECT_THAT(fault_with("'type': 'number', 'default': 1, 'min': '0'"),
+              HasSubstr("`min` of a is of the JSON type string; allowed: a number"));
+  EXPECT_THAT(fault_with("'type': 'number', 'default': 1, 'open_min': 'yes'"), HasSubstr("allowed: true, false"));
+  EXPECT_THAT(fault_with("'type': 'choice', 'default': 'x', 'choices': [1]"), HasSubstr("allowed: a list of texts"));
 }
 
 TEST_F(Programs, ThatAnswerTooLateAreEndedEvenIfTheyIgnoreTheRequest) {
