@@ -141,8 +141,8 @@ class OptimalMatch final : public ScanMatcher {
 
   /// Pairs walls and steps in turn until neither changes: first with the doubt about the pose in the weights, so that
   /// walls known to millimetres count although the guess is off by centimetres, then without.
-  Candidate by_walls(const ScanMeasurements& reference, const ScanMeasurements& current, PoseBelief belief,
-                     const Guess& guess, double lever_m, Trace& trace) const {
+  static Candidate by_walls(const ScanMeasurements& reference, const ScanMeasurements& current, PoseBelief belief,
+                            const Guess& guess, double lever_m, Trace& trace) {
     Candidate result{{Status::max_iterations, guess.pose(), Eigen::Matrix3d::Zero()}};
     const Eigen::Matrix3d before = belief.covariance.inverse();
     Pose2& pose = belief.reference_from_current;

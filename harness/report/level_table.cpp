@@ -85,6 +85,7 @@ std::string best_by_level_text(const std::vector<LevelResult>& results, const st
   text += ".";
   if (doubtful.empty()) return text;
   std::vector<std::string> pairs;
+  pairs.reserve(doubtful.size());
   for (const auto& [pair, levels] : doubtful)
     pairs.push_back(
         fmt::format("{} and {} at {}", names[as_index(pair.first)], names[as_index(pair.second)], names_of(levels)));

@@ -69,6 +69,7 @@ std::vector<bool> errs_little_enough(const std::vector<RankedPipeline>& ranking,
   for (const auto& ranked : ranking)
     if (const double value = ranked.values.at(rank).mean; ranked.missing == 0 && !(value >= least)) least = value;
   std::vector<bool> enough;
+  enough.reserve(ranking.size());
   for (const auto& ranked : ranking)
     enough.push_back(subject.fair.times == 0.0 || ranked.values.at(rank).mean <= subject.fair.times * least);
   return enough;

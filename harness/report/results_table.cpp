@@ -360,6 +360,7 @@ std::vector<const Table::Row*> best_of(const Table& table, std::size_t column,
 /// "a (0.98), b (0.98)"
 std::string named(const std::vector<const Table::Row*>& rows, std::size_t column) {
   std::vector<std::string> names;
+  names.reserve(rows.size());
   for (const Table::Row* row : rows)
     names.push_back(fmt::format("{} ({})", row->heads.front(), row->cells[column].text));
   return fmt::format("{}", fmt::join(names, ", "));

@@ -132,7 +132,7 @@ ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& 
 void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenarios, const FigureOptions& options,
                       const std::function<void(double, const std::string&)>& progress) {
   std::vector<FigureFile> figures;
-  const auto benchmark = load_benchmark(run);
+  const auto benchmark = load_benchmark(run, scenarios);
   if (benchmark) figures = draw_benchmark_figures(run, scenarios, *benchmark, options, progress);
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     const auto part = [&](double share, const std::string& what) {
@@ -146,7 +146,7 @@ void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenario
 }
 
 std::vector<Table> closing_tables(const ReportInput& input) {
-  if (const auto benchmark = load_benchmark(input.run))
+  if (const auto benchmark = load_benchmark(input.run, input.scenarios))
     return {ranking_table(rank_pipelines(input.scenarios, input.rows, *benchmark), *benchmark)};
   std::vector<Table> tables;
   for (const auto& scenario : input.scenarios)
@@ -156,7 +156,7 @@ std::vector<Table> closing_tables(const ReportInput& input) {
 }
 
 void write_reports(const fs::path& run, const ReportInput& input) {
-  const auto benchmark = load_benchmark(run);
+  const auto benchmark = load_benchmark(run, input.scenarios);
   write_file_atomically(run / kReportPage, benchmark ? benchmark_html(input, *benchmark) : report_html(input));
   write_file_atomically(run / kReportMarkdown,
                         benchmark ? benchmark_markdown(input, *benchmark) : report_markdown(input));

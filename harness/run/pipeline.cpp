@@ -8,6 +8,8 @@
 #include <memory>
 #include <span>
 
+#include <Eigen/Eigenvalues>
+
 #include "core/error.hpp"
 #include "core/modules.hpp"
 #include "harness/foreign/fault.hpp"
@@ -64,14 +66,28 @@ bool is_near(const Vec2& p) {
   return p.cwiseAbs().maxCoeff() < kFarthest_m;
 }
 
+/// Describes what is wrong with a covariance, within rounding; empty if nothing is.
+template <int n>
+std::string covariance_fault(const Eigen::Matrix<double, n, n>& covariance) {
+  constexpr double kRounding = 1e-9;
+  if (!covariance.allFinite()) return "a covariance that is not finite";
+  if (covariance.diagonal().minCoeff() < 0) return "a negative variance";
+  if ((covariance - covariance.transpose()).norm() > kRounding * covariance.norm())
+    return "a covariance that is not symmetric";
+  const Eigen::Matrix<double, n, 1> variances =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
+  if (variances.minCoeff() < -kRounding * variances.maxCoeff()) return "a covariance with a negative eigenvalue";
+  return "";
+}
+
 /// Describes what is wrong with a line; empty if nothing is. Lines given instead of scans have no beams and may have
 /// any size.
 std::string fault_of(const LineFeature& line, int beams) {
   if (!line.segment.a.allFinite() || !line.segment.b.allFinite() || !std::isfinite(line.line.rho) ||
       !std::isfinite(line.line.alpha))
     return "is not finite";
-  if (line.covariance && !line.covariance->allFinite()) return "has a covariance that is not finite";
-  if (line.covariance && line.covariance->diagonal().minCoeff() < 0) return "has a negative variance";
+  if (line.covariance)
+    if (const std::string fault = covariance_fault(*line.covariance); !fault.empty()) return "has " + fault;
   if (line.points < 0) return "has " + std::to_string(line.points) + " points";
   if (!std::isfinite(line.rms_m) || line.rms_m < 0) return "has an rms that is not finite or negative";
   if (beams == 0) return "";
@@ -101,11 +117,13 @@ void check_lines(const ScanLines& lines, int beams, std::size_t frame) {
 void check_pose(const Pose2& pose, const std::string& where) {
   if (!pose.translation().allFinite() || !std::isfinite(pose.cos()) || !std::isfinite(pose.sin()))
     throw InvalidResult(where + ": the pose is not finite");
+  if (!is_near(pose.translation())) throw InvalidResult(where + ": the pose is beyond 1e6 m");
 }
 
 void check_match(const Match& match, const std::string& where) {
   check_pose(match.reference_from_current, where);
-  if (!match.covariance.allFinite()) throw InvalidResult(where + ": the covariance is not finite");
+  if (const std::string fault = covariance_fault(match.covariance); !fault.empty())
+    throw InvalidResult(where + ": the match has " + fault);
 }
 
 /// False if all scans claim one pose: what recorded scans without poses look like.

@@ -48,21 +48,45 @@ bool has_metric(const Scenario& scenario, const RequiredMetric& required) {
          (required.parameter.empty() || std::get<bool>(choice->params.at(required.parameter)));
 }
 
-void check_metrics(const Scenario& scenario, const BenchmarkSubject& subject, Mark mark) {
+std::string metric_fault(const Scenario& scenario, const BenchmarkSubject& subject) {
   const auto missing =
       std::ranges::find_if(subject.required, [&](const auto& metric) { return !has_metric(scenario, metric); });
-  if (missing == subject.required.end()) return;
+  if (missing == subject.required.end()) return "";
   std::vector<std::string> allowed;
   for (const auto& required : subject.required) allowed.push_back(text_of(required));
-  throw PlacedError(mark, fmt::format("{} has no metric {}; allowed: a benchmark of scenarios with the metrics {}",
-                                      scenario.name, name_of(*missing), fmt::join(allowed, ", ")));
+  return fmt::format("{} has no metric {}; allowed: a benchmark of scenarios with the metrics {}", scenario.name,
+                     name_of(*missing), fmt::join(allowed, ", "));
 }
 
-void check_slots(const Scenario& scenario, const std::string& slot, Mark mark) {
+std::string slot_fault(const Scenario& scenario, const std::string& slot) {
   for (const auto& pipeline : scenario.pipelines)
     if (!has_slot(pipeline, slot))
-      throw PlacedError(mark, fmt::format("{} of {} has no slot {}; allowed: a benchmark of pipelines that have it",
-                                          pipeline.name, scenario.name, slot));
+      return fmt::format("{} of {} has no slot {}; allowed: a benchmark of pipelines that have it", pipeline.name,
+                         scenario.name, slot);
+  return "";
+}
+
+/// What keeps the modules of a slot in these scenarios from a benchmark; empty if nothing does.
+std::string scenario_fault(const std::vector<Scenario>& scenarios, const std::string& slot) {
+  const std::vector<std::string> pipelines = pipeline_names(scenarios.front());
+  for (const auto& scenario : scenarios) {
+    if (pipeline_names(scenario) != pipelines)
+      return fmt::format("{} and {} have different pipelines; allowed: a benchmark of scenarios with the same ones",
+                         scenarios.front().name, scenario.name);
+    if (!std::holds_alternative<SimulatedInput>(scenario.input))
+      return fmt::format("{} is not simulated; allowed: scenarios with a world, a sensor and a trajectory",
+                         scenario.name);
+    if (const std::string fault = slot_fault(scenario, slot); !fault.empty()) return fault;
+    if (const std::string fault = metric_fault(scenario, benchmark_subject(slot)); !fault.empty()) return fault;
+  }
+  return "";
+}
+
+/// "no scenario is called x; known: a, b"; empty if one is.
+std::string name_fault(const std::string& thing, const std::string& name, const std::vector<std::string>& known) {
+  return std::ranges::count(known, name) > 0
+             ? ""
+             : fmt::format("no {} is called {}{}", thing, name, known_names(name, known));
 }
 
 }  // namespace
@@ -80,28 +104,25 @@ BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& 
   spec.example = map.text_or("example", scenarios.front().name);
   const YamlNode* example = map.find("example");
   map.done();
-  const std::vector<std::string> pipelines = pipeline_names(scenarios.front());
-  for (const auto& scenario : scenarios) {
-    if (pipeline_names(scenario) != pipelines)
-      throw PlacedError(node.mark,
-                        fmt::format("{} and {} have different pipelines; allowed: a benchmark of scenarios with "
-                                    "the same ones",
-                                    scenarios.front().name, scenario.name));
-    if (!std::holds_alternative<SimulatedInput>(scenario.input))
-      throw PlacedError(node.mark,
-                        fmt::format("{} is not simulated; allowed: scenarios with a world, a sensor and a trajectory",
-                                    scenario.name));
-    check_slots(scenario, spec.of, node.mark);
-    check_metrics(scenario, spec.subject(), node.mark);
-  }
-  if (std::ranges::find(pipelines, spec.baseline) == pipelines.end())
-    throw PlacedError(baseline.mark,
-                      fmt::format("no pipeline is called {}{}", spec.baseline, known_names(spec.baseline, pipelines)));
-  const std::vector<std::string> names = scenario_names(scenarios);
-  if (std::ranges::find(names, spec.example) == names.end())
-    throw PlacedError(example->mark,
-                      fmt::format("no scenario is called {}{}", spec.example, known_names(spec.example, names)));
+  const auto refuse = [](const std::string& fault, const YamlNode& at) {
+    if (!fault.empty()) throw PlacedError(at.mark, fault);
+  };
+  refuse(scenario_fault(scenarios, spec.of), node);
+  refuse(name_fault("pipeline", spec.baseline, pipeline_names(scenarios.front())), baseline);
+  if (example != nullptr) refuse(name_fault("scenario", spec.example, scenario_names(scenarios)), *example);
   return spec;
+}
+
+std::string benchmark_fault(const BenchmarkSpec& spec, const std::vector<Scenario>& scenarios) {
+  if (scenarios.empty()) return "";
+  const std::vector<std::string> names = scenario_names(scenarios);
+  std::string fault = scenario_fault(scenarios, spec.of);
+  if (fault.empty()) fault = name_fault("pipeline", spec.baseline, pipeline_names(scenarios.front()));
+  if (fault.empty()) fault = name_fault("scenario", spec.example, names);
+  for (const auto& level : spec.levels)
+    for (const auto& name : level.scenarios)
+      if (fault.empty()) fault = name_fault("scenario", name, names);
+  return fault;
 }
 
 std::string benchmark_json(const BenchmarkSpec& spec) {

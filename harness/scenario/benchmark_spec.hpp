@@ -36,6 +36,9 @@ struct BenchmarkSpec {
 /// requires.
 BenchmarkSpec read_benchmark(const YamlNode& node, const std::vector<Scenario>& scenarios);
 
+/// What in a benchmark is not of these scenarios or keeps them from it, in words; empty if nothing does.
+std::string benchmark_fault(const BenchmarkSpec& spec, const std::vector<Scenario>& scenarios);
+
 /// The text of benchmark.json.
 std::string benchmark_json(const BenchmarkSpec& spec);
 

@@ -42,8 +42,7 @@ BenchmarkSubject extractors() {
       .required = {{"segments", ""}, {"efficiency", "matches"}, {"timing", ""}},
       .fair = {"f1", 0.05,
                "* marks the best value; of errors, times and other costs among extractors within 5 points of the best "
-               "F1. An "
-               "extractor with missing cells has no mark."},
+               "F1. An extractor with missing cells has no mark."},
       .bound = {"efficiency_offset", "line offsets"},
       .method =
           "A true line is a run of consecutive beams on one wall with at least 9 returns over 0.5 m. A found line "
@@ -53,19 +52,20 @@ BenchmarkSubject extractors() {
           "and, after ±, half of its 95 % interval (the wider of Student's t and a bootstrap). Undefined values are "
           "left out. * marks the best.",
       .limits =
-          {"The seeds change the noise, not the worlds: intervals and tests show that a difference would recur on "
-           "these worlds, not that it would on others. \"Best in\" shows how much it depends on the condition.",
-           "Errors are those of found lines that passed the gate of the matching. An extractor that finds only easy "
-           "lines has smaller errors than one that finds all, and no error can be much larger than the gate.",
-           "The bound is that of a line whose beams are known, from the returns between its first and last beam. A "
-           "ratio below 1 is possible if an extractor used beams of two runs of one wall for one line.",
-           "Noise is Gaussian, equal at all ranges, and known to the extractors that take it as a parameter; there are "
-           "no mixed pixels, rounding or moving bodies. Walls are straight. Returns are lost only where a world or a "
-           "sensor above says so.",
-           "A lost return does not end a true line: an extractor that ends its line where many returns in a row are "
-           "missing has a split or a false line there.",
-           "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition "
-           "and seed, varies less."},
+          // NOLINTNEXTLINE(*-suspicious-missing-comma): sentences over two lines
+      {"The seeds change the noise, not the worlds: intervals and tests show that a difference would recur on "
+       "these worlds, not that it would on others. \"Best in\" shows how much it depends on the condition.",
+       "Errors are those of found lines that passed the gate of the matching. An extractor that finds only easy "
+       "lines has smaller errors than one that finds all, and no error can be much larger than the gate.",
+       "The bound is that of a line whose beams are known, from the returns between its first and last beam. A "
+       "ratio below 1 is possible if an extractor used beams of two runs of one wall for one line.",
+       "Noise is Gaussian, equal at all ranges, and known to the extractors that take it as a parameter; there are "
+       "no mixed pixels, rounding or moving bodies. Walls are straight. Returns are lost only where a world or a "
+       "sensor above says so.",
+       "A lost return does not end a true line: an extractor that ends its line where many returns in a row are "
+       "missing has a split or a false line there.",
+       "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition "
+       "and seed, varies less."},
       .shows_example = true,
       .over_start = ""};
 }
@@ -114,18 +114,19 @@ BenchmarkSubject matchers() {
           "of its 95 % interval (the wider of Student's t and a bootstrap). Undefined values are left out. * marks the "
           "best.",
       .limits =
-          {"The seeds change the noise and the guesses, not the worlds: intervals and tests show that a difference "
-           "would recur on these worlds, not that it would on others. \"Best in\" shows how much it depends on the "
-           "condition.",
-           "Pairs for which a matcher gives no pose are in its share of unmatched pairs and in no error: a matcher "
-           "that "
-           "answers only easy pairs has smaller errors than one that always answers.",
-           "The bound is that of a matcher with known assignments of beams to walls. Ends of walls are not in it, so "
-           "that a ratio below 1 is possible.",
-           "Noise is Gaussian, equal at all ranges, and known to the matchers; there are no mixed pixels or moving "
-           "bodies. Walls are straight. Returns are lost only where a world or a sensor above says so.",
-           "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition "
-           "and seed, varies less."},
+          // NOLINTNEXTLINE(*-suspicious-missing-comma): sentences over two lines
+      {"The seeds change the noise and the guesses, not the worlds: intervals and tests show that a difference "
+       "would recur on these worlds, not that it would on others. \"Best in\" shows how much it depends on the "
+       "condition.",
+       "Pairs for which a matcher gives no pose are in its share of unmatched pairs and in no error: a matcher "
+       "that "
+       "answers only easy pairs has smaller errors than one that always answers.",
+       "The bound is that of a matcher with known assignments of beams to walls. Ends of walls are not in it, so "
+       "that a ratio below 1 is possible.",
+       "Noise is Gaussian, equal at all ranges, and known to the matchers; there are no mixed pixels or moving "
+       "bodies. Walls are straight. Returns are lost only where a world or a sensor above says so.",
+       "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition "
+       "and seed, varies less."},
       .shows_example = false,
       .over_start = ""};
 }
@@ -166,16 +167,17 @@ BenchmarkSubject aligners() {
           "±, half of its 95 % interval (the wider of Student's t and a bootstrap). Undefined values are left out. * "
           "marks the best.",
       .limits =
-          {"The seeds change the noise and the given poses, not the worlds: intervals and tests show that a difference "
-           "would recur on these worlds, not that it would on others. \"Best in\" shows how much it depends on the "
-           "condition.",
-           "Every aligner has one set of parameters for all conditions. Its radius or gate is that of the middle start "
-           "error: who knows that the given poses are better or worse can do better.",
-           "The bound is that of an aligner that is told which beams see which wall. Ends of walls are not in it.",
-           "Noise is Gaussian, equal at all ranges; there are no mixed pixels, lost returns or moving bodies. Walls "
-           "are straight.",
-           "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition "
-           "and seed, varies less."},
+          // NOLINTNEXTLINE(*-suspicious-missing-comma): sentences over two lines
+      {"The seeds change the noise and the given poses, not the worlds: intervals and tests show that a difference "
+       "would recur on these worlds, not that it would on others. \"Best in\" shows how much it depends on the "
+       "condition.",
+       "Every aligner has one set of parameters for all conditions. Its radius or gate is that of the middle start "
+       "error: who knows that the given poses are better or worse can do better.",
+       "The bound is that of an aligner that is told which beams see which wall. Ends of walls are not in it.",
+       "Noise is Gaussian, equal at all ranges; there are no mixed pixels, lost returns or moving bodies. Walls "
+       "are straight.",
+       "Times are CPU times on a machine that may have been busy; the ratio to the baseline, in the same condition "
+       "and seed, varies less."},
       .shows_example = false,
       .over_start = "all_placed"};
 }

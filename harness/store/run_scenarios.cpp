@@ -196,4 +196,12 @@ std::optional<BenchmarkSpec> load_benchmark(const fs::path& run) {
   }
 }
 
+std::optional<BenchmarkSpec> load_benchmark(const fs::path& run, const std::vector<Scenario>& scenarios) {
+  auto spec = load_benchmark(run);
+  if (spec)
+    if (const std::string fault = benchmark_fault(*spec, scenarios); !fault.empty())
+      throw ConfigError((run / kBenchmarkFile).string() + " is of another run: " + fault);
+  return spec;
+}
+
 }  // namespace scanbench::harness

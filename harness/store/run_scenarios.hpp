@@ -44,6 +44,9 @@ void write_suite_rules(const std::filesystem::path& run, const SuiteRules& rules
 /// Reads benchmark.json; nothing if the run is a plain one. Throws ConfigError.
 std::optional<BenchmarkSpec> load_benchmark(const std::filesystem::path& run);
 
+/// The same for the scenarios of the run. Throws ConfigError also if the benchmark is not one of these.
+std::optional<BenchmarkSpec> load_benchmark(const std::filesystem::path& run, const std::vector<Scenario>& scenarios);
+
 /// Reads gates.json; the default gates if the run has none. Throws ConfigError.
 GateSpec load_gates(const std::filesystem::path& run);
 

@@ -61,6 +61,7 @@ struct History {
     for (const auto& [at, row] : gone)
       if (at <= frame) lines.erase(row.line);
     std::vector<Segment> segments;
+    segments.reserve(lines.size());
     for (const auto& [number, segment] : lines) segments.push_back(segment);
     return segments;
   }

@@ -103,9 +103,9 @@ WallPlace place_of(std::span<const std::size_t> members, std::span<const Measure
 
 /// The two places of a wall, for one of the ways in which its lines can be one wall.
 struct Difference {
-  Eigen::Vector2d off;
-  Eigen::Matrix2d covariance;
-  double angle_variance;  ///< of the current scan
+  Eigen::Vector2d off = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  double angle_variance = 0.0;  ///< of the current scan
 };
 
 Difference difference_of(const WallPlace& there, const WallPlace& here) {

@@ -32,6 +32,7 @@ std::string names_of(const std::vector<NamedResult>& results, const std::vector<
 
 Color method_color(const std::vector<NamedResult>& results, std::size_t index) {
   std::vector<std::string> names;
+  names.reserve(results.size());
   for (const NamedResult& named : results) names.push_back(named.pipeline);
   return method_styles(names)[index].color;
 }

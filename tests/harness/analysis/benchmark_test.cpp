@@ -178,6 +178,29 @@ BenchmarkSpec spec_with_levels() {
   return spec;
 }
 
+TEST(Benchmark, FileOfAnotherRunIsRefused) {
+  const std::vector<Scenario> scenarios = two_scenarios();
+  const auto refusal = [&](const BenchmarkSpec& spec) {
+    const TemporaryFolder folder;
+    folder.write("benchmark.json", benchmark_json(spec));
+    return config_refusal([&] { load_benchmark(folder.path(), scenarios); });
+  };
+  EXPECT_EQ(refusal(kSpec), "");
+  BenchmarkSpec other = kSpec;
+  other.of = "match";
+  EXPECT_THAT(refusal(other), HasSubstr("benchmark.json is of another run: "));
+  EXPECT_THAT(refusal(other), HasSubstr("has no slot match"));
+  other = kSpec;
+  other.baseline = "zoe";
+  EXPECT_THAT(refusal(other), HasSubstr("no pipeline is called zoe; known: a, b, c"));
+  other = kSpec;
+  other.example = "z";
+  EXPECT_THAT(refusal(other), HasSubstr("no scenario is called z"));
+  other = kSpec;
+  other.levels = {{"light", "day", {"x", "moon"}}};
+  EXPECT_THAT(refusal(other), HasSubstr("no scenario is called moon"));
+}
+
 TEST(Benchmark, NamesTheBestAtEveryLevelOfAFactor) {
   const std::vector<std::string> names{"a", "b", "c"};
   auto rows = made_up_rows();

@@ -82,6 +82,12 @@ class FaultyLine final : public LineExtractor {
       case 10:
         line.covariance = -Eigen::Matrix2d::Identity();
         break;
+      case 11:
+        line.covariance = Eigen::Matrix2d{{1.0, 0.5}, {0.0, 1.0}};  // not symmetric
+        break;
+      case 12:
+        line.covariance = Eigen::Matrix2d{{1.0, 2.0}, {2.0, 1.0}};  // eigenvalues 3 and -1
+        break;
       default:
         break;
     }
@@ -97,7 +103,7 @@ const bool registered = Registry<LineExtractor>::add<FaultyLine>(
 
 TEST(Pipeline, RefusesALineThatBreaksTheContract) {
   ASSERT_TRUE(registered);
-  for (const std::int64_t fault : {0, 1, 2, 3, 4, 5, 6, 7, 8, 10}) {
+  for (const std::int64_t fault : {0, 1, 2, 3, 4, 5, 6, 7, 8, 10, 11, 12}) {
     SCOPED_TRACE(fault);
     const PipelineSpec pipeline = testing::extract_with("p", "test_faulty_line", {{"fault", fault}});
     if (fault == 0) {
@@ -106,6 +112,48 @@ TEST(Pipeline, RefusesALineThatBreaksTheContract) {
       EXPECT_THROW(run_pipeline(pipeline, recording().observed), InvalidResult);
     }
   }
+}
+
+/// Returns the guess with a fault of its own.
+class FaultyMatch final : public ScanMatcher {
+ public:
+  struct Params {
+    int fault = 0;
+    static auto fields() { return std::tuple{field("fault", &Params::fault, at_least(0), "", "which")}; }
+  };
+  explicit FaultyMatch(const Params& params) : params_(params) {}
+
+  Match match(const Observation&, const Observation&, const Pose2& guess, Trace&) const override {
+    Match match{Status::converged, guess, 1e-4 * Eigen::Matrix3d::Identity()};
+    if (params_.fault == 1) match.reference_from_current = Pose2(1e300, 0, 0);
+    if (params_.fault == 2) match.covariance(1, 2) = 1e-5;
+    if (params_.fault == 3) match.covariance(1, 2) = match.covariance(2, 1) = 2e-4;
+    if (params_.fault == 4) match.covariance(2, 2) = -1e-4;
+    return match;
+  }
+
+ private:
+  Params params_;
+};
+[[maybe_unused]] const bool match_registered = Registry<ScanMatcher>::add<FaultyMatch>(
+    {.name = "test_faulty_match", .summary = "of the tests", .reference = "none"});
+
+TEST(Pipeline, RefusesAMatchThatBreaksTheContract) {
+  const auto fault_of = [](std::int64_t fault) -> std::string {
+    PipelineSpec pipeline = testing::extract_with("p", "test_line", {});
+    pipeline.slots.push_back({"match", "test_faulty_match", {{"fault", fault}}});
+    try {
+      run_pipeline(pipeline, recording().observed);
+    } catch (const InvalidResult& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(fault_of(0), "");
+  EXPECT_EQ(fault_of(1), "match, frame 1: the pose is beyond 1e6 m");
+  EXPECT_EQ(fault_of(2), "match, frame 1: the match has a covariance that is not symmetric");
+  EXPECT_EQ(fault_of(3), "match, frame 1: the match has a covariance with a negative eigenvalue");
+  EXPECT_EQ(fault_of(4), "match, frame 1: the match has a negative variance");
 }
 
 TEST(Pipeline, TakesALineWithoutLength) {  // Siadat et al. 1997 count a single returned point as a segment
