@@ -8,9 +8,11 @@
 #include <memory>
 #include <span>
 
+#include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
 #include "core/error.hpp"
+#include "core/geometry/angles.hpp"
 #include "core/modules.hpp"
 #include "harness/foreign/fault.hpp"
 #include "harness/run/stopwatch.hpp"
@@ -86,6 +88,8 @@ std::string fault_of(const LineFeature& line, int beams) {
   if (!line.segment.a.allFinite() || !line.segment.b.allFinite() || !std::isfinite(line.line.rho) ||
       !std::isfinite(line.line.alpha))
     return "is not finite";
+  if (line.line.rho < 0 || !(line.line.alpha > -kPi && line.line.alpha <= kPi))
+    return fmt::format("has rho {} m and alpha {} rad; allowed: >= 0 and > -pi .. pi", line.line.rho, line.line.alpha);
   if (line.covariance)
     if (const std::string fault = covariance_fault(*line.covariance); !fault.empty()) return "has " + fault;
   if (line.points < 0) return "has " + std::to_string(line.points) + " points";

@@ -88,6 +88,12 @@ class FaultyLine final : public LineExtractor {
       case 12:
         line.covariance = Eigen::Matrix2d{{1.0, 2.0}, {2.0, 1.0}};  // eigenvalues 3 and -1
         break;
+      case 13:
+        line.line.alpha = 4.0;
+        break;
+      case 14:
+        line.line.rho = -1.0;
+        break;
       default:
         break;
     }
@@ -103,7 +109,7 @@ const bool registered = Registry<LineExtractor>::add<FaultyLine>(
 
 TEST(Pipeline, RefusesALineThatBreaksTheContract) {
   ASSERT_TRUE(registered);
-  for (const std::int64_t fault : {0, 1, 2, 3, 4, 5, 6, 7, 8, 10, 11, 12}) {
+  for (const std::int64_t fault : {0, 1, 2, 3, 4, 5, 6, 7, 8, 10, 11, 12, 13, 14}) {
     SCOPED_TRACE(fault);
     const PipelineSpec pipeline = testing::extract_with("p", "test_faulty_line", {{"fault", fault}});
     if (fault == 0) {
