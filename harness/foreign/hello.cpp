@@ -69,6 +69,7 @@ ParamType type_named(const std::string& name) {
   for (const ParamType type : kTypes)
     if (to_string(type) == name) return type;
   std::vector<std::string> known;
+  known.reserve(kTypes.size());
   for (const ParamType type : kTypes) known.emplace_back(to_string(type));
   refuse("a parameter has the type '" + name + "'; allowed: " + join(known));
 }

@@ -16,16 +16,16 @@
 namespace scanbench::harness {
 namespace {
 
-namespace fs = std::filesystem;
-
 std::vector<std::string> scenario_names(const std::vector<Scenario>& scenarios) {
   std::vector<std::string> names;
+  names.reserve(scenarios.size());
   for (const auto& scenario : scenarios) names.push_back(scenario.name);
   return names;
 }
 
 std::vector<std::string> pipeline_names(const Scenario& scenario) {
   std::vector<std::string> names;
+  names.reserve(scenario.pipelines.size());
   for (const auto& pipeline : scenario.pipelines) names.push_back(pipeline.name);
   return names;
 }
@@ -53,6 +53,7 @@ std::string metric_fault(const Scenario& scenario, const BenchmarkSubject& subje
       std::ranges::find_if(subject.required, [&](const auto& metric) { return !has_metric(scenario, metric); });
   if (missing == subject.required.end()) return "";
   std::vector<std::string> allowed;
+  allowed.reserve(subject.required.size());
   for (const auto& required : subject.required) allowed.push_back(text_of(required));
   return fmt::format("{} has no metric {}; allowed: a benchmark of scenarios with the metrics {}", scenario.name,
                      name_of(*missing), fmt::join(allowed, ", "));
