@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <optional>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -60,16 +63,18 @@ std::string heading(const std::string& metric, const Display& display) {
 
 void mark_best(const std::vector<TableCell*>& cells, const std::vector<double>& values,
                const metrics::MetricDescription& metric, const std::vector<bool>& eligible) {
-  std::vector<double> finite;
-  for (const double v : values)
-    if (std::isfinite(v)) finite.push_back(v);
-  if (finite.size() < 2 || std::ranges::all_of(finite, [&](double v) { return v == finite.front(); })) return;
-  const auto may_win = [&](std::size_t i) { return std::isfinite(values[i]) && (eligible.empty() || eligible[i]); };
-  double best = kNaN;
+  std::set<std::string> finite;  // as they read
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (may_win(i) && metrics::better(metric, values[i], best)) best = values[i];
+    if (std::isfinite(values[i])) finite.insert(cells[i]->text);
+  if (finite.size() < 2 || metric.direction == metrics::Direction::neither) return;
+  const auto may_win = [&](std::size_t i) { return std::isfinite(values[i]) && (eligible.empty() || eligible[i]); };
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (may_win(i) && (!best || metrics::better(metric, values[i], values[*best]))) best = i;
+  if (!best) return;
   for (std::size_t i = 0; i < cells.size(); ++i)
-    cells[i]->best = may_win(i) && !std::isnan(best) && !metrics::better(metric, best, values[i]);
+    cells[i]->best =
+        may_win(i) && (cells[i]->text == cells[*best]->text || !metrics::better(metric, values[*best], values[i]));
 }
 
 }  // namespace scanbench::harness

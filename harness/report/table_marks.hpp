@@ -30,8 +30,9 @@ std::string spread_text(double half_width, const Display& display);
 /// "name [unit]".
 std::string heading(const std::string& metric, const Display& display);
 
-/// Marks the best of the cells that may be marked. `values` belong to `cells` one by one, NaN: no value; ties are all
-/// best. Nothing is marked if the metric has no best value, fewer than two values are finite, or all are equal.
+/// Marks the best of the cells that may be marked, and those that read the same. `values` belong to `cells` one by one,
+/// NaN: no value; ties are all best. Nothing is marked if the metric has no best value, fewer than two values are
+/// finite, or all read the same.
 /// `eligible`, one entry per cell, excludes cells from the mark; empty: none is excluded.
 void mark_best(const std::vector<TableCell*>& cells, const std::vector<double>& values,
                const metrics::MetricDescription& metric, const std::vector<bool>& eligible = {});

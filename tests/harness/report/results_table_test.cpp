@@ -57,7 +57,8 @@ const TableCell& at(const Table& table, const std::string& pipeline, const std::
 
 std::vector<bool> marked(const std::vector<double>& values, const MetricDescription& metric,
                          const std::vector<bool>& eligible = {}) {
-  std::vector<TableCell> cells(values.size());
+  std::vector<TableCell> cells;
+  for (const double value : values) cells.push_back({value_text(value, {})});
   std::vector<TableCell*> pointers;
   for (auto& c : cells) pointers.push_back(&c);
   mark_best(pointers, values, metric, eligible);
@@ -70,6 +71,13 @@ TEST(MarkBest, MarksTheValuesNearestToATargetOnEitherSide) {
   const MetricDescription nees{"nees", "", Direction::target, 0.1, "", false, 2.0};
   EXPECT_THAT(marked({0.5, 2.25, 1.75, 3.0}, nees), ElementsAre(false, true, true, false));
   EXPECT_THAT(marked({0.0, 9.0}, nees), ElementsAre(true, false));
+}
+
+TEST(MarkBest, MarksValuesThatReadTheSameAlike) {
+  const MetricDescription lower{"x", "", Direction::lower_is_better, 0, ""};
+  EXPECT_THAT(marked({12.602, 12.601, 14}, lower), ElementsAre(true, true, false));
+  EXPECT_THAT(marked({12.602, 12.601, 14}, lower, {true, false, true}), ElementsAre(true, false, false));
+  EXPECT_THAT(marked({12.602, 12.601}, lower), ElementsAre(false, false));
 }
 
 TEST(MarkBest, MarksNothingWithoutADirectionACompetitorOrADifference) {
