@@ -32,8 +32,13 @@ void check_name(const std::string& kind, const std::string& name) {
 
 int write_module(const std::string& kind, const std::string& name, const fs::path& sources) {
   const auto kinds = template_kinds();
-  if (std::ranges::count(kinds, kind) == 0)
-    throw ConfigError("there is no kind of module '" + kind + "'" + known_names(kind, kinds));
+  if (std::ranges::count(kinds, kind) == 0) {
+    const bool is_folder = !kind.empty() && fs::is_directory(sources / "algorithms" / kind);
+    throw ConfigError(is_folder
+                          ? "there is no template for modules of the kind " + kind + "; there are: " + join(kinds) +
+                                "; begin with a copy of a file of " + (fs::path("algorithms") / kind).string()
+                          : "there is no kind of module '" + kind + "'" + known_names(kind, kinds));
+  }
   check_name(kind, name);
   const fs::path folder = sources / "algorithms" / kind;
   if (!fs::is_directory(sources / "algorithms"))

@@ -2,7 +2,6 @@
 #include "harness/foreign/library.hpp"
 
 #include <dlfcn.h>
-#include <xmmintrin.h>
 
 #include <algorithm>
 #include <map>
@@ -12,14 +11,13 @@
 #include "core/modules.hpp"
 #include "core/plugin_stamp.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/foreign/arithmetic.hpp"
 #include "harness/foreign/fault.hpp"
 
 namespace scanbench::harness {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr unsigned kArithmetic = 0xffc0;  // of MXCSR: all but the flags of past exceptions
 
 /// "a=1; b=2" as a map.
 std::map<std::string, std::string> entries_of(std::string_view stamp) {
@@ -90,12 +88,10 @@ void check_stamp(const fs::path& library) {
 std::vector<ForeignModule> load_library(const fs::path& library) {
   check_stamp(library);
   const std::set<std::string> before = registered_names();
-  const unsigned arithmetic = _mm_getcsr() & kArithmetic;
+  const Arithmetic arithmetic;
   if (::dlopen(fs::absolute(library).c_str(), RTLD_NOW | RTLD_LOCAL) == nullptr)
     throw ForeignFault(named(library) + " cannot be loaded: " + ::dlerror());
-  const bool changed = (_mm_getcsr() & kArithmetic) != arithmetic;
-  _mm_setcsr((_mm_getcsr() & ~kArithmetic) | arithmetic);
-  if (changed)
+  if (arithmetic.restore())
     throw ForeignFault(named(library) +
                        " changes the floating-point arithmetic of the process, as libraries do that are linked with "
                        "-ffast-math; link it without");

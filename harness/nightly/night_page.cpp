@@ -16,6 +16,7 @@
 #include "harness/page/scan_sketch.hpp"
 #include "harness/page/sparkline.hpp"
 #include "harness/page/table.hpp"
+#include "harness/report/page_parts.hpp"
 #include "harness/report/ranking_parts.hpp"
 
 namespace scanbench::harness {
@@ -122,19 +123,11 @@ std::string history(const NightInput& input) {
 }
 
 std::string definitions(const NightInput& input) {
-  const auto descriptions = metric_descriptions();
   std::set<std::string> used;
   if (input.comparison)
     for (const auto& change : input.comparison->changes) used.insert(change.metric.metric);
   for (const auto& ranking : input.rankings) used.insert(ranking.quality.metric);
-  std::string out;
-  for (const auto& metric : used) {
-    const auto found = descriptions.find(metric);
-    if (found == descriptions.end()) continue;
-    const std::string unit = found->second.unit.empty() ? "" : " [" + found->second.unit + "]";
-    out += "<dt>" + escaped(metric + unit) + "</dt><dd>" + escaped(found->second.doc) + "</dd>\n";
-  }
-  return out.empty() ? "" : "<dl>\n" + out + "</dl>\n";
+  return html_definitions(used);
 }
 
 /// The worst scans of each pipeline, each with the command that draws it large.

@@ -16,6 +16,7 @@
 #include "harness/report/page_parts.hpp"
 #include "harness/report/ranking_table.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
+#include "harness/scenario/chain.hpp"
 #include "harness/scenario/modules.hpp"
 #include "harness/scenario/simulation_input.hpp"
 #include "harness/store/summary.hpp"
@@ -142,12 +143,28 @@ std::string params_text(const std::vector<Scenario>& scenarios, std::size_t pipe
   return fmt::format("{}{}", unknown ? "all: " : "", fmt::join(params, ", "));
 }
 
+/// "split_and_merge (min_points 9)": a module that is not ranked, with its parameters other than the defaults.
+std::string other_module(const std::vector<Scenario>& scenarios, std::size_t pipeline, const ModuleChoice& slot) {
+  const bool same = std::ranges::all_of(scenarios, [&](const Scenario& scenario) {
+    const PipelineSpec& other = scenario.pipelines[pipeline];
+    return has_slot(other, slot.kind) && slot_of(other, slot.kind).module == slot.module;
+  });
+  if (!same) return "differs, see effective/";
+  const std::string params = params_text(scenarios, pipeline, slot.kind, entry_of(slot).params);
+  return slot.module + (params.empty() ? "" : " (" + params + ")");
+}
+
 Table modules_table(const ReportInput& input, const BenchmarkSpec& spec, const std::vector<RankedPipeline>& ranking) {
   const auto& scenarios = input.scenarios;
   const std::string& noun = spec.subject().noun;
   std::string title = noun + "s";
   title.front() = static_cast<char>(title.front() - 'a' + 'A');
   Table table{noun + "s", title, "", {noun, "what it does", "parameters other than the defaults"}, {}, {}};
+  std::vector<std::string> others;
+  for (const ModuleChoice& slot : scenarios.front().pipelines.front().slots)
+    if (slot.kind != spec.of) others.push_back(slot.kind);
+  for (const auto& kind : others) table.row_heads.push_back(kind);
+  bool by_noise = false;
   for (const auto& ranked : ranking) {
     const auto& pipelines = scenarios.front().pipelines;
     const auto k =
@@ -156,10 +173,15 @@ Table modules_table(const ReportInput& input, const BenchmarkSpec& spec, const s
     const ModuleChoice& slot = slot_of(pipelines[k], spec.of);
     const std::string version = slot.source ? slot.source->module.version : "";
     const std::string what = version.empty() ? module.info.summary : module.info.summary + ", version " + version;
-    table.rows.push_back({{ranked.name, what, params_text(scenarios, k, spec.of, module.params)}, {}, false});
+    std::vector<std::string> heads{ranked.name, what, params_text(scenarios, k, spec.of, module.params)};
+    for (const auto& kind : others)
+      heads.push_back(has_slot(pipelines[k], kind) ? other_module(scenarios, k, slot_of(pipelines[k], kind)) : "");
+    for (std::size_t h = 2; h < heads.size(); ++h) by_noise = by_noise || heads[h].find(" / ") != std::string::npos;
+    table.rows.push_back({heads, {}, false});
   }
-  table.caption = fmt::format("Values separated by / belong to the noise levels {:.3g} cm.",
-                              fmt::join(noise_levels(scenarios), " / "));
+  if (by_noise)
+    table.caption = fmt::format("Values separated by / belong to the noise levels {:.3g} cm.",
+                                fmt::join(noise_levels(scenarios), " / "));
   return table;
 }
 

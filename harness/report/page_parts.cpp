@@ -13,8 +13,11 @@
 
 #include <fmt/format.h>
 
+#include "harness/analysis/gates.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/base64.hpp"
+#include "harness/page/html_page.hpp"
+#include "harness/page/plain_text.hpp"
 #include "harness/page/table.hpp"
 
 namespace scanbench::harness {
@@ -169,6 +172,19 @@ std::string html_figure(const std::filesystem::path& run, const FigureFile& figu
   return fmt::format(
       "<figure><img alt=\"{0}\" src=\"data:image/{1};base64,{2}\"><figcaption>{3}</figcaption></figure>\n",
       html_escaped(figure.caption), is_svg ? "svg+xml" : "png", base64(bytes), caption);
+}
+
+std::string html_definitions(const std::set<std::string>& metrics) {
+  const auto descriptions = metric_descriptions();
+  std::string out;
+  for (const auto& metric : metrics) {
+    const auto found = descriptions.find(metric);
+    if (found == descriptions.end()) continue;
+    const std::string unit = found->second.unit.empty() ? "" : " [" + found->second.unit + "]";
+    out += "<dt>" + html_escaped(plain_text(metric + unit)) + "</dt><dd>" +
+           html_escaped(plain_text(found->second.doc)) + "</dd>\n";
+  }
+  return out.empty() ? "" : "<dl>\n" + out + "</dl>\n";
 }
 
 }  // namespace scanbench::harness

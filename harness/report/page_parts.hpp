@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,8 @@ std::string markdown_remarks(const std::vector<CellLine>& cells);
 
 /// run/figures/<name>.svg as data, so that the ids of two figures cannot clash. The caption is HTML.
 std::string html_figure(const std::filesystem::path& run, const FigureFile& figure, const std::string& caption);
+
+/// What these metrics mean, with their units; unknown names are left out. Empty without any.
+std::string html_definitions(const std::set<std::string>& metrics);
 
 }  // namespace scanbench::harness

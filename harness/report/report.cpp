@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,7 +61,7 @@ std::string html_overview(const ReportInput& input) {
     if (!table) continue;
     table->id = scenario.name + "-overview";
     out += fmt::format("<p><a href=\"#{0}\">{0}</a>: {1}</p>\n", html_escaped(scenario.name),
-                       html_escaped(overview_sentence(*table)));
+                       html_escaped(scenario_answer(scenario, input.rows, input.cells, *table)));
     out += "<div class=\"glance\">\n";
     for (const auto& part : parts_of_width(*table, kPageWidth)) out += to_html(part);
     if (const auto ranking = input.rankings.find(scenario.name); ranking != input.rankings.end())
@@ -87,6 +88,7 @@ std::string report_html(const ReportInput& input) {
   std::string out = html_status(input.cells);
   std::vector<std::pair<std::string, std::string>> chapters;
   for (const auto& scenario : input.scenarios) chapters.emplace_back(scenario.name, scenario.name);
+  chapters.emplace_back("definitions", "what the metrics mean");
   chapters.emplace_back("facts", "how to get these numbers again");
   out += contents(chapters) + html_overview(input) + html_remarks(input.cells);
   for (const auto& scenario : input.scenarios) {
@@ -103,6 +105,9 @@ std::string report_html(const ReportInput& input) {
     for (const auto& table : tables)
       for (const auto& part : parts_of_width(table, kPageWidth)) out += to_html(part);
   }
+  std::set<std::string> metrics;
+  for (const auto& row : input.rows) metrics.insert(row.metric);
+  out += "<h2 id=\"definitions\">What the metrics mean</h2>\n" + html_definitions(metrics);
   return html_page(input.title, out + html_facts(input.facts));
 }
 
@@ -110,7 +115,8 @@ std::string report_markdown(const ReportInput& input) {
   std::string out = "# " + input.title + "\n\n" + markdown_status(input.cells);
   for (const auto& scenario : input.scenarios)
     if (const auto table = scenario_overview(scenario, input.rows, input.cells))
-      out += "\n" + markdown_escaped(overview_sentence(*table)) + "\n\n" + to_markdown(*table);
+      out += "\n" + markdown_escaped(scenario_answer(scenario, input.rows, input.cells, *table)) + "\n\n" +
+             to_markdown(*table);
   out += markdown_remarks(input.cells);
   for (const auto& scenario : input.scenarios) {
     out += "\n## " + scenario.name + "\n\n" + markdown_escaped(scenario.about) + "\n\n" +

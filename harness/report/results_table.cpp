@@ -33,10 +33,22 @@ constexpr double kRounding = 1e-9;  ///< a difference of exactly the margin is w
 constexpr std::array<std::string_view, 4> kCompleteness{"f1", "covered_5cm", "placed", "missed"};
 
 /// What a reader asks for first, in this order: how good lines, maps and poses are, then what they cost.
-constexpr std::array<std::string_view, 15> kOverview{
-    "f1",           "covered_5cm",  "lines_per_wall", "placed",  "position_error", "pose_efficiency",
-    "rpe_position", "ate_position", "missed",         "n_lines", "s_mean",         "d_mean",
-    "t_total",      "t_scan",       "t_match"};
+constexpr std::array<std::string_view, 16> kOverview{"f1",
+                                                     "covered_5cm",
+                                                     "lines_per_wall",
+                                                     "placed",
+                                                     "position_error",
+                                                     "pose_efficiency",
+                                                     "rpe_position",
+                                                     "relations_position",
+                                                     "ate_position",
+                                                     "missed",
+                                                     "n_lines",
+                                                     "s_mean",
+                                                     "d_mean",
+                                                     "t_total",
+                                                     "t_scan",
+                                                     "t_match"};
 
 /// A sentence names at most so many pipelines that share the best value.
 constexpr std::size_t kMostNamed = 3;
@@ -366,6 +378,17 @@ std::string named(const std::vector<const Table::Row*>& rows, std::size_t column
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// "; best relations_position [m]: b (1.21)" if these independent measurements of a log prefer other pipelines.
+std::string other_best(const Table& table, std::size_t column, const std::vector<const Table::Row*>& best,
+                       const std::vector<const Table::Row*>& rows) {
+  for (std::size_t c = column + 1; c < table.columns.size(); ++c) {
+    if (!table.columns[c].head.starts_with("relations_position")) continue;
+    const auto others = best_of(table, c, rows);
+    if (!others.empty() && others != best) return fmt::format("; best {}: {}", table.columns[c].head, named(others, c));
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string overview_sentence(const Table& overview) {
@@ -387,7 +410,8 @@ std::string overview_sentence(const Table& overview) {
                  "with.";
   }
   if (best.size() <= kMostNamed)
-    return fmt::format("Best {} of {} pipelines: {}.", overview.columns[c].head, overview.rows.size(), named(best, c));
+    return fmt::format("Best {} of {} pipelines: {}{}.", overview.columns[c].head, overview.rows.size(), named(best, c),
+                       other_best(overview, c, best, rows));
   std::string text = fmt::format("{} of {} pipelines share the best {}, {}", best.size(), overview.rows.size(),
                                  overview.columns[c].head, best.front()->cells[c].text);
   for (std::size_t next = c + 1; next < overview.columns.size(); ++next) {
@@ -399,6 +423,29 @@ std::string overview_sentence(const Table& overview) {
                                                            also.front()->cells[next].text));
   }
   return text + ".";
+}
+
+std::string odometry_sentence(const ComparableRows& results) {
+  constexpr std::size_t kMostListed = 6;
+  const Values values(results.rows);
+  std::vector<std::string> worse;
+  double odometry = kNaN;
+  std::size_t compared = 0;
+  for (const auto& pipeline : results.pipelines) {
+    const double error = mean_interval(values.of(pipeline, {"rpe_position", "all"})).mean;
+    const double of_odometry = mean_interval(values.of(pipeline, {"rpe_odometry_position", "all"})).mean;
+    if (!std::isfinite(error) || !std::isfinite(of_odometry) || error == of_odometry) continue;
+    ++compared;
+    odometry = of_odometry;
+    if (error > of_odometry) worse.push_back(fmt::format("{} ({:.3g} cm)", pipeline, 100 * error));
+  }
+  if (compared == 0) return "";
+  const std::string beside = fmt::format("the odometry (rpe_position {:.3g} cm)", 100 * odometry);
+  if (worse.empty()) return fmt::format("Every pipeline errs less between consecutive scans than {}.", beside);
+  const std::size_t listed = std::min(worse.size(), kMostListed);
+  const std::string more = worse.size() > listed ? fmt::format(" and {} more", worse.size() - listed) : "";
+  worse.resize(listed);
+  return fmt::format("No better between consecutive scans than {}: {}{}.", beside, fmt::join(worse, ", "), more);
 }
 
 }  // namespace scanbench::harness

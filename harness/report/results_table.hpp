@@ -29,4 +29,8 @@ std::optional<Table> overview_table(const Scenario& scenario, const ComparableRo
 /// best. Distances of points from their lines, numbers of lines and times do not judge a pipeline.
 std::string overview_sentence(const Table& overview);
 
+/// Which pipelines err no less between consecutive scans than the odometry, in a sentence; empty without such errors.
+/// Pipelines whose poses are the odometry do not count.
+std::string odometry_sentence(const ComparableRows& results);
+
 }  // namespace scanbench::harness

@@ -43,4 +43,11 @@ std::optional<Table> scenario_overview(const Scenario& scenario, const std::vect
   return overview_table(restricted(scenario, results), results);
 }
 
+std::string scenario_answer(const Scenario& scenario, const std::vector<SummaryRow>& rows,
+                            const std::vector<CellLine>& cells, const Table& overview) {
+  const std::string best = overview_sentence(overview);
+  const std::string odometry = odometry_sentence(comparable_rows(scenario, rows, cells));
+  return best + (best.empty() || odometry.empty() ? "" : " ") + odometry;
+}
+
 }  // namespace scanbench::harness

@@ -27,4 +27,8 @@ std::vector<Table> scenario_tables(const Scenario& scenario, const std::vector<S
 std::optional<Table> scenario_overview(const Scenario& scenario, const std::vector<SummaryRow>& rows,
                                        const std::vector<CellLine>& cells);
 
+/// What its overview says, in sentences: the best pipeline, and which are no better than the odometry.
+std::string scenario_answer(const Scenario& scenario, const std::vector<SummaryRow>& rows,
+                            const std::vector<CellLine>& cells, const Table& overview);
+
 }  // namespace scanbench::harness

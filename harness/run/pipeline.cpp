@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/geometry/angles.hpp"
 #include "core/modules.hpp"
+#include "harness/foreign/arithmetic.hpp"
 #include "harness/foreign/fault.hpp"
 #include "harness/run/stopwatch.hpp"
 #include "harness/scenario/chain.hpp"
@@ -34,7 +35,10 @@ std::string place_of(std::string_view slot, int frame) {
 /// Calls a module; its faults get the slot and the frame.
 void call_at(std::string_view slot, int frame, const std::function<void(Trace&)>& call, Trace& trace) {
   try {
+    const Arithmetic arithmetic;
     call(trace);
+    if (arithmetic.restore())
+      throw InvalidResult("the module changed the floating-point arithmetic of its process, and did not restore it");
   } catch (const ForeignFault& fault) {
     throw ForeignFault(place_of(slot, frame) + fault.what(), fault.kind());
   } catch (const InvalidResult& error) {

@@ -3,9 +3,11 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/files/npy.hpp"
@@ -267,9 +269,16 @@ PipelineResult load_result(const fs::path& cell) {
   }
   if (fs::exists(cell / kMergeFile)) {
     const CsvTable csv = table(cell / kMergeFile, kMergeColumns);
-    for (std::size_t r = 0; r < csv.rows(); ++r)
-      result.merge_labels.push_back({csv.index(r, "frame"), csv.index(r, "line"), csv.index(r, "cluster1"),
-                                     csv.index(r, "cluster2"), csv.index(r, "map_line")});
+    for (std::size_t r = 0; r < csv.rows(); ++r) {
+      const MergeLabel label{csv.index(r, "frame"), csv.index(r, "line"), csv.index(r, "cluster1"),
+                             csv.index(r, "cluster2"), csv.index(r, "map_line")};
+      if (label.frame < 0 || as_index(label.frame) >= result.lines.size() || label.line < 0 ||
+          as_index(label.line) >= result.lines[as_index(label.frame)].lines.size())
+        csv.refuse(r, fmt::format("frame {} has no line {}", label.frame, label.line));
+      if (label.map_line < -1 || (label.map_line >= 0 && as_index(label.map_line) >= result.map.lines.size()))
+        csv.refuse(r, fmt::format("the map has no line {}; it has {}", label.map_line, result.map.lines.size()));
+      result.merge_labels.push_back(label);
+    }
   }
   if (fs::exists(cell / kTimingFile)) {
     const CsvTable csv = table(cell / kTimingFile, kTimingColumns);

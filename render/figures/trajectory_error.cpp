@@ -77,8 +77,8 @@ class TrajectoryError : public Figure {
     if (position.items.empty()) return {};
     scene.panels = {std::move(position), std::move(heading)};
     return {{"trajectory_error",
-             fmt::format("{}: distance of the estimated from the true positions, and difference of the headings, {}.",
-                         input.title, motion_text()),
+             fmt::format("{}: distance of the estimated from the {} positions, and difference of the headings, {}.",
+                         input.title, standard_name(input.recording), motion_text(standard_name(input.recording))),
              std::move(scene)}};
   }
 
@@ -99,14 +99,17 @@ class TrajectoryError : public Figure {
     return path;
   }
 
-  std::string motion_text() const {
+  /// What the poses are compared with. The reference poses of a log are no truth.
+  static std::string standard_name(const Recording& recording) { return recording.truth ? "true" : "reference"; }
+
+  std::string motion_text(const std::string& standard) const {
     switch (params_.align) {
       case Motion::best:
-        return "after the motion that brings all poses nearest to the true ones";
+        return "after the motion that brings all poses nearest to the " + standard + " ones";
       case Motion::first:
-        return "after the motion that brings the first pose onto the true one";
+        return "after the motion that brings the first pose onto the " + standard + " one";
       default:
-        return "in the frame of the truth";
+        return "in the frame of the " + standard + " poses";
     }
   }
 

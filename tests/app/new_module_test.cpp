@@ -35,6 +35,14 @@ TEST_F(NewModule, TheClassOfEachKindIsNamedAfterTheModule) {
   }
 }
 
+TEST_F(NewModule, SaysThatAKindHasNoTemplate) {
+  fs::create_directories(folder_ / "algorithms/match");
+  const auto outcome = here({"new", "match", "mine"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("there is no template for modules of the kind match; there are: extract, align, "
+                                     "merge; begin with a copy of a file of algorithms/match"));
+}
+
 TEST_F(NewModule, RefusesWhatCannotBeAModuleAndKeepsWhatIsThere) {
   for (const std::string name : {"", "Big", "9lives", "my-lines", "a__b", "trailing_", "../x", "a b"})
     EXPECT_EQ(here({"new", "extract", name}).code, 2) << name;

@@ -296,5 +296,38 @@ TEST(Overview, CountsThePipelinesThatShareTheBestValueRatherThanNameThemAll) {
             "4 of 5 pipelines share the best covered_5cm, 1.00; of these, best lines_per_wall: a (1.00).");
 }
 
+TEST(OdometrySentence, NamesThePipelinesThatAreNoBetter) {
+  const std::vector<std::string> names{"a", "b", "odometry"};
+  const Scenario scenario = scenario_of(names, {"trajectory"});
+  const auto sentence = [&](double of_a, double of_b) {
+    std::vector<SummaryRow> rows;
+    std::vector<CellLine> cells;
+    for (const auto& name : names) {
+      rows.push_back(row(name, "rpe_position", name == "a" ? of_a : name == "b" ? of_b : 0.0729));
+      rows.push_back(row(name, "rpe_odometry_position", 0.0729));
+      cells.push_back(cell(name, 1, "ok"));
+    }
+    return odometry_sentence(comparable_rows(scenario, rows, cells));
+  };
+  EXPECT_EQ(sentence(0.06, 0.121),
+            "No better between consecutive scans than the odometry (rpe_position 7.29 cm): b (12.1 cm).");
+  EXPECT_EQ(sentence(0.06, 0.07),
+            "Every pipeline errs less between consecutive scans than the odometry (rpe_position 7.29 cm).");
+  EXPECT_EQ(odometry_sentence(comparable_rows(scenario, {}, {})), "");
+}
+
+TEST(Overview, NamesWhatIndependentRelationsOfALogPrefer) {
+  const Scenario scenario = scenario_of({"a", "b"}, {"trajectory"});
+  const std::vector<CellLine> cells{cell("a", 1, "ok"), cell("b", 1, "ok")};
+  std::vector<SummaryRow> rows{row("a", "rpe_position", 0.038), row("b", "rpe_position", 0.045),
+                               row("a", "relations_position", 1.35), row("b", "relations_position", 1.21)};
+  const auto sentence = [&] {
+    return overview_sentence(*overview_table(scenario, comparable_rows(scenario, rows, cells)));
+  };
+  EXPECT_EQ(sentence(), "Best rpe_position [cm] of 2 pipelines: a (3.80); best relations_position [m]: b (1.21).");
+  rows.back().value = 1.5;
+  EXPECT_EQ(sentence(), "Best rpe_position [cm] of 2 pipelines: a (3.80).");
+}
+
 }  // namespace
 }  // namespace scanbench::harness

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <fstream>
 
 #include <cmath>
 #include <limits>
@@ -108,6 +109,27 @@ TEST(CellFiles, GiveBackMatchesOfPoses) {
   const std::string text = read_file(folder.path() / "pose_matches.csv");
   EXPECT_EQ(text.substr(0, text.find('\n')),
             "frame,reference,x_m,y_m,yaw_rad,cov_xx_m2,cov_xy_m2,cov_xyaw_m,cov_yy_m2,cov_yyaw_m,cov_yaw_rad2,status");
+}
+
+TEST(CellFiles, WithLabelsOfLinesThatAreNotThereAreRefused) {
+  const testing::TemporaryFolder folder;
+  const Recording recording = testing::random_recording(2, 5, 16, true);
+  write_result(folder.path(), full_pipeline(false), run_pipeline(full_pipeline(false), recording.observed).result);
+  const std::string header = "frame,line,cluster1,cluster2,map_line\n";
+  const auto refusal = [&](const std::string& row) {
+    std::ofstream(folder.path() / "merge_labels.csv") << header << row << '\n';
+    try {
+      load_result(folder.path());
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal("0,0,1,1,0"), "");
+  EXPECT_EQ(refusal("0,0,1,1,-1"), "");  // dropped
+  EXPECT_THAT(refusal("0,99,1,1,0"), HasSubstr("merge_labels.csv:2: frame 0 has no line 99"));
+  EXPECT_THAT(refusal("5,0,1,1,0"), HasSubstr("frame 5 has no line 0"));
+  EXPECT_THAT(refusal("0,0,1,1,1000"), HasSubstr("the map has no line 1000; it has "));
 }
 
 TEST(CellFiles, HaveTheNamesAndColumnsOfTheContract) {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cfenv>
 
 #include <cmath>
 #include <cstdint>
@@ -135,6 +136,7 @@ class FaultyMatch final : public ScanMatcher {
     if (params_.fault == 2) match.covariance(1, 2) = 1e-5;
     if (params_.fault == 3) match.covariance(1, 2) = match.covariance(2, 1) = 2e-4;
     if (params_.fault == 4) match.covariance(2, 2) = -1e-4;
+    if (params_.fault == 5) std::fesetround(FE_UPWARD);
     return match;
   }
 
@@ -160,6 +162,10 @@ TEST(Pipeline, RefusesAMatchThatBreaksTheContract) {
   EXPECT_EQ(fault_of(2), "match, frame 1: the match has a covariance that is not symmetric");
   EXPECT_EQ(fault_of(3), "match, frame 1: the match has a covariance with a negative eigenvalue");
   EXPECT_EQ(fault_of(4), "match, frame 1: the match has a negative variance");
+  EXPECT_EQ(fault_of(5),
+            "match, frame 1: the module changed the floating-point arithmetic of its process, and did not "
+            "restore it");
+  EXPECT_EQ(std::fegetround(), FE_TONEAREST);
 }
 
 TEST(Pipeline, TakesALineWithoutLength) {  // Siadat et al. 1997 count a single returned point as a segment
