@@ -56,6 +56,7 @@ std::vector<FigureFile> figures_of(const ReportInput& input, const std::string& 
 /// The values that a reader asks for first, with a link to each scenario.
 std::string html_overview(const ReportInput& input) {
   std::string out;
+  bool has_chart = false;
   for (const auto& scenario : input.scenarios) {
     auto table = scenario_overview(scenario, input.rows, input.cells);
     if (!table) continue;
@@ -64,10 +65,17 @@ std::string html_overview(const ReportInput& input) {
                        html_escaped(scenario_answer(scenario, input.rows, input.cells, *table)));
     out += "<div class=\"glance\">\n";
     for (const auto& part : parts_of_width(*table, kPageWidth)) out += to_html(part);
-    if (const auto ranking = input.rankings.find(scenario.name); ranking != input.rankings.end())
-      out += accuracy_chart(ranking->second);
+    if (const auto ranking = input.rankings.find(scenario.name); ranking != input.rankings.end()) {
+      const std::string chart = accuracy_chart(ranking->second);
+      has_chart = has_chart || !chart.empty();
+      out += chart;
+    }
     out += "</div>\n";
   }
+  if (has_chart)
+    out +=
+        "<p class=\"caption\">In the charts, ● on the dashed line: no other pipeline is both as good and as fast. "
+        "○: another is.</p>\n";
   return out;
 }
 
