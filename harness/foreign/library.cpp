@@ -33,11 +33,11 @@ std::map<std::string, std::string> entries_of(std::string_view stamp) {
 
 /// The text between the marks of a stamp; empty if there is none.
 std::string_view stamp_in(std::string_view bytes) {
-  const std::string_view begin = SCANBENCH_STAMP_BEGIN;
+  const std::string_view begin = SCANBENCH_STAMP_BEGIN, end = SCANBENCH_STAMP_END;
   const std::size_t at = bytes.find(begin);
   if (at == std::string_view::npos) return {};
   const std::string_view rest = bytes.substr(at + begin.size(), 1000);
-  return rest.substr(0, rest.find(SCANBENCH_STAMP_END));
+  return rest.substr(0, rest.find(end));
 }
 
 template <class Interface>

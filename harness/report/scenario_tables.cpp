@@ -18,6 +18,7 @@ std::vector<Table> scenario_tables(const Scenario& scenario, const std::vector<S
   const Scenario shown = restricted(scenario, results);
   const auto columns = compare_with_paper(shown, results.rows);
   std::vector<std::string> printed;
+  printed.reserve(columns.size());
   for (const auto& column : columns) printed.push_back(column.metric.metric);
 
   std::vector<std::string> captions = results.notes;

@@ -67,6 +67,7 @@ class TrajectoryError : public Figure {
       scene.legend.push_back({.text = "odometry", .stroke = kOdometry});
     }
     std::vector<std::string> names;
+    names.reserve(shown.size());
     for (const NamedPoses& poses : shown) names.push_back(poses.name);
     const std::vector<MethodStyle> styles = method_styles(names);
     for (std::size_t i = 0; i < shown.size(); ++i) {
