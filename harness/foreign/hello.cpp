@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/modules.hpp"
 #include "core/names.hpp"
+#include "harness/files/text_file.hpp"
 #include "harness/foreign/fault.hpp"
 #include "harness/foreign/frame.hpp"
 
@@ -71,7 +72,7 @@ ParamType type_named(const std::string& name) {
   std::vector<std::string> known;
   known.reserve(kTypes.size());
   for (const ParamType type : kTypes) known.emplace_back(to_string(type));
-  refuse("a parameter has the type '" + name + "'; allowed: " + join(known));
+  refuse("a parameter has the type " + quoted_excerpt(name) + "; allowed: " + join(known));
 }
 
 /// Throws json::exception for a value of another type.
@@ -118,7 +119,7 @@ ParamSpec read_spec(const json& object) {
   if (!object.is_object()) refuse("a parameter is no object");
   ParamSpec spec;
   spec.name = text_of(object, "name", "a parameter", true);
-  if (!is_name(spec.name)) refuse("a parameter is called '" + spec.name + "'; allowed: a-z, 0-9 and _");
+  if (!is_name(spec.name)) refuse("a parameter is called " + quoted_excerpt(spec.name) + "; allowed: a-z, 0-9 and _");
   spec.type = type_named(text_of(object, "type", spec.name, true));
   spec.unit = text_of(object, "unit", spec.name, false);
   spec.doc = text_of(object, "doc", spec.name, false);
@@ -134,10 +135,11 @@ ForeignModule read_checked(const json& hello) {
   ForeignModule module;
   module.kind = text_of(hello, "kind", "the module", true);
   if (std::ranges::find(kKinds, module.kind) == kKinds.end())
-    refuse("its kind is '" + module.kind +
-           "'; allowed: " + join(std::vector<std::string>(kKinds.begin(), kKinds.end())));
+    refuse("its kind is " + quoted_excerpt(module.kind) +
+           "; allowed: " + join(std::vector<std::string>(kKinds.begin(), kKinds.end())));
   module.info.name = text_of(hello, "name", "the module", true);
-  if (!is_name(module.info.name)) refuse("its name is '" + module.info.name + "'; allowed: a-z, 0-9 and _");
+  if (!is_name(module.info.name))
+    refuse("its name is " + quoted_excerpt(module.info.name) + "; allowed: up to 60 of a-z, 0-9 and _");
   module.version = text_of(hello, "version", "the module", true);
   module.info.summary = text_of(hello, "summary", "the module", false);
   module.info.reference = text_of(hello, "reference", "the module", false);

@@ -189,6 +189,7 @@ TEST_F(Programs, ThatDoNotDescribeThemselvesAreAskedOnce) {
 TEST_F(Programs, ThatDescribeThemselvesWronglyAreRefused) {
   EXPECT_THAT(fault_of("hello['kind'] = 'paint'\n"), HasSubstr("its kind is 'paint'; allowed: extract"));
   EXPECT_THAT(fault_of("hello['name'] = '../x'\n"), HasSubstr("its name is '../x'"));
+  EXPECT_THAT(fault_of("hello['name'] = 'a\\n' + 'b' * 1000\n"), HasSubstr("its name is 'a?bbb"));
   EXPECT_THAT(fault_of("hello['params'] = [{'name': 'a', 'type': 'number', 'default': -1, 'min': 0}]\n"),
               HasSubstr("the default of a is -1; allowed: a number >= 0"));
   EXPECT_THAT(fault_of("hello['params'] = [{'name': 'a', 'type': 'float', 'default': 1}]\n"),
