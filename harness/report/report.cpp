@@ -2,23 +2,48 @@
 #include "harness/report/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/registry.hpp"
 #include "harness/page/html_page.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/report/page_parts.hpp"
 #include "harness/report/ranking_parts.hpp"
 #include "harness/report/recording_note.hpp"
 #include "harness/report/scenario_tables.hpp"
+#include "metrics/metric.hpp"
 
 namespace scanbench::harness {
 namespace {
 
 constexpr std::size_t kPageWidth = 136;  // characters of a table that fit the page
+
+/// "segments, efficiency have no values": the metric families of a scenario without any row; empty if all have.
+std::string families_without_values(const ReportInput& input, const Scenario& scenario) {
+  std::set<std::string> reported;
+  for (const auto& row : input.rows)
+    if (row.scenario == scenario.name) reported.insert(row.metric);
+  std::vector<std::string> silent;
+  for (const auto& choice : scenario.metrics) {
+    const auto metrics = Registry<metrics::MetricFamily>::make(choice.module, choice.params)->describe();
+    if (std::ranges::none_of(metrics, [&](const auto& metric) { return reported.contains(metric.metric); }))
+      silent.push_back(choice.module);
+  }
+  if (silent.empty()) return "";
+  return fmt::format("{} {} no values", fmt::join(silent, ", "), silent.size() == 1 ? "has" : "have");
+}
+
+/// "There is no truth: segments has no values."
+std::string no_truth_text(const ReportInput& input, const Scenario& scenario) {
+  const std::string silent = families_without_values(input, scenario);
+  return "There is no truth" + (silent.empty() ? "" : ": " + silent);
+}
 
 std::string input_text(const ReportInput& input, const Scenario& scenario) {
   if (const auto* simulated = std::get_if<SimulatedInput>(&scenario.input)) {
@@ -30,7 +55,7 @@ std::string input_text(const ReportInput& input, const Scenario& scenario) {
     if (!lines->file.empty())
       return fmt::format("Lines of {}{}.", lines->file_name,
                          lines->world ? ", with world " + lines->world->name + " as the truth"
-                                      : ". There is no truth: metrics that need it are absent");
+                                      : ". " + no_truth_text(input, scenario));
     return fmt::format("{} copies of the {} walls of world {}, {} seed{}.", lines->copies.copies,
                        lines->world->walls.size(), lines->world->name, scenario.seeds.size(),
                        scenario.seeds.size() == 1 ? "" : "s");
@@ -41,9 +66,9 @@ std::string input_text(const ReportInput& input, const Scenario& scenario) {
                                  ? fmt::format(" Its poses get errors that follow the seed, {} seed{}.",
                                                scenario.seeds.size(), scenario.seeds.size() == 1 ? "" : "s")
                                  : "";
-  return fmt::format("Recorded log {} ({}{}).{} There is no truth: metrics that need it are absent.",
-                     recorded.log.filename().string(), recorded.format,
-                     source == input.sources.end() ? "" : "; " + source->second, errors);
+  return fmt::format("Recorded log {} ({}{}).{} {}.", recorded.log.filename().string(), recorded.format,
+                     source == input.sources.end() ? "" : "; " + source->second, errors,
+                     no_truth_text(input, scenario));
 }
 
 std::vector<FigureFile> figures_of(const ReportInput& input, const std::string& scenario) {

@@ -334,5 +334,16 @@ TEST_F(Verbs, AMisspeltFileOrFolderGetsASuggestion) {
   EXPECT_THAT(here({"run", "room.yaml", "--sed", "1"}).err, HasSubstr("did you mean '--seed'?"));
 }
 
+TEST(LogReport, NamesTheMetricsThatHaveNoValuesWithoutATruth) {
+  const Folder folder;
+  folder.write("robot.csv", "2,2,2,2,2,2,2,2\n2,2.1,2.2,2.3,2.2,2.1,2,2\n");
+  folder.write("log.yaml",
+               "schema: 1\nrecording: {log: robot.csv, format: csv, step_deg: 10}\n"
+               "pipelines: [{name: iepf, extract: {module: iepf}}]\nmetrics: [segments, siadat1997]\n");
+  const auto made = run({"run", "log.yaml", "--out", "out", "-q"}, {}, folder.path());
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(read(folder / "out/report.md"), HasSubstr("There is no truth: segments has no values."));
+}
+
 }  // namespace
 }  // namespace scanbench::app_test
