@@ -42,6 +42,13 @@ TEST_F(ForeignPrograms, AreDescribed) {
                                  HasSubstr("largest distance of a point from the chord")));
 }
 
+TEST_F(ForeignPrograms, CannotControlTheTerminalThatDescribesThem) {
+  const auto file = program("escape.py", "return []\nM.summary = 'red: \\x1b[31m'");
+  const auto outcome = run({"describe", "--program", "python3", file});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("red: ?[31m"), ::testing::Not(HasSubstr("\x1b"))));
+}
+
 TEST_F(ForeignPrograms, OfTheExamplesConform) {
   for (const std::string name : {"my_lines.py", "split_lines.py", "point_matcher.py"}) {
     const auto outcome = run({"conform", "--program", "python3", example(name)});
