@@ -5,7 +5,7 @@
 // With the true place eliminated, the two measured places differ by a normal error of covariance C1 + C2, and the pose
 // of greatest likelihood minimises the sum of the normalised squared differences. Its bound is that of
 // `pose_efficiency` with walls unknown. The search starts from the guess and from the pose of point-to-line
-// registration, and from turned guesses if neither comes to rest; the most probable result is kept.
+// registration, and from turned guesses if both are in doubt; the most probable result is kept.
 #include <algorithm>
 #include <cmath>
 
@@ -101,7 +101,7 @@ class OptimalMatch final : public ScanMatcher {
           best, candidate(start.reference_from_current, known ? 4.0 * start.covariance : guess.covariance()), guess);
     }
     const auto lines = static_cast<double>(std::min(there.lines.size(), here.lines.size()));
-    if (in_question(best.match, guess) || best.walls < kFewWalls * lines)
+    if (in_doubt(best, guess, lines))
       for (const double turn : kTurns) {
         const Candidate other = candidate(guess.turned(turn), 4.0 * guess.covariance());
         // Two parallel walls fit at many headings: what leaves a motion open confirms none that the guess excludes.
@@ -134,9 +134,11 @@ class OptimalMatch final : public ScanMatcher {
     return b.evidence(share) >= a.evidence(share) ? b : a;
   }
 
-  static bool in_question(const Match& match, const Guess& guess) {
+  /// `lines`: of the scan with fewer of them.
+  static bool in_doubt(const Candidate& best, const Guess& guess, double lines) {
+    const Match& match = best.match;
     return match.status == Status::no_match || match.status == Status::max_iterations ||
-           guess.excludes(match.reference_from_current);
+           guess.excludes(match.reference_from_current) || best.walls < kFewWalls * lines;
   }
 
   /// Pairs walls and steps in turn until neither changes: first with the doubt about the pose in the weights, so that

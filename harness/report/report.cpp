@@ -24,11 +24,13 @@ namespace {
 
 constexpr std::size_t kPageWidth = 136;  // characters of a table that fit the page
 
-/// "segments, efficiency have no values": the metric families of a scenario without any row; empty if all have.
+/// "segments, efficiency have no values": the metric families of a scenario without any row; empty if all have, or
+/// none.
 std::string families_without_values(const ReportInput& input, const Scenario& scenario) {
   std::set<std::string> reported;
   for (const auto& row : input.rows)
     if (row.scenario == scenario.name) reported.insert(row.metric);
+  if (reported.empty()) return "";  // the cells failed
   std::vector<std::string> silent;
   for (const auto& choice : scenario.metrics) {
     const auto metrics = Registry<metrics::MetricFamily>::make(choice.module, choice.params)->describe();
@@ -140,7 +142,9 @@ std::string report_html(const ReportInput& input) {
   }
   std::set<std::string> metrics;
   for (const auto& row : input.rows) metrics.insert(row.metric);
-  out += "<h2 id=\"definitions\">What the metrics mean</h2>\n" + html_definitions(metrics);
+  const std::string definitions = html_definitions(metrics);
+  out += "<h2 id=\"definitions\">What the metrics mean</h2>\n" +
+         (definitions.empty() ? "<p>There are no values.</p>\n" : definitions);
   return html_page(input.title, out + html_facts(input.facts));
 }
 

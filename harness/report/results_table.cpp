@@ -430,17 +430,24 @@ std::string odometry_sentence(const ComparableRows& results) {
   const Values values(results.rows);
   std::vector<std::string> worse;
   double odometry = kNaN;
-  std::size_t compared = 0;
+  std::size_t compared = 0, without = 0;
   for (const auto& pipeline : results.pipelines) {
     const double error = mean_interval(values.of(pipeline, {"rpe_position", "all"})).mean;
     const double of_odometry = mean_interval(values.of(pipeline, {"rpe_odometry_position", "all"})).mean;
-    if (!std::isfinite(error) || !std::isfinite(of_odometry) || error == of_odometry) continue;
+    if (!std::isfinite(error) || !std::isfinite(of_odometry)) {
+      ++without;
+      continue;
+    }
+    if (error == of_odometry) continue;
     ++compared;
     odometry = of_odometry;
     if (error > of_odometry) worse.push_back(fmt::format("{} ({:.3g} cm)", pipeline, 100 * error));
   }
   if (compared == 0) return "";
   const std::string beside = fmt::format("the odometry (rpe_position {:.3g} cm)", 100 * odometry);
+  if (worse.empty() && without > 0)
+    return fmt::format("{} of {} pipelines err less between consecutive scans than {}; {} without a value.", compared,
+                       compared + without, beside, without);
   if (worse.empty()) return fmt::format("Every pipeline errs less between consecutive scans than {}.", beside);
   const std::size_t listed = std::min(worse.size(), kMostListed);
   const std::string more = worse.size() > listed ? fmt::format(" and {} more", worse.size() - listed) : "";

@@ -313,6 +313,9 @@ TEST(OdometrySentence, NamesThePipelinesThatAreNoBetter) {
             "No better between consecutive scans than the odometry (rpe_position 7.29 cm): b (12.1 cm).");
   EXPECT_EQ(sentence(0.06, 0.07),
             "Every pipeline errs less between consecutive scans than the odometry (rpe_position 7.29 cm).");
+  EXPECT_EQ(sentence(0.06, std::nan("")),
+            "1 of 2 pipelines err less between consecutive scans than the odometry (rpe_position 7.29 cm); 1 without a "
+            "value.");
   EXPECT_EQ(odometry_sentence(comparable_rows(scenario, {}, {})), "");
 }
 
