@@ -4,8 +4,8 @@
 // A wall seen by two scans is measured twice, each time with the covariance of its line; its true place is unknown.
 // With the true place eliminated, the two measured places differ by a normal error of covariance C1 + C2, and the pose
 // of greatest likelihood minimises the sum of the normalised squared differences. Its bound is that of
-// `pose_efficiency` with walls unknown. The search starts from the guess and from the pose of point-to-line
-// registration, and from turned guesses if both are in doubt; the most probable result is kept.
+// `pose_efficiency` with walls unknown. The search starts from the guess, twice from the pose of point-to-line
+// registration, and from turned guesses if the result is in doubt; the most probable result is kept.
 #include <algorithm>
 #include <cmath>
 
@@ -36,7 +36,8 @@ struct RoundRow {
   }
 };
 
-constexpr int kMostRounds = 12;
+constexpr int kMostRounds = 40;
+constexpr int kMostDoubtfulRounds = 6;
 constexpr double kStill = 1e-6;          // a step of a thousandth of the pose's standard deviation, squared
 constexpr double kFewWalls = 1.0 / 3.0;  // of the scan with fewer lines: less in pairs puts a match in doubt
 // Further starts where the first two are in doubt: turns of the guess, in its standard deviations.
@@ -90,20 +91,19 @@ class OptimalMatch final : public ScanMatcher {
     trace.stage(Stage::walls);
     const ScanMeasurements there = measurements(reference), here = measurements(current);
     const double lever = lever_of(now);
-    const auto candidate = [&](const Pose2& from, const Eigen::Matrix3d& covariance) {
-      return by_walls(there, here, {from, covariance}, guess, lever, trace);
-    };
+    const auto candidate = [&](const Start& from) { return by_walls(there, here, from, guess, lever, trace); };
     Candidate best{no_match(guessed)};
-    if (!lost) best = more_probable(best, candidate(guessed, guess.covariance()), guess);
+    if (!lost) best = more_probable(best, candidate({{guessed, guess.covariance()}, true}), guess);
     if (!lost && points) {
+      const Pose2& pose = start.reference_from_current;
       const bool known = start.status == Status::converged;
-      best = more_probable(
-          best, candidate(start.reference_from_current, known ? 4.0 * start.covariance : guess.covariance()), guess);
+      best = more_probable(best, candidate({{pose, known ? 4.0 * start.covariance : guess.covariance()}}), guess);
+      best = more_probable(best, candidate({{pose, guess.covariance() / 100.0}}), guess);
     }
     const auto lines = static_cast<double>(std::min(there.lines.size(), here.lines.size()));
     if (in_doubt(best, guess, lines))
       for (const double turn : kTurns) {
-        const Candidate other = candidate(guess.turned(turn), 4.0 * guess.covariance());
+        const Candidate other = candidate({{guess.turned(turn), 4.0 * guess.covariance()}});
         // Two parallel walls fit at many headings: what leaves a motion open confirms none that the guess excludes.
         if (other.match.status != Status::degenerate || !guess.excludes(other.match.reference_from_current))
           best = more_probable(best, other, guess);
@@ -115,6 +115,11 @@ class OptimalMatch final : public ScanMatcher {
   }
 
  private:
+  struct Start {
+    PoseBelief belief;
+    bool doubt_of_each_wall = false;  ///< until the pairs are settled, see PoseDoubt
+  };
+
   struct Candidate {
     Match match;
     // Logarithms of odds, together of this match against no pair at all at the guess.
@@ -143,9 +148,10 @@ class OptimalMatch final : public ScanMatcher {
 
   /// Pairs walls and steps in turn until neither changes: first with the doubt about the pose in the weights, so that
   /// walls known to millimetres count although the guess is off by centimetres, then without.
-  static Candidate by_walls(const ScanMeasurements& reference, const ScanMeasurements& current, PoseBelief belief,
+  static Candidate by_walls(const ScanMeasurements& reference, const ScanMeasurements& current, const Start& start,
                             const Guess& guess, double lever_m, Trace& trace) {
     Candidate result{{Status::max_iterations, guess.pose(), Eigen::Matrix3d::Zero()}};
+    PoseBelief belief = start.belief;
     const Eigen::Matrix3d before = belief.covariance.inverse();
     Pose2& pose = belief.reference_from_current;
     std::vector<WallPair> walls;
@@ -153,11 +159,11 @@ class OptimalMatch final : public ScanMatcher {
     for (int round = 0; round < kMostRounds && !settled; ++round) {
       std::vector<WallPair> paired = pair_walls(reference.lines, current.lines, belief);
       if (paired.empty()) return {no_match(guess.pose())};
-      const Eigen::Matrix3d doubt = doubtful ? belief.covariance : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
+      const PoseDoubt doubt = doubtful ? PoseDoubt{belief.covariance, start.doubt_of_each_wall} : PoseDoubt{};
       WallEquations sum = wall_equations(paired, reference.lines, current.lines, pose, doubt);
       add_lone_returns(remainder(paired, reference, current), belief, doubt, sum);
       // What the walls know less well than the guess does is open too.
-      sum.equations.by_chance += guess.covariance().inverse() / kLeastRatio;
+      if (!doubt.of_each_wall) sum.equations.by_chance += guess.covariance().inverse() / kLeastRatio;
       const Determined determined(sum.equations, lever_m, kLeastRatio);
       const Motion step = determined.solve(sum.equations.rhs);
       pose = moved(pose, step);
@@ -178,7 +184,7 @@ class OptimalMatch final : public ScanMatcher {
       else if (!open)
         belief.covariance = result.match.covariance;
       walls = std::move(paired);
-      doubtful = doubtful && !same && round + 1 < kMostRounds / 2;
+      doubtful = doubtful && !same && round + 1 < kMostDoubtfulRounds;
       trace.row(RoundRow{sum.walls, step.x(), step.y(), step.z(), sum.misfit});
     }
     return result;

@@ -35,7 +35,7 @@ std::optional<Sighted> sighted(const LoneReturn& reading, const MeasuredLine& li
 
 /// `sign`: 1 where the motion moves the point, -1 where it moves the line.
 void add_best(const LoneReturn& reading, std::span<const MeasuredLine> lines, const Vec2& sensor_of_point, double sign,
-              const PoseBelief& belief, const Eigen::Matrix3d& doubt, WallEquations& sum) {
+              const PoseBelief& belief, const PoseDoubt& doubt, WallEquations& sum) {
   const Vec2 sensor = belief.reference_from_current.translation();
   double least = kGate;
   std::optional<Sighted> best;
@@ -51,14 +51,13 @@ void add_best(const LoneReturn& reading, std::span<const MeasuredLine> lines, co
     on = &line;
   }
   if (!best) return;
-  const double squared = best->distance * best->distance / best->variance;
   const Motion g = gradient(on->normal, best->point - sensor);
-  const double allowed = best->variance + g.dot(doubt * g);
+  const double allowed = best->variance + g.dot(doubt.covariance * g);
+  const double variance = doubt.of_each_wall ? allowed : best->variance;
   const double density = std::exp(-0.5 * best->distance * best->distance / allowed) / std::sqrt(kTwoPi * allowed);
   const double weight = (1.0 - kStray) * density / ((1.0 - kStray) * density + kStray * kStrayDensity);
-  sum.equations.add(on->normal, best->point - sensor, -sign * best->distance, weight / best->variance,
-                    on->covariance(1, 1));
-  sum.misfit += weight * squared;
+  sum.equations.add(on->normal, best->point - sensor, -sign * best->distance, weight / variance, on->covariance(1, 1));
+  sum.misfit += weight * best->distance * best->distance / variance;
   sum.coordinates += weight;
 }
 
@@ -79,8 +78,7 @@ Remainder remainder(std::span<const WallPair> walls, const ScanMeasurements& ref
           reference.returns, current.returns};
 }
 
-void add_lone_returns(const Remainder& rest, const PoseBelief& belief, const Eigen::Matrix3d& doubt,
-                      WallEquations& sum) {
+void add_lone_returns(const Remainder& rest, const PoseBelief& belief, const PoseDoubt& doubt, WallEquations& sum) {
   const Pose2& pose = belief.reference_from_current;
   for (const LoneReturn& reading : rest.current_returns)
     add_best({pose * reading.point, reading.sigma}, rest.reference_lines, pose.translation(), 1.0, belief, doubt, sum);

@@ -24,7 +24,6 @@ Remainder remainder(std::span<const WallPair> walls, const ScanMeasurements& ref
 /// Adds the equations of returns on lines of the other scan: one coordinate each, across the line. Its variance is the
 /// sum of those of the return and of the line there. A return is assigned to the line from which it differs least, if
 /// belief and covariances allow the difference and it is between the line's ends. `doubt` as for wall_equations().
-void add_lone_returns(const Remainder& rest, const PoseBelief& belief, const Eigen::Matrix3d& doubt,
-                      WallEquations& sum);
+void add_lone_returns(const Remainder& rest, const PoseBelief& belief, const PoseDoubt& doubt, WallEquations& sum);
 
 }  // namespace scanbench::matching

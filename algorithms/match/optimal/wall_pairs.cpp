@@ -155,7 +155,7 @@ std::vector<WallPair> pair_walls(std::span<const MeasuredLine> reference, std::s
 
 WallEquations wall_equations(std::span<const WallPair> walls, std::span<const MeasuredLine> reference,
                              std::span<const MeasuredLine> current, const Pose2& reference_from_current,
-                             const Eigen::Matrix3d& doubt) {
+                             const PoseDoubt& doubt) {
   constexpr std::array<PlaceAt, 2> kWays{plain_place_at, place_at};
   constexpr std::array<double, 2> kShares{kAlike, 1.0 - kAlike};
   WallEquations result;
@@ -167,14 +167,16 @@ WallEquations wall_equations(std::span<const WallPair> walls, std::span<const Me
     const Vec2& normal = placed[wall.current.front()].normal;
     const Eigen::Matrix<double, 2, 3> jacobian = jacobian_at(point, normal, sensor);
     const Motion turned = gradient(perpendicular(normal), point - sensor);
+    const Eigen::Matrix2d by_doubt = jacobian * doubt.covariance * jacobian.transpose();
     std::array<Difference, 2> ways;
     std::array<double, 2> densities{};
     for (std::size_t k = 0; k < 2; ++k) {
       ways[k] = difference_of(place_of(wall.reference, reference, point, normal, kWays[k]),
                               place_of(wall.current, placed, point, normal, kWays[k]));
-      const Eigen::Matrix2d allowed = ways[k].covariance + jacobian * doubt * jacobian.transpose();
+      const Eigen::Matrix2d allowed = ways[k].covariance + by_doubt;
       densities[k] =
           kShares[k] * std::exp(-0.5 * normalised(ways[k].off, allowed)) / (kTwoPi * std::sqrt(allowed.determinant()));
+      if (doubt.of_each_wall) ways[k].covariance = allowed;
     }
     const double one_wall = (1.0 - kStray) * (densities[0] + densities[1]), stray = kStray * kStrayDensity;
     for (std::size_t k = 0; k < 2; ++k) {

@@ -37,12 +37,20 @@ struct PoseBelief {
 std::vector<WallPair> pair_walls(std::span<const MeasuredLine> reference, std::span<const MeasuredLine> current,
                                  const PoseBelief& belief);
 
+/// Doubt about the pose while pairs are being found.
+struct PoseDoubt {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< [m, m, rad]; zero: no doubt
+  /// True: the doubt is counted as an error of its own of every wall. Walls then count alike, and one that is known
+  /// better than the others does not decide against them.
+  bool of_each_wall = false;
+};
+
 /// Equations of the motion of the current scan, each wall weighted with the probability that its lines are one wall.
 /// A wall is one in two ways, which are equally probable: what its lines doubt may move them apart, with their whole
 /// covariances; or it moves both alike, because both scans see the wall from nearly one place, and only the noise of
 /// the plain lines is between them.
-/// That probability is of the difference which the lines and `doubt`, the covariance of the pose [m, m, rad], allow. A
-/// pose that may be off by ten times the noise of a line says nothing against the pair if they differ by as much.
+/// That probability is of the difference which the lines and `doubt` allow. A pose that may be off by ten times the
+/// noise of a line says nothing against the pair if they differ by as much.
 struct WallEquations {
   PoseEquations equations;
   double misfit = 0.0;       ///< sum of weighted squared differences, in standard deviations
@@ -53,6 +61,6 @@ struct WallEquations {
 };
 WallEquations wall_equations(std::span<const WallPair> walls, std::span<const MeasuredLine> reference,
                              std::span<const MeasuredLine> current, const Pose2& reference_from_current,
-                             const Eigen::Matrix3d& doubt);
+                             const PoseDoubt& doubt = {});
 
 }  // namespace scanbench::matching

@@ -210,9 +210,9 @@ TEST(WallEquations, AreThoseOfNumericalDerivatives) {
       moved(pose.inverse(), {2.001 * normal - 0.2 * perpendicular(normal), normal, 0.8, c2})};
   const std::vector<WallPair> pairs{{{0}, {0}}};
   const auto misfit = [&](const Motion& motion) {
-    return wall_equations(pairs, reference, current, moved(pose, motion), Eigen::Matrix3d::Zero()).misfit;
+    return wall_equations(pairs, reference, current, moved(pose, motion)).misfit;
   };
-  const WallEquations found = wall_equations(pairs, reference, current, pose, Eigen::Matrix3d::Zero());
+  const WallEquations found = wall_equations(pairs, reference, current, pose);
   ASSERT_GT(found.walls, 0.99);
   const double h = 1e-6;
   for (int k = 0; k < 3; ++k) {
@@ -241,7 +241,7 @@ struct DoubtedWall {
     current = {moved(pose.inverse(), other)};
   }
   WallEquations equations(const Motion& motion = Motion::Zero()) const {
-    return wall_equations(pairs, reference, current, moved(pose, motion), Eigen::Matrix3d::Zero());
+    return wall_equations(pairs, reference, current, moved(pose, motion));
   }
 };
 
@@ -282,14 +282,35 @@ TEST(WallEquations, AWallKnownToAMillimetreCountsWhileThePoseIsKnownToADecimetre
   const Pose2 guess(0.05, 0.0, 0.0);  // the true pose is 0
   const auto weight = [&](double sigma_m) {
     const Eigen::Matrix3d doubt = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
-    return wall_equations(pairs, wall, wall, guess, doubt).walls;
+    return wall_equations(pairs, wall, wall, guess, {doubt}).walls;
   };
   EXPECT_GT(weight(0.1), 0.9);     // half a standard deviation off
   EXPECT_LT(weight(0.005), 1e-6);  // ten standard deviations off: not one wall
   // Doubt changes the weight of a wall, not what the wall says.
-  const WallEquations found =
-      wall_equations(pairs, wall, wall, guess, Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal().toDenseMatrix());
+  const PoseDoubt decimetre{0.01 * Eigen::Matrix3d::Identity()};
+  const WallEquations found = wall_equations(pairs, wall, wall, guess, decimetre);
   EXPECT_NEAR(found.equations.rhs.x() / found.equations.matrix(0, 0), -0.05, 1e-9);
+}
+
+TEST(WallEquations, WallsCountAlikeIfTheDoubtIsOfEachWall) {
+  // Ten walls ahead. One is known to 0.3 mm and says 12 cm, nine are known to 5 mm and say 0.
+  const auto ahead = [](double x_m, double sigma_m) {
+    return MeasuredLine{{x_m, 0}, {1, 0}, 1.0, Eigen::Vector2d(sigma_m * sigma_m, 1e-4).asDiagonal().toDenseMatrix()};
+  };
+  std::vector<MeasuredLine> reference{ahead(5.12, 0.0003)}, current{ahead(5.0, 0.0003)};
+  std::vector<WallPair> pairs{{{0}, {0}}};
+  for (std::size_t k = 1; k < 10; ++k) {
+    reference.push_back(ahead(5.0 + static_cast<double>(k), 0.005));
+    current.push_back(reference.back());
+    pairs.push_back({{k}, {k}});
+  }
+  const auto step = [&](bool of_each_wall) {
+    const PoseDoubt decimetre{0.01 * Eigen::Matrix3d::Identity(), of_each_wall};
+    const WallEquations found = wall_equations(pairs, reference, current, {}, decimetre);
+    return found.equations.rhs.x() / found.equations.matrix(0, 0);
+  };
+  EXPECT_NEAR(step(false), 0.12, 0.005);
+  EXPECT_NEAR(step(true), 0.012, 0.001);
 }
 
 TEST(PairWalls, JoinsWhatAnObstacleCutsInTwo) {
