@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
+#include <string_view>
 #include <tuple>
 #include <unordered_set>
 #include <utility>
@@ -40,6 +42,17 @@ std::vector<CellLine> cells_of(const Scenario& scenario, const std::vector<Summa
 
 bool unconverged(const CellLine& cell) {
   return cell.message.find("align: ") != std::string::npos || cell.message.find("match: ") != std::string::npos;
+}
+
+/// Sum of the counts in the remark on a matcher, "match: 24 max_iterations, 57 degenerate".
+std::size_t unconverged_scans(const CellLine& cell) {
+  constexpr std::string_view kMatch = "match: ";
+  const std::size_t begin = cell.message.find(kMatch);
+  if (begin == std::string::npos) return 0;
+  std::istringstream outcomes(cell.message.substr(begin + kMatch.size()));
+  std::size_t sum = 0, count = 0;
+  for (std::string status = ","; status.ends_with(',') && outcomes >> count >> status;) sum += count;
+  return sum;
 }
 
 /// For each pipeline with a cell that is ok, the seeds of these cells.
@@ -119,7 +132,9 @@ std::string Coverage::text() const {
     for (const auto& [word, count] : others) ends.push_back(fmt::format("{} {}", count, word));
     parts.push_back(fmt::format("{} of {} ok, {}", ok, all, fmt::join(ends, ", ")));
   }
-  if (unconverged > 0)
+  if (unconverged_scans > 0)
+    parts.push_back(fmt::format("not converged on {} scan{}", unconverged_scans, unconverged_scans == 1 ? "" : "s"));
+  else if (unconverged > 0)
     parts.push_back(all == 1 ? std::string("not converged")
                              : fmt::format("not converged in {} of {}", unconverged, all));
   return fmt::format("{}", fmt::join(parts, "; "));
@@ -137,7 +152,10 @@ ComparableRows comparable_rows(const Scenario& scenario, const std::vector<Summa
     ++coverage.all;
     coverage.ok += cell.status == kOk;
     if (cell.status != kOk) ++coverage.others[cell.status];
-    if (cell.status == kOk && unconverged(cell)) ++coverage.unconverged;
+    if (cell.status == kOk && unconverged(cell)) {
+      ++coverage.unconverged;
+      coverage.unconverged_scans += unconverged_scans(cell);
+    }
     if (seen.insert(cell.seed).second) seeds.push_back(cell.seed);
   }
   for (const auto& pipeline : scenario.pipelines)

@@ -202,6 +202,18 @@ TEST(ResultTables, SayWhichAlignersHaveNotConverged) {
     EXPECT_THAT(text, HasSubstr("align: 1 max_iterations"));
 }
 
+TEST(ResultTables, SayOnHowManyScansAMatcherHasNotConverged) {
+  const Scenario scenario = scenario_of({"a", "b", "c"}, {"segments"});
+  const std::vector<CellLine> cells{cell("a", 1, "ok", "match: 24 max_iterations, 57 degenerate; map: 3 no_match"),
+                                    cell("b", 1, "ok", "match: 1 no_match"), cell("c", 1, "ok")};
+  const ComparableRows results =
+      comparable_rows(scenario, {row("a", "f1", 0.5), row("b", "f1", 0.4), row("c", "f1", 0.3)}, cells);
+  const std::vector<Table> tables = result_tables(scenario, results);
+  EXPECT_EQ(tables.at(0).rows[0].heads.front(), "a (not converged on 81 scans)");
+  EXPECT_EQ(tables.at(0).rows[1].heads.front(), "b (not converged on 1 scan)");
+  EXPECT_EQ(tables.at(0).rows[2].heads.front(), "c");
+}
+
 TEST(ResultTables, GiveRemarksThatDifferInTheirNumbersOneRow) {
   const std::vector<CellLine> cells{cell("a", 1, "ok", "align: 1 max_iterations"),
                                     cell("a", 2, "ok", "align: 7 max_iterations"),
