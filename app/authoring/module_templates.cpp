@@ -139,6 +139,57 @@ const bool registered = Registry<Aligner>::add<@Name@>(
 }  // namespace scanbench
 )text";
 
+constexpr std::string_view kMatch =
+    R"text(// @name@: the returns of a scan on the lines through their partners in another.
+#include "algorithms/match/parts/point_line_registration.hpp"
+#include "core/modules.hpp"
+#include "core/registry.hpp"
+
+namespace scanbench {
+namespace {
+
+class @Name@ final : public ScanMatcher {
+ public:
+  struct Params {
+    double gate_m = 0.5;
+    double min_overlap = 0.3;
+    int max_iterations = 30;
+    static auto fields() {
+      return std::tuple{field("gate_m", &Params::gate_m, between(1e-6, 1e6), "m", "farthest partner of a return"),
+                        field("min_overlap", &Params::min_overlap, between(0, 1), "",
+                              "smallest share of returns with a partner; below it there is no match"),
+                        field("max_iterations", &Params::max_iterations, between(1, 1e6), "", "iterations at most")};
+    }
+  };
+  explicit @Name@(Params params)
+      : rules_{.gate_m = params.gate_m,
+               .keep = 0.9,
+               .trim = 4.5,
+               .by_noise = true,
+               .min_overlap = params.min_overlap,
+               .max_iterations = params.max_iterations} {}
+
+  // Lines that the slot before found are in reference.lines and current.lines; this matcher takes the returns.
+  Match match(const Observation& reference, const Observation& current, const Pose2& guess,
+              Trace& trace) const override {
+    trace.stage(Stage::iterate);
+    const matching::ReturnedPoints seen = matching::returned_points(reference.scan);
+    const matching::ReturnedPoints now = matching::returned_points(current.scan);
+    return matching::register_points_on_lines(seen, matching::local_lines(seen), now, matching::local_lines(now), guess,
+                                              rules_, trace);
+  }
+
+ private:
+  matching::RegistrationRules rules_;
+};
+
+const bool registered = Registry<ScanMatcher>::add<@Name@>(
+    {.name = "@name@", .summary = "the returns of a scan on lines through those of another", .reference = "none"});
+
+}  // namespace
+}  // namespace scanbench
+)text";
+
 constexpr std::string_view kMerge =
     R"text(// @name@: one line for each set of segments that are close and parallel, directly or through others.
 #include <algorithm>
@@ -248,7 +299,8 @@ struct Template {
   std::string_view kind;
   std::string_view text;
 };
-constexpr std::array kTemplates = {Template{"extract", kExtract}, Template{"align", kAlign}, Template{"merge", kMerge}};
+constexpr std::array kTemplates = {Template{"extract", kExtract}, Template{"match", kMatch}, Template{"align", kAlign},
+                                   Template{"merge", kMerge}};
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))

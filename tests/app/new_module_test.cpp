@@ -27,7 +27,7 @@ TEST_F(NewModule, TheExtractorIsTheOneThatTheReadmeShows) {
 }
 
 TEST_F(NewModule, TheClassOfEachKindIsNamedAfterTheModule) {
-  for (const std::string kind : {"extract", "align", "merge"}) {
+  for (const std::string kind : {"extract", "match", "align", "merge"}) {
     ASSERT_EQ(here({"new", kind, "two_words"}).code, 0) << kind;
     const std::string text = read(folder_ / ("algorithms/" + kind + "/two_words.cpp"));
     EXPECT_THAT(text, testing::AllOf(HasSubstr("class TwoWords final"), HasSubstr(".name = \"two_words\""),
@@ -36,11 +36,11 @@ TEST_F(NewModule, TheClassOfEachKindIsNamedAfterTheModule) {
 }
 
 TEST_F(NewModule, SaysThatAKindHasNoTemplate) {
-  fs::create_directories(folder_ / "algorithms/match");
-  const auto outcome = here({"new", "match", "mine"});
+  fs::create_directories(folder_ / "algorithms/map");
+  const auto outcome = here({"new", "map", "mine"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("there is no template for modules of the kind match; there are: extract, align, "
-                                     "merge; begin with a copy of a file of algorithms/match"));
+  EXPECT_THAT(outcome.err, HasSubstr("there is no template for modules of the kind map; there are: extract, match, "
+                                     "align, merge; begin with a copy of a file of algorithms/map"));
 }
 
 TEST_F(NewModule, RefusesWhatCannotBeAModuleAndKeepsWhatIsThere) {
