@@ -33,22 +33,12 @@ constexpr double kRounding = 1e-9;  ///< a difference of exactly the margin is w
 constexpr std::array<std::string_view, 4> kCompleteness{"f1", "covered_5cm", "placed", "missed"};
 
 /// What a reader asks for first, in this order: how good lines, maps and poses are, then what they cost.
-constexpr std::array<std::string_view, 16> kOverview{"f1",
-                                                     "covered_5cm",
-                                                     "lines_per_wall",
-                                                     "placed",
-                                                     "position_error",
-                                                     "pose_efficiency",
-                                                     "rpe_position",
-                                                     "relations_position",
-                                                     "ate_position",
-                                                     "missed",
-                                                     "n_lines",
-                                                     "s_mean",
-                                                     "d_mean",
-                                                     "t_total",
-                                                     "t_scan",
-                                                     "t_match"};
+constexpr std::array<std::string_view, 17> kOverview{"f1",           "covered_5cm",    "lines_per_wall",
+                                                     "placed",       "position_error", "pose_efficiency",
+                                                     "rpe_position", "rpe_heading",    "relations_position",
+                                                     "ate_position", "missed",         "n_lines",
+                                                     "s_mean",       "d_mean",         "t_total",
+                                                     "t_scan",       "t_match"};
 
 /// A sentence names at most so many pipelines that share the best value.
 constexpr std::size_t kMostNamed = 3;
@@ -378,15 +368,18 @@ std::string named(const std::vector<const Table::Row*>& rows, std::size_t column
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// "; best relations_position [m]: b (1.21)" if these independent measurements of a log prefer other pipelines.
+/// "; best relations_position [m]: b (1.21)" if headings, or the independent measurements of a log, prefer other
+/// pipelines than positions do.
 std::string other_best(const Table& table, std::size_t column, const std::vector<const Table::Row*>& best,
                        const std::vector<const Table::Row*>& rows) {
+  std::string text;
   for (std::size_t c = column + 1; c < table.columns.size(); ++c) {
-    if (!table.columns[c].head.starts_with("relations_position")) continue;
+    const std::string& head = table.columns[c].head;
+    if (!head.starts_with("rpe_heading") && !head.starts_with("relations_position")) continue;
     const auto others = best_of(table, c, rows);
-    if (!others.empty() && others != best) return fmt::format("; best {}: {}", table.columns[c].head, named(others, c));
+    if (!others.empty() && others != best) text += fmt::format("; best {}: {}", head, named(others, c));
   }
-  return "";
+  return text;
 }
 
 }  // namespace

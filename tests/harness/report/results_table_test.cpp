@@ -331,7 +331,7 @@ TEST(OdometrySentence, NamesThePipelinesThatAreNoBetter) {
   EXPECT_EQ(odometry_sentence(comparable_rows(scenario, {}, {})), "");
 }
 
-TEST(Overview, NamesWhatIndependentRelationsOfALogPrefer) {
+TEST(Overview, NamesWhatHeadingsAndIndependentRelationsOfALogPrefer) {
   const Scenario scenario = scenario_of({"a", "b"}, {"trajectory"});
   const std::vector<CellLine> cells{cell("a", 1, "ok"), cell("b", 1, "ok")};
   std::vector<SummaryRow> rows{row("a", "rpe_position", 0.038), row("b", "rpe_position", 0.045),
@@ -342,6 +342,9 @@ TEST(Overview, NamesWhatIndependentRelationsOfALogPrefer) {
   EXPECT_EQ(sentence(), "Best rpe_position [cm] of 2 pipelines: a (3.80); best relations_position [m]: b (1.21).");
   rows.back().value = 1.5;
   EXPECT_EQ(sentence(), "Best rpe_position [cm] of 2 pipelines: a (3.80).");
+  rows.push_back(row("a", "rpe_heading", 0.9));
+  rows.push_back(row("b", "rpe_heading", 0.7));
+  EXPECT_EQ(sentence(), "Best rpe_position [cm] of 2 pipelines: a (3.80); best rpe_heading [deg]: b (0.700).");
 }
 
 }  // namespace
