@@ -22,6 +22,7 @@ std::string quoted(const std::string& path) {
 
 void require_file(const std::string& file) {
   std::error_code error;
+  if (fs::is_directory(file, error)) throw ConfigError(file + " is a folder; allowed: a shared library");
   if (!fs::is_regular_file(file, error)) throw ConfigError(file + ": no such file");
 }
 

@@ -32,13 +32,28 @@ auto at_node(const YamlNode& node, Work&& work) {
   }
 }
 
-/// The file that a word means, relative to the file it is written in; nullopt if there is no such regular file.
-std::optional<fs::path> file_of(const YamlNode& node, const std::string& word, const fs::path& file) {
+/// A word as a path, relative to the file it is written in.
+fs::path path_of(const YamlNode& node, const std::string& word, const fs::path& file) {
   const fs::path base = node.mark.line == 0 ? fs::path() : file.parent_path();
-  const fs::path path = fs::absolute(base / word).lexically_normal();
+  return fs::absolute(base / word).lexically_normal();
+}
+
+/// The file that a word means; nullopt if there is no such regular file.
+std::optional<fs::path> file_of(const YamlNode& node, const std::string& word, const fs::path& file) {
+  const fs::path path = path_of(node, word, file);
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return std::nullopt;
   return path;
+}
+
+/// For a word that means no regular file.
+[[noreturn]] void refuse_file(const YamlNode& node, const std::string& word, const fs::path& file,
+                              const std::string& advice = "") {
+  std::error_code error;
+  const fs::file_status status = fs::status(path_of(node, word, file), error);
+  if (fs::is_directory(status)) throw PlacedError(node.mark, word + " is a folder; allowed: a file");
+  if (fs::exists(status)) throw PlacedError(node.mark, word + " is not a regular file");
+  throw PlacedError(node.mark, "no such file: " + word + advice);
 }
 
 HashedFile hashed(const fs::path& path) {
@@ -65,7 +80,7 @@ void read_program(const YamlNode& node, const ModuleSources& sources, ForeignSou
       source.files.push_back(hashed(*path));
       word = path->string();
     } else if (i == 0) {
-      throw PlacedError(node.mark, "no such file: " + word);
+      refuse_file(node, word, sources.file);
     }
   }
 }
@@ -76,7 +91,7 @@ void read_more_files(YamlMap& map, const ModuleSources& sources, ForeignSource& 
   constexpr const char* kForm = "a list of files that the program reads";
   for (const std::string& word : read_words(*node, "files", kForm)) {
     const auto path = sources.is_recorded ? fs::path(word) : file_of(*node, word, sources.file);
-    if (!path) throw PlacedError(node->mark, "no such file: " + word);
+    if (!path) refuse_file(*node, word, sources.file);
     source.more_files.push_back(path->string());
     if (!sources.is_recorded) source.files.push_back(hashed(*path));
   }
@@ -180,7 +195,7 @@ ForeignSource read_library_slot(YamlMap& map, const YamlNode& node, const std::s
     return source;
   }
   const auto path = file_of(*plugin, word, sources.file);
-  if (!path) throw PlacedError(plugin->mark, "no such file: " + word);
+  if (!path) refuse_file(*plugin, word, sources.file);
   return module_in(at_node(*plugin, [&] { return inspect_library(*path); }), node, kind, name);
 }
 
@@ -234,7 +249,7 @@ std::vector<NamedLibrary> read_libraries(const YamlNode& node) {
 std::vector<ForeignSource> modules_of(const NamedLibrary& library, const fs::path& file) {
   const std::string advice = library.built_by.empty() ? "" : fmt::format("; `{}` builds it", library.built_by);
   const auto path = file_of(*library.node, library.file, file);
-  if (!path) throw PlacedError(library.node->mark, "no such file: " + library.file + advice);
+  if (!path) refuse_file(*library.node, library.file, file, advice);
   try {
     return inspect_library(*path);
   } catch (const ForeignFault& fault) {
