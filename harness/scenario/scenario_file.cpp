@@ -25,6 +25,9 @@
 namespace scanbench::harness {
 namespace {
 
+constexpr double kUnknownSigmaM =
+    0.01;  // of the readings of a log whose sensor is not stated; most scanners have 1 to 3 cm
+
 class ScenarioReader {
  public:
   /// `rows` is null, or the walls of the key `segments` of `world` (wall_rows.hpp).
@@ -84,8 +87,8 @@ class ScenarioReader {
 
   void read_simulated() {
     SimulatedInput input;
-    LoadedWorld loaded = read_world_section(
-        map_.require("world", "{file: PATH}, or the keys of a world file; or a recording, or lines"));
+    LoadedWorld loaded = read_world_section(map_.require(
+        "world", "{file: PATH}, or the keys of a world file; or recording: {log: FILE, ...}; or lines: {file: FILE}"));
     input.world = std::move(loaded.world);
     input.world_text = std::move(loaded.text);
     const YamlNode& sensor = map_.require("sensor", "{preset: NAME}, and any field that overrides the preset");
@@ -194,7 +197,11 @@ class ScenarioReader {
       read_sensor(*sensor, recorded_sensor_specs(), input.sensor_preset, input.sensor_params, input.sensor);
     } else {
       input.sensor_preset = "custom";
-      input.sensor = sim::make_sensor("custom", {}, &input.sensor_params);
+      input.sensor = sim::make_sensor("custom", {{"sigma_m", kUnknownSigmaM}}, &input.sensor_params);
+      scenario_.notes.push_back(
+          fmt::format("there is no `sensor`: its readings are taken to have errors of {:g} m. sensor: {{preset: NAME}} "
+                      "or sensor: {{sigma_m: X}} states them; `scanbench list sensor` has the names",
+                      kUnknownSigmaM));
     }
     if (!input.odometry.any()) refuse_many_seeds("a recorded log without errors of `odometry`");
     scenario_.input = std::move(input);

@@ -179,7 +179,11 @@ YamlNode parse_yaml(std::string_view text, std::size_t max_bytes) {
     while (parser.HandleNextDocument(second)) {
     }
   } catch (const YAML::Exception& error) {
-    throw PlacedError(mark_of(error.mark), "not YAML: " + error.msg);
+    const bool maybe_variable =
+        error.msg.find("flow") != std::string::npos && text.find("${") != std::string_view::npos;
+    throw PlacedError(mark_of(error.mark),
+                      "not YAML: " + error.msg +
+                          (maybe_variable ? "; between { and }, a path with ${SCANBENCH_DATA} needs quotes" : ""));
   }
   return builder.take_root();
 }

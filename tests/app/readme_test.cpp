@@ -95,6 +95,26 @@ std::string turning_scanner() {
   return log;
 }
 
+TEST(Replay, WithoutASensorReadingsAreTakenToHaveErrorsOfACentimetre) {
+  const Folder folder;
+  std::string turn;  // in a square room of 4 m, from corner to corner
+  for (int degree = -135; degree < 225; ++degree) {
+    const double a = degree * 3.14159265358979 / 180.0;
+    const double error = degree % 2 == 0 ? 0.008 : -0.008;
+    turn += (turn.empty() ? "" : ",") +
+            std::to_string(error + 2.0 / std::max(std::abs(std::cos(a)), std::abs(std::sin(a))));
+  }
+  folder.write("turns.csv", turn + "\n" + turn + "\n");
+  folder.write("mine.yaml",
+               "schema: 1\nrecording: {log: turns.csv, format: csv, first_angle_deg: -135, step_deg: 1}\n"
+               "pipelines:\n  - {name: lines, extract: {module: optimal}}\nmetrics: [siadat1997]\n");
+  const auto check = run({"check", "mine.yaml"}, {}, folder.path());
+  EXPECT_THAT(check.out + check.err, testing::HasSubstr("taken to have errors of 0.01 m"));
+  ASSERT_EQ(run({"run", "mine.yaml", "--out", "out"}, {}, folder.path()).code, 0);
+  const std::string lines = read(folder / "out/cells/mine/lines/1/lines.csv");
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1 + 2 * 4) << lines;
+}
+
 TEST(Replay, ScansWhoseNumberOfBeamsChangesGiveTheWallsOfTheRoom) {
   const Folder folder;
   folder.write("turns.csv", turning_scanner());

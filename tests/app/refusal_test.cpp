@@ -106,6 +106,9 @@ TEST(Refusals, OfWhatIsNoTextOrNoScenarioAtAll) {
   EXPECT_THAT(refusal_of("\xff\xfe\x00"), HasSubstr("x.yaml:1:1: "));
   EXPECT_THAT(refusal_of("schema: 1\nworld: " + std::string(100000, '[')), HasSubstr("x.yaml:"));
   EXPECT_THAT(refusal_of("- 1\n- 2\n"), HasSubstr("x.yaml:1:1: "));
+  EXPECT_THAT(refusal_of("schema: 1\nlog: my.log\n"), HasSubstr("or recording: {log: FILE, ...}"));
+  EXPECT_THAT(refusal_of("schema: 1\nrecording: {log: ${SCANBENCH_DATA}/my.log, format: carmen}\n"),
+              AllOf(HasSubstr("x.yaml:2:"), HasSubstr("a path with ${SCANBENCH_DATA} needs quotes")));
   const Folder folder;
   EXPECT_THAT(refusal_in(folder, {"check", "."}),
               HasSubstr(".: a folder, not a regular file; allowed: a scenario or suite file"));
