@@ -80,13 +80,15 @@ class PoseEfficiency : public MetricFamily {
             {"pose_bound_position", "m", neither, 0.0, "root of the mean bound of the position, walls unknown"},
             {"pose_bound_heading", "deg", neither, 0.0, "root of the mean bound of the heading, walls unknown"},
             {"pose_error_position", "m", lower_is_better, 0.001, "root mean square error of the matched position"},
+            {"pose_error_position_max", "m", lower_is_better, 0.001, "largest error of the matched position"},
             {"pose_error_heading", "deg", lower_is_better, 0.01, "root mean square error of the matched heading"},
             {"pose_nees", "", target, 0.2,
              "mean of e' C^-1 e over matches with a covariance C; honest ones give 3, overconfident ones more; ci: the "
              "band in which it lies with probability 95 % if they are honest",
              false, 3.0},
             {"pose_unmatched", "", lower_is_better, 0.001,
-             "share of the pairs that determine a pose for which the matcher gives none"},
+             "share of the pairs that determine a pose for which the matcher has no match or says that a motion is "
+             "open"},
             {"pose_unobservable", "", neither, 0.0, "share of all pairs that leave a motion open"},
             {"pose_open_found", "", higher_is_better, 0.01,
              "share of the pairs that leave a motion open for which the matcher says so"}};
@@ -100,6 +102,7 @@ class PoseEfficiency : public MetricFamily {
     SCANBENCH_ASSERT(applies(input));
     Part position, heading;
     Mean nees, unmatched, unobservable, open_found;
+    double largest_m = 0.0;
     for_each_pair(input, [&](const FrameMatch& pair, const ScoredMatch* scored) {
       const Status status = pair.match.status;
       const bool mute = status == Status::degenerate || status == Status::no_match;
@@ -111,6 +114,7 @@ class PoseEfficiency : public MetricFamily {
       unmatched.add(mute ? 1.0 : 0.0);
       if (mute) return;
       const Eigen::Vector3d& e = scored->error;
+      largest_m = std::max(largest_m, e.head<2>().norm());
       position.add(e.head<2>().squaredNorm(), scored->unknown_walls.topLeftCorner<2, 2>().trace(),
                    scored->known_map.topLeftCorner<2, 2>().trace());
       heading.add(e.z() * e.z(), scored->unknown_walls(2, 2), scored->known_map(2, 2));
@@ -133,6 +137,8 @@ class PoseEfficiency : public MetricFamily {
     rows.add("pose_bound_position", kAll, position.unknown_walls.root(), position.unknown_walls.count());
     rows.add("pose_bound_heading", kAll, degrees(heading.unknown_walls.root()), heading.unknown_walls.count());
     rows.add("pose_error_position", kAll, position.squared_error.root(), position.squared_error.count());
+    rows.add("pose_error_position_max", kAll, position.squared_error.count() > 0 ? largest_m : kNaN,
+             position.squared_error.count());
     rows.add("pose_error_heading", kAll, degrees(heading.squared_error.root()), heading.squared_error.count());
     MetricRow& row = rows.add("pose_nees", kAll, nees);
     if (row.count > 0) {

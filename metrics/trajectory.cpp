@@ -76,14 +76,15 @@ class Trajectory : public MetricFamily {
 
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
-    return {{"ate_position", "m", lower_is_better, 0.001, "root mean square distance of aligned from true positions"},
+    return {{"ate_position", "m", lower_is_better, 0.001,
+             "root mean square distance of aligned positions from the true ones, or from a log's reference"},
             {"ate_position_mean", "m", lower_is_better, 0.001, "mean of that distance"},
             {"ate_position_max", "m", lower_is_better, 0.001, "largest of that distance"},
             {"ate_heading", "deg", lower_is_better, 0.01, "root mean square error of aligned headings"},
             {"ate_heading_mean", "deg", lower_is_better, 0.01, "mean size of that error"},
             {"ate_heading_max", "deg", lower_is_better, 0.01, "largest size of that error"},
             {"rpe_position", "m", lower_is_better, 0.001,
-             "root mean square error of the shift between poses step_frames apart"},
+             "root mean square error of the shift between poses step_frames apart (1: consecutive scans)"},
             {"rpe_heading", "deg", lower_is_better, 0.01, "the same of the turn"},
             {"rpe_path_position", "m", lower_is_better, 0.001,
              "root mean square error of the shift between poses step_m of path apart"},

@@ -41,18 +41,26 @@ std::vector<CellLine> cells_of(const Scenario& scenario, const std::vector<Summa
 }
 
 bool unconverged(const CellLine& cell) {
-  return cell.message.find("align: ") != std::string::npos || cell.message.find("match: ") != std::string::npos;
+  return cell.message.find("align: ") != std::string::npos;
 }
 
-/// Sum of the counts in the remark on a matcher, "match: 24 max_iterations, 57 degenerate".
-std::size_t unconverged_scans(const CellLine& cell) {
-  constexpr std::string_view kMatch = "match: ";
-  const std::size_t begin = cell.message.find(kMatch);
+/// The number of scans with a status, in the remark on a slot: "match: 24 max_iterations, 57 degenerate; map: ...".
+std::size_t scans_with(const std::string& status, std::string_view slot, const std::string& remarks) {
+  const std::size_t begin = remarks.find(slot);
   if (begin == std::string::npos) return 0;
-  std::istringstream outcomes(cell.message.substr(begin + kMatch.size()));
-  std::size_t sum = 0, count = 0;
-  for (std::string status = ","; status.ends_with(',') && outcomes >> count >> status;) sum += count;
-  return sum;
+  std::istringstream outcomes(remarks.substr(begin + slot.size()));
+  std::size_t count = 0;
+  for (std::string word = ","; word.ends_with(',') && outcomes >> count >> word;)
+    if (word.starts_with(status)) return count;
+  return 0;
+}
+
+std::size_t scans_with(const std::string& status, const CellLine& cell) {
+  return scans_with(status, "match: ", cell.message) + scans_with(status, "map: ", cell.message);
+}
+
+std::string scans_text(std::size_t count) {
+  return fmt::format("{} scan{}", count, count == 1 ? "" : "s");
 }
 
 /// For each pipeline with a cell that is ok, the seeds of these cells.
@@ -132,11 +140,11 @@ std::string Coverage::text() const {
     for (const auto& [word, count] : others) ends.push_back(fmt::format("{} {}", count, word));
     parts.push_back(fmt::format("{} of {} ok, {}", ok, all, fmt::join(ends, ", ")));
   }
-  if (unconverged_scans > 0)
-    parts.push_back(fmt::format("not converged on {} scan{}", unconverged_scans, unconverged_scans == 1 ? "" : "s"));
-  else if (unconverged > 0)
+  if (unconverged > 0)
     parts.push_back(all == 1 ? std::string("not converged")
                              : fmt::format("not converged in {} of {}", unconverged, all));
+  if (no_match_scans > 0) parts.push_back("no match on " + scans_text(no_match_scans));
+  if (unsettled_scans > 0) parts.push_back("not settled on " + scans_text(unsettled_scans));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
@@ -152,9 +160,10 @@ ComparableRows comparable_rows(const Scenario& scenario, const std::vector<Summa
     ++coverage.all;
     coverage.ok += cell.status == kOk;
     if (cell.status != kOk) ++coverage.others[cell.status];
-    if (cell.status == kOk && unconverged(cell)) {
-      ++coverage.unconverged;
-      coverage.unconverged_scans += unconverged_scans(cell);
+    if (cell.status == kOk) {
+      coverage.unconverged += unconverged(cell) ? 1 : 0;
+      coverage.no_match_scans += scans_with("no_match", cell);
+      coverage.unsettled_scans += scans_with("max_iterations", cell);
     }
     if (seen.insert(cell.seed).second) seeds.push_back(cell.seed);
   }

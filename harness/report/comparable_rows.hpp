@@ -18,14 +18,15 @@ struct Coverage {
   std::size_t ok = 0;
   std::size_t all = 0;
   std::map<std::string, std::size_t> others;  ///< cells by their status, without those that are ok
-  std::size_t unconverged = 0;                ///< ok, but an aligner or matcher has not converged
-  std::size_t unconverged_scans = 0;          ///< of these cells, where the matcher has not converged
+  std::size_t unconverged = 0;                ///< ok, but an aligner has not converged
+  std::size_t no_match_scans = 0;             ///< of cells that are ok: a matcher or mapper has no match for them
+  std::size_t unsettled_scans = 0;            ///< the same, where its pose still moved
 
   bool complete() const { return ok == all; }
   /// The status of most of the cells that are not ok; empty if all are.
   std::string status() const;
-  /// "2 of 6 ok, 4 crashed; not converged in 1 of 6", for matchers "not converged on 12 scans"; empty if all cells are
-  /// ok and converged.
+  /// "2 of 6 ok, 4 crashed; not converged in 1 of 6; no match on 3 scans, not settled on 12"; empty if all cells are ok
+  /// and nothing of this happened. An open motion is an answer, and is not named.
   std::string text() const;
 };
 

@@ -118,13 +118,15 @@ std::optional<Table> remarks(const std::vector<CellLine>& cells) {
   std::vector<Remark> rows = remarks_of(cells, true);
   if (rows.size() > kMostRemarks) rows = remarks_of(cells, false);
   if (rows.empty()) return std::nullopt;
-  Table table{"remarks",
-              "Remarks on cells that are ok",
-              "An aligner or matcher in this table has not converged on that many scans or recordings; its result is "
-              "its last estimate. Where the remarks of a row differ in their details, the first is shown.",
-              {"scenario", "pipeline", "remark"},
-              {{"", "cells", false}},
-              {}};
+  Table table{
+      "remarks",
+      "Remarks on cells that are ok",
+      "Numbers of scans (of recordings, for an aligner) whose status is not converged. max_iterations: the pose "
+      "is the last estimate. degenerate: the scans leave a motion open, and the pose along it is that of the "
+      "guess. no_match: the pose is the guess. Where the remarks of a row differ in their details, the first is shown.",
+      {"scenario", "pipeline", "remark"},
+      {{"", "cells", false}},
+      {}};
   if (rows.size() > kLargestList) {
     std::size_t left_out = 0;
     for (std::size_t k = kLargestList; k < rows.size(); ++k) left_out += rows[k].cells;

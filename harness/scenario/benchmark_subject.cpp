@@ -86,12 +86,15 @@ BenchmarkSubject matchers() {
                    "the same for the heading"},
                   {"pose_error_position", "position [mm]", 1000, 2, true, lower_is_better,
                    "root mean square error of the matched position"},
+                  {"pose_error_position_max", "largest [mm]", 1000, 1, false, lower_is_better,
+                   "largest error of a matched position; a wrong match shows here, where a geometric mean hides it"},
                   {"pose_error_heading", "heading [°]", 1, 3, true, lower_is_better,
                    "root mean square error of the matched heading"},
                   {"pose_nees", "NEES", 1, 2, true, target,
                    "mean normalised squared error; 3 is honest, more is overconfident", 3.0},
                   {"pose_unmatched", "unmatched [%]", 100, 2, false, lower_is_better,
-                   "share of the pairs that determine a pose for which the matcher gives none"},
+                   "share of the pairs that determine a pose for which the matcher has no match or says that a motion "
+                   "is open"},
                   {"ate_position", "ATE [cm]", 100, 2, true, lower_is_better,
                    "root mean square distance of the chained positions from the true ones, after planar alignment"},
                   {"ate_heading", "ATE [°]", 1, 2, true, lower_is_better, "the same for the headings"},
@@ -118,9 +121,9 @@ BenchmarkSubject matchers() {
       {"The seeds change the noise and the guesses, not the worlds: intervals and tests show that a difference "
        "would recur on these worlds, not that it would on others. \"Best in\" shows how much it depends on the "
        "condition.",
-       "Pairs for which a matcher gives no pose are in its share of unmatched pairs and in no error: a matcher "
-       "that "
-       "answers only easy pairs has smaller errors than one that always answers.",
+       "Unmatched pairs are in no error: a matcher that answers only easy pairs has smaller errors than one that "
+       "always "
+       "answers.",
        "The bound is that of a matcher with known assignments of beams to walls. Ends of walls are not in it, so "
        "that a ratio below 1 is possible.",
        "Noise is Gaussian, equal at all ranges, and known to the matchers; there are no mixed pixels or moving "

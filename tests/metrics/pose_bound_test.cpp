@@ -109,6 +109,16 @@ TEST(PoseEfficiency, ComparesErrorsWithTheBoundAndWithTheCovariance) {
   EXPECT_EQ(row(rows, "pose_unobservable").value, 0.0);
 }
 
+TEST(PoseEfficiency, NamesTheLargestErrorThatAMeanOverManyPairsHides) {
+  MadeUpRun run = seen_from(room(), {{}, {0.1, 0, 0}, {0.2, 0, 0}, {0.3, 0, 0}});
+  run.result.matches = {{1, 0, {Status::converged, {0.1, 0.001, 0}, Eigen::Matrix3d::Identity()}},
+                        {2, 1, {Status::converged, {0.4, -0.4, 0}, Eigen::Matrix3d::Identity()}},
+                        {3, 2, {Status::no_match, {9, 9, 0}, Eigen::Matrix3d::Zero()}}};
+  const auto rows = evaluate("pose_efficiency", run);
+  EXPECT_NEAR(row(rows, "pose_error_position_max").value, 0.5, 1e-12);  // 3-4-5
+  EXPECT_EQ(row(rows, "pose_error_position_max").count, 2);
+}
+
 TEST(PoseEfficiency, CountsAMuteMatchAsUnmatchedAndNotAsAnError) {
   MadeUpRun run = seen_from(room(), {{}, {0.1, 0, 0}, {0.2, 0, 0}});
   run.result.matches = {{1, 0, {Status::converged, {0.1, 0, 0}, Eigen::Matrix3d::Identity()}},

@@ -202,16 +202,17 @@ TEST(ResultTables, SayWhichAlignersHaveNotConverged) {
     EXPECT_THAT(text, HasSubstr("align: 1 max_iterations"));
 }
 
-TEST(ResultTables, SayOnHowManyScansAMatcherHasNotConverged) {
+TEST(ResultTables, SayOnHowManyScansAMatcherOrMapperHasNoMatchOrHasNotSettled) {
   const Scenario scenario = scenario_of({"a", "b", "c"}, {"segments"});
-  const std::vector<CellLine> cells{cell("a", 1, "ok", "match: 24 max_iterations, 57 degenerate; map: 3 no_match"),
-                                    cell("b", 1, "ok", "match: 1 no_match"), cell("c", 1, "ok")};
+  const std::vector<CellLine> cells{
+      cell("a", 1, "ok", "match: 24 max_iterations, 57 degenerate; map: 3 no_match (first in frame 0: no lines)"),
+      cell("b", 1, "ok", "match: 1 no_match"), cell("c", 1, "ok", "match: 400 degenerate")};
   const ComparableRows results =
       comparable_rows(scenario, {row("a", "f1", 0.5), row("b", "f1", 0.4), row("c", "f1", 0.3)}, cells);
   const std::vector<Table> tables = result_tables(scenario, results);
-  EXPECT_EQ(tables.at(0).rows[0].heads.front(), "a (not converged on 81 scans)");
-  EXPECT_EQ(tables.at(0).rows[1].heads.front(), "b (not converged on 1 scan)");
-  EXPECT_EQ(tables.at(0).rows[2].heads.front(), "c");
+  EXPECT_EQ(tables.at(0).rows[0].heads.front(), "a (no match on 3 scans; not settled on 24 scans)");
+  EXPECT_EQ(tables.at(0).rows[1].heads.front(), "b (no match on 1 scan)");
+  EXPECT_EQ(tables.at(0).rows[2].heads.front(), "c") << "an open motion is an answer";
 }
 
 TEST(ResultTables, GiveRemarksThatDifferInTheirNumbersOneRow) {
