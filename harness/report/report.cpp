@@ -88,8 +88,9 @@ std::string html_overview(const ReportInput& input) {
     auto table = scenario_overview(scenario, input.rows, input.cells);
     if (!table) continue;
     table->id = scenario.name + "-overview";
-    out += fmt::format("<p><a href=\"#{0}\">{0}</a>: {1}</p>\n", html_escaped(scenario.name),
-                       html_escaped(scenario_answer(scenario, input.rows, input.cells, *table)));
+    const std::string answer = scenario_answer(scenario, input.rows, input.cells, *table);
+    out += fmt::format("<p><a href=\"#{0}\">{0}</a>{1}</p>\n", html_escaped(scenario.name),
+                       answer.empty() ? "" : ": " + html_escaped(answer));
     out += "<div class=\"glance\">\n";
     for (const auto& part : parts_of_width(*table, kPageWidth)) out += to_html(part);
     if (const auto ranking = input.rankings.find(scenario.name); ranking != input.rankings.end()) {
@@ -151,9 +152,12 @@ std::string report_html(const ReportInput& input) {
 std::string report_markdown(const ReportInput& input) {
   std::string out = "# " + input.title + "\n\n" + markdown_status(input.cells);
   for (const auto& scenario : input.scenarios)
-    if (const auto table = scenario_overview(scenario, input.rows, input.cells))
-      out += "\n" + markdown_escaped(scenario_answer(scenario, input.rows, input.cells, *table)) + "\n\n" +
-             to_markdown(*table);
+    if (const auto table = scenario_overview(scenario, input.rows, input.cells)) {
+      const std::string answer = scenario_answer(scenario, input.rows, input.cells, *table);
+      if (!answer.empty())
+        out += fmt::format("\n**{}**: {}\n", markdown_escaped(scenario.name), markdown_escaped(answer));
+      out += "\n" + to_markdown(*table);
+    }
   out += markdown_remarks(input.cells);
   for (const auto& scenario : input.scenarios) {
     out += "\n## " + scenario.name + "\n\n" + markdown_escaped(scenario.about) + "\n\n" +
