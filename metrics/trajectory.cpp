@@ -89,6 +89,8 @@ class Trajectory : public MetricFamily {
             {"rpe_path_position", "m", lower_is_better, 0.001,
              "root mean square error of the shift between poses step_m of path apart"},
             {"rpe_path_heading", "deg", lower_is_better, 0.01, "the same of the turn"},
+            {"ate_odometry_position", "m", neither, 0.0, "ate_position of the odometry"},
+            {"ate_odometry_heading", "deg", neither, 0.0, "ate_heading of the odometry"},
             {"rpe_odometry_position", "m", neither, 0.0, "rpe_position of the odometry"},
             {"rpe_odometry_heading", "deg", neither, 0.0, "rpe_heading of the odometry"},
             {"relations_position", "m", lower_is_better, 0.001, "mean deviation of the shift from a log's relations"},
@@ -123,7 +125,12 @@ class Trajectory : public MetricFamily {
       add_relative(rows, "rpe_path", estimated, truth, [&](std::size_t k) {
         return static_cast<std::size_t>(std::ranges::lower_bound(path, path[k] + params_.step_m) - path.begin());
       });
-      if (comparable) add_relative(rows, "rpe_odometry", odometry, truth, frames_ahead);
+      if (comparable) {
+        const Deviations absolute = absolute_errors(odometry, truth);
+        rows.add("ate_odometry_position", kAll, absolute.shift.squares.root(), absolute.shift.squares.count());
+        rows.add("ate_odometry_heading", kAll, absolute.turn.squares.root(), absolute.turn.squares.count());
+        add_relative(rows, "rpe_odometry", odometry, truth, frames_ahead);
+      }
     }
     if (input.reference == nullptr || input.reference->relations.empty()) return rows.take();
     const Deviations of_estimate = deviations(input.reference->relations, estimated);
@@ -141,10 +148,15 @@ class Trajectory : public MetricFamily {
   }
 
  private:
-  void add_absolute(Rows& rows, const std::vector<Pose2>& estimated, const std::vector<Pose2>& truth) const {
+  Deviations absolute_errors(const std::vector<Pose2>& estimated, const std::vector<Pose2>& truth) const {
     const Pose2 aligned_from_estimated = align_trajectories(estimated, truth, params_.lever_m);
     Deviations errors;
     for (std::size_t k = 0; k < truth.size(); ++k) errors.add(aligned_from_estimated * estimated[k], truth[k]);
+    return errors;
+  }
+
+  void add_absolute(Rows& rows, const std::vector<Pose2>& estimated, const std::vector<Pose2>& truth) const {
+    const Deviations errors = absolute_errors(estimated, truth);
     for (const auto& [name, sizes] :
          {std::pair("ate_position", &errors.shift), std::pair("ate_heading", &errors.turn)}) {
       rows.add(name, kAll, sizes->squares.root(), sizes->squares.count());

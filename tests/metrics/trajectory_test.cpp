@@ -90,6 +90,10 @@ TEST(Trajectory, OfALogIsComparedWithItsReferencePosesBesideTheOdometry) {
   EXPECT_NEAR(row(rows, "rpe_position").value, 0.0, 1e-12);
   EXPECT_NEAR(row(rows, "rpe_odometry_position").value, 0.05, 1e-12);
   EXPECT_NEAR(row(rows, "rpe_odometry_heading").value, 0.0, 1e-12);
+  // Errors of 5 cm times (k - mean of k): the variance of n numbers in a row is (n^2 - 1) / 12.
+  const auto n = static_cast<double>(run.observed.frames.size());
+  EXPECT_NEAR(row(rows, "ate_odometry_position").value, 0.05 * std::sqrt((n * n - 1) / 12), 1e-9);
+  EXPECT_NEAR(row(rows, "ate_odometry_heading").value, 0.0, 1e-9);
 }
 
 TEST(Trajectory, RelationsGiveTheMeanAndMeanSquareOfTheDeviations) {
