@@ -179,7 +179,6 @@ class Trajectory : public MetricFamily {
     rows.add(prefix + "_heading", kAll, errors.turn.squares.root(), errors.turn.squares.count());
   }
 
- private:
   Params params_;
 };
 

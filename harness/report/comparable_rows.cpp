@@ -158,9 +158,10 @@ ComparableRows comparable_rows(const Scenario& scenario, const std::vector<Summa
   for (const auto& cell : cells) {
     Coverage& coverage = results.coverage[cell.pipeline];
     ++coverage.all;
-    coverage.ok += cell.status == kOk;
-    if (cell.status != kOk) ++coverage.others[cell.status];
-    if (cell.status == kOk) {
+    if (cell.status != kOk) {
+      ++coverage.others[cell.status];
+    } else {
+      ++coverage.ok;
       coverage.unconverged += unconverged(cell) ? 1 : 0;
       coverage.no_match_scans += scans_with("no_match", cell);
       coverage.unsettled_scans += scans_with("max_iterations", cell);
@@ -174,7 +175,7 @@ ComparableRows comparable_rows(const Scenario& scenario, const std::vector<Summa
   if (results.seeds.size() < seeds.size() && !finished.empty()) {
     if (results.seeds.empty()) {
       results.seeds = seeds;
-      results.notes.push_back(
+      results.notes.emplace_back(
           "no seed was finished by all pipelines, so each mean is over the seeds that its pipeline finished");
     } else {
       results.notes.push_back(

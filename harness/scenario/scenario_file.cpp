@@ -137,7 +137,7 @@ class ScenarioReader {
              [&] { sensor = sim::make_sensor(preset, overrides, &effective); });
   }
 
-  void read_trajectory(const YamlNode& node, SimulatedInput& input) {
+  static void read_trajectory(const YamlNode& node, SimulatedInput& input) {
     YamlMap map(node, "trajectory");
     const YamlNode& kind_node =
         map.require("kind", fmt::format("one of {}", fmt::join(module_names("trajectory"), ", ")));
