@@ -1,29 +1,19 @@
 // Reads options about foreign modules.
 #include "app/foreign.hpp"
 
-#include <filesystem>
-#include <system_error>
-
 #include "core/error.hpp"
+#include "harness/files/input_file.hpp"
 #include "harness/foreign/fault.hpp"
 #include "harness/foreign/inspect.hpp"
 
 namespace scanbench::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A path as a scalar of YAML in single quotes.
 std::string quoted(const std::string& path) {
   std::string text;
   for (const char c : path) text += c == '\'' ? std::string("''") : std::string(1, c);
   return "'" + text + "'";
-}
-
-void require_file(const std::string& file) {
-  std::error_code error;
-  if (fs::is_directory(file, error)) throw ConfigError(file + " is a folder; allowed: a shared library");
-  if (!fs::is_regular_file(file, error)) throw ConfigError(file + ": no such file");
 }
 
 }  // namespace
@@ -48,7 +38,7 @@ std::vector<harness::ForeignSource> foreign_sources(const ForeignOptions& option
   std::vector<harness::ForeignSource> sources;
   try {
     for (const std::string& plugin : options.plugins) {
-      require_file(plugin);
+      const harness::InputFile file(plugin);  // refuses what is no regular file
       for (auto& source : harness::inspect_library(plugin)) sources.push_back(std::move(source));
     }
     if (!options.program.empty()) {

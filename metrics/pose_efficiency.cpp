@@ -102,7 +102,7 @@ class PoseEfficiency : public MetricFamily {
     SCANBENCH_ASSERT(applies(input));
     Part position, heading;
     Mean nees, unmatched, unobservable, open_found;
-    double largest_m = 0.0;
+    double largest_m = kUndefined;
     for_each_pair(input, [&](const FrameMatch& pair, const ScoredMatch* scored) {
       const Status status = pair.match.status;
       const bool mute = status == Status::degenerate || status == Status::no_match;
@@ -114,7 +114,7 @@ class PoseEfficiency : public MetricFamily {
       unmatched.add(mute ? 1.0 : 0.0);
       if (mute) return;
       const Eigen::Vector3d& e = scored->error;
-      largest_m = std::max(largest_m, e.head<2>().norm());
+      largest_m = std::fmax(largest_m, e.head<2>().norm());
       position.add(e.head<2>().squaredNorm(), scored->unknown_walls.topLeftCorner<2, 2>().trace(),
                    scored->known_map.topLeftCorner<2, 2>().trace());
       heading.add(e.z() * e.z(), scored->unknown_walls(2, 2), scored->known_map(2, 2));
@@ -137,8 +137,7 @@ class PoseEfficiency : public MetricFamily {
     rows.add("pose_bound_position", kAll, position.unknown_walls.root(), position.unknown_walls.count());
     rows.add("pose_bound_heading", kAll, degrees(heading.unknown_walls.root()), heading.unknown_walls.count());
     rows.add("pose_error_position", kAll, position.squared_error.root(), position.squared_error.count());
-    rows.add("pose_error_position_max", kAll, position.squared_error.count() > 0 ? largest_m : kNaN,
-             position.squared_error.count());
+    rows.add("pose_error_position_max", kAll, largest_m, position.squared_error.count());
     rows.add("pose_error_heading", kAll, degrees(heading.squared_error.root()), heading.squared_error.count());
     MetricRow& row = rows.add("pose_nees", kAll, nees);
     if (row.count > 0) {

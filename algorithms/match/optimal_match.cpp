@@ -40,7 +40,7 @@ constexpr int kMostRounds = 40;
 constexpr int kMostDoubtfulRounds = 6;
 constexpr double kStill = 1e-6;          // a step of a thousandth of the pose's standard deviation, squared
 constexpr double kFewWalls = 1.0 / 3.0;  // of the scan with fewer lines: less in pairs puts a match in doubt
-// Further starts where the first two are in doubt: turns of the guess, in its standard deviations.
+// Further starts where the first three are in doubt: turns of the guess, in its standard deviations.
 constexpr double kTurns[] = {-2.0, 2.0, -4.0, 4.0, -6.0, 6.0};
 // Of the pairs that speak for a position which the guess excludes against one which it allows: along a corridor with
 // doors at equal distances, walls that fit by chance at one door fit together.

@@ -77,31 +77,30 @@ BenchmarkSubject matchers() {
       .time_metric = "t_match",
       .counted = "pairs that determine a pose",
       .count_metric = "pose_unmatched",
-      .columns = {{"pose_efficiency", "MSE / bound", 1, 2, true, lower_is_better,
-                   "geometric mean of the two columns that follow; decides the rank"},
-                  {"pose_efficiency_position", "position / bound", 1, 2, true, lower_is_better,
-                   "mean square error of the position over its Cramér–Rao bound, walls unknown; 1 is the best that the "
-                   "readings of both scans allow"},
-                  {"pose_efficiency_heading", "heading / bound", 1, 2, true, lower_is_better,
-                   "the same for the heading"},
-                  {"pose_error_position", "position [mm]", 1000, 2, true, lower_is_better,
-                   "root mean square error of the matched position"},
-                  {"pose_error_position_max", "largest [mm]", 1000, 1, false, lower_is_better,
-                   "largest error of a matched position; a wrong match shows here, where a geometric mean hides it"},
-                  {"pose_error_heading", "heading [°]", 1, 3, true, lower_is_better,
-                   "root mean square error of the matched heading"},
-                  {"pose_nees", "NEES", 1, 2, true, target,
-                   "mean normalised squared error; 3 is honest, more is overconfident", 3.0},
-                  {"pose_unmatched", "unmatched [%]", 100, 2, false, lower_is_better,
-                   "share of the pairs that determine a pose for which the matcher has no match or says that a motion "
-                   "is open"},
-                  {"ate_position", "ATE [cm]", 100, 2, true, lower_is_better,
-                   "root mean square distance of the chained positions from the true ones, after planar alignment"},
-                  {"ate_heading", "ATE [°]", 1, 2, true, lower_is_better, "the same for the headings"},
-                  {"t_match", "time [µs]", 1, 1, true, lower_is_better,
-                   "median CPU time of a match, lines not included"},
-                  {"t_ratio", "time ratio", 1, 2, true, lower_is_better,
-                   "that time over the baseline's in the same condition and seed"}},
+      .columns =
+          {{"pose_efficiency", "MSE / bound", 1, 2, true, lower_is_better,
+            "geometric mean of the two columns that follow; decides the rank"},
+           {"pose_efficiency_position", "position / bound", 1, 2, true, lower_is_better,
+            "mean square error of the position over its Cramér–Rao bound, walls unknown; 1 is the best that the "
+            "readings of both scans allow"},
+           {"pose_efficiency_heading", "heading / bound", 1, 2, true, lower_is_better, "the same for the heading"},
+           {"pose_error_position", "position [mm]", 1000, 2, true, lower_is_better,
+            "root mean square error of the matched position"},
+           {"pose_error_position_max", "largest [mm]", 1000, 1, false, lower_is_better,
+            "largest error of a matched position in a condition; shows wrong matches, which a geometric mean hides"},
+           {"pose_error_heading", "heading [°]", 1, 3, true, lower_is_better,
+            "root mean square error of the matched heading"},
+           {"pose_nees", "NEES", 1, 2, true, target,
+            "mean normalised squared error; 3 is honest, more is overconfident", 3.0},
+           {"pose_unmatched", "unmatched [%]", 100, 2, false, lower_is_better,
+            "share of the pairs that determine a pose for which the matcher has no match or says that a motion "
+            "is open"},
+           {"ate_position", "ATE [cm]", 100, 2, true, lower_is_better,
+            "root mean square distance of the chained positions from the true ones, after planar alignment"},
+           {"ate_heading", "ATE [°]", 1, 2, true, lower_is_better, "the same for the headings"},
+           {"t_match", "time [µs]", 1, 1, true, lower_is_better, "median CPU time of a match, lines not included"},
+           {"t_ratio", "time ratio", 1, 2, true, lower_is_better,
+            "that time over the baseline's in the same condition and seed"}},
       .required = {{"pose_efficiency", "errors"}, {"trajectory", ""}, {"timing", ""}},
       .fair = {"pose_unmatched", 0.05,
                "* marks the best value, among matchers whose share of unmatched pairs is within 5 points of the "
@@ -122,8 +121,7 @@ BenchmarkSubject matchers() {
        "would recur on these worlds, not that it would on others. \"Best in\" shows how much it depends on the "
        "condition.",
        "Unmatched pairs are in no error: a matcher that answers only easy pairs has smaller errors than one that "
-       "always "
-       "answers.",
+       "always answers.",
        "The bound is that of a matcher with known assignments of beams to walls. Ends of walls are not in it, so "
        "that a ratio below 1 is possible.",
        "Noise is Gaussian, equal at all ranges, and known to the matchers; there are no mixed pixels or moving "

@@ -50,9 +50,8 @@ std::optional<fs::path> file_of(const YamlNode& node, const std::string& word, c
 [[noreturn]] void refuse_file(const YamlNode& node, const std::string& word, const fs::path& file,
                               const std::string& advice = "") {
   std::error_code error;
-  const fs::file_status status = fs::status(path_of(node, word, file), error);
-  if (fs::is_directory(status)) throw PlacedError(node.mark, word + " is a folder; allowed: a file");
-  if (fs::exists(status)) throw PlacedError(node.mark, word + " is not a regular file");
+  if (fs::exists(path_of(node, word, file), error))
+    throw PlacedError(node.mark, word + ": not a regular file; allowed: a file on disk");
   throw PlacedError(node.mark, "no such file: " + word + advice);
 }
 

@@ -25,8 +25,8 @@
 namespace scanbench::harness {
 namespace {
 
-constexpr double kUnknownSigmaM =
-    0.01;  // of the readings of a log whose sensor is not stated; most scanners have 1 to 3 cm
+/// Error of the readings of a log whose scenario states no sensor; most scanners have 1 to 3 cm.
+constexpr double kUnknownSigmaM = 0.01;
 
 class ScenarioReader {
  public:

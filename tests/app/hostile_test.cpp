@@ -222,7 +222,7 @@ TEST_F(Plugins, ThatAreProgramsAndCannotDescribeThemselvesAreRefusedBeforeTheRun
   };
   EXPECT_THAT(refusal("[/bin/false]"), HasSubstr("ended with exit code 1 without answering"));
   EXPECT_THAT(refusal("[./nowhere]"), HasSubstr("no such file: ./nowhere"));
-  EXPECT_THAT(refusal("[/tmp]"), HasSubstr("/tmp is a folder; allowed: a file"));
+  EXPECT_THAT(refusal("[/tmp]"), HasSubstr("/tmp: not a regular file; allowed: a file on disk"));
   EXPECT_THAT(refusal("[no-such-program]"), HasSubstr("cannot be started: no-such-program: No such file"));
   const auto script = folder_.write("script", "#!/no/such/python -u\n");
   fs::permissions(script, fs::perms::owner_all);
