@@ -1,6 +1,6 @@
 // Registries of named modules. A file that defines a module registers it with one line:
 //
-//   const bool registered = Registry<LineExtractor>::add<Iepf>({.name = "iepf", .summary = "...", .reference = "..."});
+//   SCANBENCH_REGISTER(LineExtractor, Iepf, {.name = "iepf", .summary = "...", .reference = "..."});
 //
 // Impl has a nested `Params` (core/params.hpp) and a constructor from it.
 #pragma once
@@ -30,8 +30,8 @@ class Registry {
     std::function<std::unique_ptr<Interface>(const ParamSet&)> make;
   };
 
-  /// Returns true, so that a file can register its module by initialising a constant. Throws InternalError for a name
-  /// that is already registered.
+  /// Returns true, so that SCANBENCH_REGISTER can initialise a constant with it. Throws InternalError for a name that
+  /// is already registered.
   template <class Impl>
   static bool add(ModuleInfo info) {
     using Params = typename Impl::Params;
@@ -79,3 +79,12 @@ class Registry {
 };
 
 }  // namespace scanbench
+
+#define SCANBENCH_REGISTER_JOIN(name, number) name##number
+#define SCANBENCH_REGISTER_NAME(number) SCANBENCH_REGISTER_JOIN(registered_, number)
+
+/// Registers Impl as a module of the interface before main() begins; the third argument is its ModuleInfo. Each use
+/// defines a constant with a name of its own, so that several files can be compiled as one.
+#define SCANBENCH_REGISTER(Interface, Impl, ...)                     \
+  [[maybe_unused]] const bool SCANBENCH_REGISTER_NAME(__COUNTER__) = \
+      scanbench::Registry<Interface>::add<Impl>(__VA_ARGS__)

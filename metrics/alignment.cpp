@@ -47,7 +47,7 @@ Pose2 common_motion(std::span<const Pose2> estimated, std::span<const Pose2> tru
 }
 
 /// Squared errors of some scans and their bounds.
-struct Efficiency {
+struct JointEfficiency {
   Mean squared_error, bound;
   double ratio() const { return metrics::ratio(squared_error.value(), bound.value()); }
 };
@@ -150,7 +150,7 @@ class AlignmentErrors : public MetricFamily {
     const std::vector<Pose2>& truth = input.truth->world_from_sensor;
     const auto bound = joint_pose_bound(input, params_.max_sigma_m, params_.lever_m);
     const std::size_t determined = bound ? bound->scans.size() : 0;
-    Efficiency position, heading;
+    JointEfficiency position, heading;
     if (bound) {
       std::vector<Pose2> chosen, chosen_truth;
       for (const std::size_t scan : bound->scans) {
@@ -178,7 +178,8 @@ class AlignmentErrors : public MetricFamily {
   Params params_;
 };
 
-[[maybe_unused]] const bool registered = Registry<MetricFamily>::add<AlignmentErrors>(
+SCANBENCH_REGISTER(
+    MetricFamily, AlignmentErrors,
     {.name = "alignment",
      .summary = "errors of the poses of all scans against the truth, without the motion that is common to all",
      .reference =

@@ -181,10 +181,10 @@ class Borges2000 : public MetricFamily {
   Params params_;
 };
 
-const bool registered = Registry<MetricFamily>::add<Borges2000>(
-    {.name = "borges2000",
-     .summary = "per wall: lines that it is broken into, share of valid lines, errors in rho and alpha",
-     .reference = "Borges & Aldon 2000, section 4"});
+SCANBENCH_REGISTER(MetricFamily, Borges2000,
+                   {.name = "borges2000",
+                    .summary = "per wall: lines that it is broken into, share of valid lines, errors in rho and alpha",
+                    .reference = "Borges & Aldon 2000, section 4"});
 
 }  // namespace
 }  // namespace scanbench::metrics

@@ -175,7 +175,8 @@ class Efficiency : public MetricFamily {
   Params params_;
 };
 
-const bool registered = Registry<MetricFamily>::add<Efficiency>(
+SCANBENCH_REGISTER(
+    MetricFamily, Efficiency,
     {.name = "efficiency",
      .summary = "errors of lines against the Cramer-Rao bound of their beams, and whether their covariances are honest",
      .reference = "Cramer-Rao inequality; Bar-Shalom et al. 2001, section 5.4"});

@@ -58,7 +58,8 @@ class MapGrowth : public MetricFamily {
   }
 };
 
-const bool registered = Registry<MetricFamily>::add<MapGrowth>(
+SCANBENCH_REGISTER(
+    MetricFamily, MapGrowth,
     {.name = "map_growth",
      .summary = "lines, end points and CPU time per scan of a map that is made scan by scan; needs no truth",
      .reference = "Lakaemper, Latecki & Wolter 2005, section 1"});

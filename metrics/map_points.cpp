@@ -113,7 +113,8 @@ class MapPoints : public MetricFamily {
   Params params_;
 };
 
-const bool registered = Registry<MetricFamily>::add<MapPoints>(
+SCANBENCH_REGISTER(
+    MetricFamily, MapPoints,
     {.name = "map_points",
      .summary = "distance of the scan points to the scans' lines and to the map, compression; needs no truth",
      .reference = "Lakaemper 2009, section V.A"});

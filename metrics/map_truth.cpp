@@ -235,7 +235,8 @@ class MapTruth : public MetricFamily {
   Params params_;
 };
 
-const bool registered = Registry<MetricFamily>::add<MapTruth>(
+SCANBENCH_REGISTER(
+    MetricFamily, MapTruth,
     {.name = "map_truth",
      .summary = "a map against the true walls: coverage, false length, repeats, fragments, over-merging, errors",
      .reference = "this project"});

@@ -31,7 +31,7 @@ struct ScoredMatch {
 };
 
 /// Squared errors and bounds over matches.
-struct Part {
+struct PosePart {
   Mean squared_error, fourth_power, unknown_walls, known_map;
   void add(double square, double unknown, double known) {
     squared_error.add(square);
@@ -100,7 +100,7 @@ class PoseEfficiency : public MetricFamily {
 
   std::vector<MetricRow> evaluate(const MetricInput& input) const override {
     SCANBENCH_ASSERT(applies(input));
-    Part position, heading;
+    PosePart position, heading;
     Mean nees, unmatched, unobservable, open_found;
     double largest_m = kUndefined;
     for_each_pair(input, [&](const FrameMatch& pair, const ScoredMatch* scored) {
@@ -192,7 +192,8 @@ class PoseEfficiency : public MetricFamily {
   Params params_;
 };
 
-const bool registered = Registry<MetricFamily>::add<PoseEfficiency>(
+SCANBENCH_REGISTER(
+    MetricFamily, PoseEfficiency,
     {.name = "pose_efficiency",
      .summary = "errors of matched poses against their Cramer-Rao bounds, and honesty of their covariances",
      .reference = "Censi 2007, On achievable accuracy for range-finder localization, ICRA; Bar-Shalom et al. 2001"});

@@ -145,10 +145,10 @@ class Segments : public MetricFamily {
   Params params_;
 };
 
-const bool registered = Registry<MetricFamily>::add<Segments>(
-    {.name = "segments",
-     .summary = "found lines against true ones per scan: precision, recall, splits, merges, errors",
-     .reference = "after Hoover et al. 1996, section 4"});
+SCANBENCH_REGISTER(MetricFamily, Segments,
+                   {.name = "segments",
+                    .summary = "found lines against true ones per scan: precision, recall, splits, merges, errors",
+                    .reference = "after Hoover et al. 1996, section 4"});
 
 }  // namespace
 }  // namespace scanbench::metrics

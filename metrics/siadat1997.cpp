@@ -51,17 +51,17 @@ std::vector<GroupResidual> group_residuals(const Scan& scan, const ScanLines& fo
 
 /// The three parts into which the paper divides the time. Extractors name their stages more finely; each stage is in
 /// one part, so that the three add up to the time of the extractor.
-enum class Part { before, segmentation, after };
+enum class TimePart { before, segmentation, after };
 
-Part part_of(const std::optional<Stage>& stage) {
-  if (stage == Stage::pre) return Part::before;
-  if (!stage || stage == Stage::segment || stage == Stage::search) return Part::segmentation;
-  return Part::after;  // fits, merges, and what is dropped
+TimePart part_of(const std::optional<Stage>& stage) {
+  if (stage == Stage::pre) return TimePart::before;
+  if (!stage || stage == Stage::segment || stage == Stage::search) return TimePart::segmentation;
+  return TimePart::after;  // fits, merges, and what is dropped
 }
 
 /// Mean over the frames of the CPU time spent in a part, or in all of them, in ms. A run that was timed but never
 /// entered a part spent 0 there (LT has no fit after its grouping); one that was not timed has no rows at all.
-Mean time_of(const std::vector<StageTime>& times, std::optional<Part> part) {
+Mean time_of(const std::vector<StageTime>& times, std::optional<TimePart> part) {
   std::map<int, double> per_frame;
   for (const StageTime& t : times)
     if (t.frame >= 0 && t.of_extraction()) per_frame[t.frame] += !part || part_of(t.stage) == *part ? t.seconds : 0.0;
@@ -135,9 +135,9 @@ class Siadat1997 : public MetricFamily {
     rows.add("d_max", kAll, d_max);
     rows.add("d_mean_pts", kAll, d_mean_pts);
     rows.add("d_max_scan", kAll, d_max_scan);
-    rows.add("t_pre", kAll, time_of(input.result.times, Part::before));
-    rows.add("t_seg", kAll, time_of(input.result.times, Part::segmentation));
-    rows.add("t_post", kAll, time_of(input.result.times, Part::after));
+    rows.add("t_pre", kAll, time_of(input.result.times, TimePart::before));
+    rows.add("t_seg", kAll, time_of(input.result.times, TimePart::segmentation));
+    rows.add("t_post", kAll, time_of(input.result.times, TimePart::after));
     rows.add("t_total", kAll, time_of(input.result.times, std::nullopt));
     const double ranges_bytes = kRangeBytes * input.observed.sensor.geometry.beams();
     const double polygon_bytes = static_cast<double>(sizeof(PolygonSegment)) * segments.value();
@@ -147,10 +147,10 @@ class Siadat1997 : public MetricFamily {
   }
 };
 
-const bool registered = Registry<MetricFamily>::add<Siadat1997>(
-    {.name = "siadat1997",
-     .summary = "segments per scan, residuals of the points, times of the stages; needs no truth",
-     .reference = "Siadat et al. 1997, tables 1-3"});
+SCANBENCH_REGISTER(MetricFamily, Siadat1997,
+                   {.name = "siadat1997",
+                    .summary = "segments per scan, residuals of the points, times of the stages; needs no truth",
+                    .reference = "Siadat et al. 1997, tables 1-3"});
 
 }  // namespace
 }  // namespace scanbench::metrics

@@ -62,10 +62,10 @@ class Timing : public MetricFamily {
   }
 };
 
-const bool registered = Registry<MetricFamily>::add<Timing>(
-    {.name = "timing",
-     .summary = "CPU time of extraction and of matching per scan, and of an alignment; needs no truth",
-     .reference = "docs/formats.md, timing.csv"});
+SCANBENCH_REGISTER(MetricFamily, Timing,
+                   {.name = "timing",
+                    .summary = "CPU time of extraction and of matching per scan, and of an alignment; needs no truth",
+                    .reference = "docs/formats.md, timing.csv"});
 
 }  // namespace
 }  // namespace scanbench::metrics

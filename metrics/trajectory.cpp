@@ -182,7 +182,8 @@ class Trajectory : public MetricFamily {
   Params params_;
 };
 
-const bool registered = Registry<MetricFamily>::add<Trajectory>(
+SCANBENCH_REGISTER(
+    MetricFamily, Trajectory,
     {.name = "trajectory",
      .summary = "absolute and relative errors of estimated poses, translation and rotation apart",
      .reference =

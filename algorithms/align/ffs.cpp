@@ -33,7 +33,8 @@ class Ffs final : public Aligner {
   align::ffs::Schedule schedule_;
 };
 
-[[maybe_unused]] const bool registered = Registry<Aligner>::add<Ffs>(
+SCANBENCH_REGISTER(
+    Aligner, Ffs,
     {.name = "ffs",
      .summary = "force field simulation: scans as rigid bodies drawn together by soft point correspondences",
      .reference = "Lakaemper 2010, section 3; Lakaemper, Adluru, Latecki & Madhavan 2007"});

@@ -11,32 +11,13 @@
 #include "algorithms/align/parts/joint_step.hpp"
 #include "algorithms/align/parts/outcome.hpp"
 #include "algorithms/align/parts/register_scan.hpp"
+#include "algorithms/align/parts/round_row.hpp"
 #include "core/modules.hpp"
 #include "core/number_text.hpp"
 #include "core/registry.hpp"
 
 namespace scanbench {
 namespace {
-
-/// Trace row of a step of all poses together.
-struct RoundRow {
-  static constexpr std::string_view kName = "round";
-  int round = 0;
-  double gate_m = 0.0;
-  int pairs = 0;
-  double rms_m = 0.0;
-  double largest_shift_m = 0.0;
-  double largest_turn_rad = 0.0;
-  static constexpr auto columns() {
-    using R = RoundRow;
-    return std::tuple{column("round", &R::round),
-                      column("gate_m", &R::gate_m),
-                      column("pairs", &R::pairs),
-                      column("rms_m", &R::rms_m),
-                      column("largest_shift_m", &R::largest_shift_m),
-                      column("largest_turn_rad", &R::largest_turn_rad)};
-  }
-};
 
 constexpr double kClearlyBetter = 1.01;  // of two starts that lead to one map, the chain is taken
 
@@ -92,7 +73,7 @@ class PointToLine final : public Aligner {
   struct Course {
     std::vector<Pose2> poses;
     align::JointStep last{};
-    std::vector<RoundRow> rows{};
+    std::vector<align::RoundRow> rows{};
     bool converged = false;
   };
   void advance(std::span<const align::ScanShape> shapes, double longest_m, int rounds, Course& course) const;
@@ -185,14 +166,15 @@ Alignment PointToLine::align_shapes(std::span<const align::ScanShape> shapes, st
 
   Course course = best_course(shapes, initial, longest, trace);
   advance(shapes, longest, max_rounds_, course);
-  for (const RoundRow& row : course.rows) trace.row(row);
+  for (const align::RoundRow& row : course.rows) trace.row(row);
 
   const align::JointStep& last = course.last;
   const align::Outcome outcome{last.groups, last.lowest_rank < 3, course.converged, max_rounds_, last.largest};
   return align::judged(outcome, initial, course.poses);
 }
 
-[[maybe_unused]] const bool registered = Registry<Aligner>::add<PointToLine>(
+SCANBENCH_REGISTER(
+    Aligner, PointToLine,
     {.name = "point_to_line",
      .summary = "the points of every scan on the lines of all others: point-to-line ICP of all poses together",
      .reference = "Siadat et al. 1997, section 7 (segment-point), with every scan in the place of the map"});

@@ -14,32 +14,13 @@
 #include "algorithms/align/parts/joint_equations.hpp"
 #include "algorithms/align/parts/outcome.hpp"
 #include "algorithms/align/parts/register_scan.hpp"
+#include "algorithms/align/parts/round_row.hpp"
 #include "core/modules.hpp"
 #include "core/number_text.hpp"
 #include "core/registry.hpp"
 
 namespace scanbench {
 namespace {
-
-/// Trace row of one round of pairing and solving.
-struct RoundRow {
-  static constexpr std::string_view kName = "round";
-  int round = 0;
-  double gate_m = 0.0;
-  int pairs = 0;
-  double rms_m = 0.0;
-  double largest_shift_m = 0.0;
-  double largest_turn_rad = 0.0;
-  static constexpr auto columns() {
-    using R = RoundRow;
-    return std::tuple{column("round", &R::round),
-                      column("gate_m", &R::gate_m),
-                      column("pairs", &R::pairs),
-                      column("rms_m", &R::rms_m),
-                      column("largest_shift_m", &R::largest_shift_m),
-                      column("largest_turn_rad", &R::largest_turn_rad)};
-  }
-};
 
 using align::ffs::Body;
 
@@ -195,17 +176,17 @@ Alignment SimultaneousIcp::align(std::span<const Observation> scans, std::span<c
   for (; rounds < params_.max_rounds && !converged; ++rounds) {
     last = solve_round(bodies, levers, gates.at(rounds), min_aligned, poses);
     converged = gates.narrow(rounds) && last.largest.small();
-    trace.row(RoundRow{rounds, gates.at(rounds), last.pairs, std::sqrt(last.squares / std::max(last.pairs, 1)),
-                       last.largest.shift_m, last.largest.turn_rad});
+    trace.row(align::RoundRow{rounds, gates.at(rounds), last.pairs, std::sqrt(last.squares / std::max(last.pairs, 1)),
+                              last.largest.shift_m, last.largest.turn_rad});
   }
   const bool slides = last.lowest_rank < 3 || some_scan_slides(bodies, poses, gates.narrow_m);
   return align::judged({last.groups, slides, converged, rounds, last.largest}, initial, poses);
 }
 
-[[maybe_unused]] const bool registered = Registry<Aligner>::add<SimultaneousIcp>(
-    {.name = "simultaneous_icp",
-     .summary = "all pairs of scans by nearest points (hard correspondences), all poses solved together",
-     .reference = "Lu & Milios 1997; Borrmann et al. 2008"});
+SCANBENCH_REGISTER(Aligner, SimultaneousIcp,
+                   {.name = "simultaneous_icp",
+                    .summary = "all pairs of scans by nearest points (hard correspondences), all poses solved together",
+                    .reference = "Lu & Milios 1997; Borrmann et al. 2008"});
 
 }  // namespace
 }  // namespace scanbench

@@ -86,7 +86,8 @@ class VirtualScans final : public Aligner {
   HypothesisRules rules_;
 };
 
-[[maybe_unused]] const bool registered = Registry<Aligner>::add<VirtualScans>(
+SCANBENCH_REGISTER(
+    Aligner, VirtualScans,
     {.name = "virtual_scans",
      .summary = "force field simulation with hypothetical lines and rectangles of the map as one more, weighted scan",
      .reference = "Lakaemper 2010, sections 4 and 5"});

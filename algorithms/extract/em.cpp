@@ -305,7 +305,8 @@ class Em final : public LineExtractor {
   Params params_;
 };
 
-const bool registered = Registry<LineExtractor>::add<Em>(
+SCANBENCH_REGISTER(
+    LineExtractor, Em,
     {.name = "em",
      .summary = "expectation maximisation over segments with split, deletion and merge; their number need not be known",
      .reference = "In the spirit of Latecki & Lakaemper 2006, ICRA, extended EM"});

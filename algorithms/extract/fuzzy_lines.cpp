@@ -81,7 +81,8 @@ class FuzzyLinesModule final : public LineExtractor {
   SupportRules rules_;
 };
 
-const bool registered = Registry<LineExtractor>::add<FuzzyLinesModule>(
+SCANBENCH_REGISTER(
+    LineExtractor, FuzzyLinesModule,
     {.name = "fuzzy_lines",
      .summary = "fuzzy clustering into a given number of lines",
      .reference = "Borges & Aldon, A split-and-merge segmentation algorithm for line extraction in 2-D range images, "

@@ -155,7 +155,8 @@ class Hough final : public LineExtractor {
   Params params_;
 };
 
-const bool registered = Registry<LineExtractor>::add<Hough>(
+SCANBENCH_REGISTER(
+    LineExtractor, Hough,
     {.name = "hough",
      .summary = "Hough transform: the cell of angle and distance with the most votes becomes a line, repeatedly",
      .reference = "Duda & Hart 1972; Nguyen et al. 2007, Autonomous Robots 23, algorithm HT"});

@@ -83,10 +83,10 @@ class Iepf final : public LineExtractor {
   RangeThreshold threshold_;
 };
 
-const bool registered = Registry<LineExtractor>::add<Iepf>(
-    {.name = "iepf",
-     .summary = "iterative end point fit: splits at the point farthest from the chord",
-     .reference = "Siadat et al. 1997, section 4, fig. 6; Borges & Aldon 2000, section 2.2"});
+SCANBENCH_REGISTER(LineExtractor, Iepf,
+                   {.name = "iepf",
+                    .summary = "iterative end point fit: splits at the point farthest from the chord",
+                    .reference = "Siadat et al. 1997, section 4, fig. 6; Borges & Aldon 2000, section 2.2"});
 
 }  // namespace
 }  // namespace scanbench

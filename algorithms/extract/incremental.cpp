@@ -45,10 +45,10 @@ class Incremental final : public ContourExtractor {
   }
 };
 
-const bool registered = Registry<LineExtractor>::add<Incremental>(
-    {.name = "incremental",
-     .summary = "Incremental: extends a line while the refit with the next point stays straight",
-     .reference = "Nguyen et al. 2007, Autonomous Robots 23, algorithm Incremental"});
+SCANBENCH_REGISTER(LineExtractor, Incremental,
+                   {.name = "incremental",
+                    .summary = "Incremental: extends a line while the refit with the next point stays straight",
+                    .reference = "Nguyen et al. 2007, Autonomous Robots 23, algorithm Incremental"});
 
 }  // namespace
 }  // namespace scanbench

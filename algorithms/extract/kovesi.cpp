@@ -58,7 +58,8 @@ class Kovesi final : public LineExtractor {
   AdaptiveBreakpoint breakpoint_;
 };
 
-const bool registered = Registry<LineExtractor>::add<Kovesi>(
+SCANBENCH_REGISTER(
+    LineExtractor, Kovesi,
     {.name = "kovesi",
      .summary = "Kovesi's lineseg: the longest straight piece from each break, refitted by least squares",
      .reference = "P. Kovesi, lineseg and maxlinedev; as the segments of Lakaemper 2009, section V"});

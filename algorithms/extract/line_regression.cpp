@@ -109,7 +109,8 @@ class LineRegression final : public ContourExtractor {
   double sigmas_;
 };
 
-const bool registered = Registry<LineExtractor>::add<LineRegression>(
+SCANBENCH_REGISTER(
+    LineExtractor, LineRegression,
     {.name = "line_regression",
      .summary = "line regression: breaks where the lines of adjacent windows disagree beyond their uncertainty",
      .reference = "Arras & Siegwart 1997, section 2; Nguyen et al. 2007, Autonomous Robots 23, algorithm "

@@ -127,10 +127,10 @@ class LineTracking final : public LineExtractor {
   RangeThreshold threshold_;
 };
 
-const bool registered = Registry<LineExtractor>::add<LineTracking>(
-    {.name = "line_tracking",
-     .summary = "line tracking: extends a least-squares line until a point is too far from it",
-     .reference = "Siadat et al. 1997, section 4, fig. 5; Borges & Aldon 2000, section 2.1"});
+SCANBENCH_REGISTER(LineExtractor, LineTracking,
+                   {.name = "line_tracking",
+                    .summary = "line tracking: extends a least-squares line until a point is too far from it",
+                    .reference = "Siadat et al. 1997, section 4, fig. 5; Borges & Aldon 2000, section 2.1"});
 
 }  // namespace
 }  // namespace scanbench

@@ -19,10 +19,10 @@ namespace scanbench::extract {
 namespace {
 
 /// The length of the description that was found.
-struct DescriptionRow {
+struct OptimalDescriptionRow {
   static constexpr std::string_view kName = "optimal_description_nats";
   double length_nats = 0.0;
-  static constexpr auto columns() { return std::tuple{column("length_nats", &DescriptionRow::length_nats)}; }
+  static constexpr auto columns() { return std::tuple{column("length_nats", &OptimalDescriptionRow::length_nats)}; }
 };
 
 // The share of lines that are two walls nearly on one line, before the scan is seen, and the number of lines that this
@@ -40,9 +40,9 @@ struct Line {
 };
 
 // The extraction of one scan: its returns, the lines found so far, and the walls that they imply for each return.
-class Extraction {
+class OptimalExtraction {
  public:
-  Extraction(const Scan& scan, const SensorNoise& noise, int max_lines)
+  OptimalExtraction(const Scan& scan, const SensorNoise& noise, int max_lines)
       : scan_(scan), noise_(noise), max_lines_(max_lines), model_(scan, noise) {
     readings_.reserve(model_.size());
     for (std::size_t i = 0; i < model_.size(); ++i) readings_.push_back({model_.direction(i), model_.ranges()[i]});
@@ -63,7 +63,7 @@ class Extraction {
     place_corners();
     average_over_ends();
     average_over_breaks();
-    trace.row(DescriptionRow{cost_});
+    trace.row(OptimalDescriptionRow{cost_});
     return result(rules);
   }
 
@@ -301,7 +301,7 @@ class Optimal final : public LineExtractor {
       noise.sigma_m = sigma_m_;
       noise.sigma_relative = 0.0;
     }
-    return Extraction(scan, noise, max_lines_).run(rules_, trace);
+    return OptimalExtraction(scan, noise, max_lines_).run(rules_, trace);
   }
 
  private:
@@ -310,7 +310,8 @@ class Optimal final : public LineExtractor {
   SupportRules rules_;
 };
 
-const bool registered = Registry<LineExtractor>::add<Optimal>(
+SCANBENCH_REGISTER(
+    LineExtractor, Optimal,
     {.name = "optimal",
      .summary =
          "shortest description of the scan under the sensor's noise model: dynamic programme and maximum likelihood",

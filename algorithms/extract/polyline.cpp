@@ -22,15 +22,15 @@ namespace scanbench::extract {
 namespace {
 
 /// The length of the shortest description that was found.
-struct DescriptionRow {
+struct PolylineDescriptionRow {
   static constexpr std::string_view kName = "polyline_description_nats";
   double length_nats = 0.0;
-  static constexpr auto columns() { return std::tuple{column("length_nats", &DescriptionRow::length_nats)}; }
+  static constexpr auto columns() { return std::tuple{column("length_nats", &PolylineDescriptionRow::length_nats)}; }
 };
 
-constexpr double kProhibitive = 1e6;  // [nats] for a return that must not be clutter
-constexpr int kMostVertices = 64;     // limit if the description length determines their number
-constexpr int kMostPlaces = 400;      // limit of points that may have a vertex in the search
+constexpr double kNeverClutter = 1e6;  // [nats] for a return that must not be clutter
+constexpr int kMostVertices = 64;      // limit if the description length determines their number
+constexpr int kMostPlaces = 400;       // limit of points that may have a vertex in the search
 constexpr int kSearches = 2;
 constexpr int kClosedSearches = 4;  // from different vertices of the best chain so far
 
@@ -41,9 +41,9 @@ struct FittedChain {
   double cost = 0.0;  ///< code length of its returns, apart from missing beams
 };
 
-class Extraction {
+class PolylineExtraction {
  public:
-  Extraction(const Scan& scan, const SensorNoise& noise, int vertices, bool clutter)
+  PolylineExtraction(const Scan& scan, const SensorNoise& noise, int vertices, bool clutter)
       : scan_(scan), noise_(noise), vertices_(vertices), clutter_(clutter), model_(scan, noise) {}
 
   ScanLines run(SupportRules rules, Trace& trace) {
@@ -52,7 +52,7 @@ class Extraction {
     points_ = model_.segmentation_points({});
     for (SegmentationPoint& p : points_) {
       p.direction.y() *= mirror_;
-      if (!clutter_) p.clutter_cost = kProhibitive;
+      if (!clutter_) p.clutter_cost = kNeverClutter;
     }
     for (std::size_t i = 0; i < model_.size(); ++i)
       readings_.push_back({mirror_ * scan_.sensor.geometry.angle(model_.points().beams[i]), model_.ranges()[i],
@@ -62,7 +62,7 @@ class Extraction {
     vertex_cost_ = vertices_ > 0 ? 0.0 : 2.0 * model_.place_cost();
     search_open();
     search_closed();
-    trace.row(DescriptionRow{cost_});
+    trace.row(PolylineDescriptionRow{cost_});
     return result(rules);
   }
 
@@ -298,7 +298,7 @@ class Polyline final : public LineExtractor {
       : vertices_(p.vertices), clutter_(p.clutter), rules_{p.min_points, p.min_length_m} {}
 
   ScanLines extract(const Scan& scan, Trace& trace) const override {
-    return Extraction(scan, scan.sensor.noise, vertices_, clutter_).run(rules_, trace);
+    return PolylineExtraction(scan, scan.sensor.noise, vertices_, clutter_).run(rules_, trace);
   }
 
  private:
@@ -307,7 +307,8 @@ class Polyline final : public LineExtractor {
   SupportRules rules_;
 };
 
-const bool registered = Registry<LineExtractor>::add<Polyline>(
+SCANBENCH_REGISTER(
+    LineExtractor, Polyline,
     {.name = "polyline",
      .summary = "walls that share vertices: dynamic programme, then all vertices by maximum likelihood together",
      .reference = "docs/algorithms/polyline.md; objective after Schaefer, Buescher, Luft & Burgard 2018"});

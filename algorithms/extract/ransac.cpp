@@ -96,10 +96,10 @@ class Ransac final : public LineExtractor {
   Params params_;
 };
 
-const bool registered = Registry<LineExtractor>::add<Ransac>(
-    {.name = "ransac",
-     .summary = "RANSAC: the line through a random pair of points with the largest support, repeatedly",
-     .reference = "Fischler & Bolles 1981; Nguyen et al. 2007, Autonomous Robots 23, algorithm RANSAC"});
+SCANBENCH_REGISTER(LineExtractor, Ransac,
+                   {.name = "ransac",
+                    .summary = "RANSAC: the line through a random pair of points with the largest support, repeatedly",
+                    .reference = "Fischler & Bolles 1981; Nguyen et al. 2007, Autonomous Robots 23, algorithm RANSAC"});
 
 }  // namespace
 }  // namespace scanbench

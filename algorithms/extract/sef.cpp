@@ -134,11 +134,11 @@ class Sef final : public LineExtractor {
   double cot_beta_min_ = 0.0;
 };
 
-const bool registered =
-    Registry<LineExtractor>::add<Sef>({.name = "sef",
-                                       .summary = "successive edge following: breaks where neighbouring ranges jump",
-                                       .reference = "Siadat et al. 1997, section 4, fig. 4; the variant on points: "
-                                                    "Borges & Aldon 2000, section 2.1"});
+SCANBENCH_REGISTER(LineExtractor, Sef,
+                   {.name = "sef",
+                    .summary = "successive edge following: breaks where neighbouring ranges jump",
+                    .reference = "Siadat et al. 1997, section 4, fig. 4; the variant on points: "
+                                 "Borges & Aldon 2000, section 2.1"});
 
 }  // namespace
 }  // namespace scanbench

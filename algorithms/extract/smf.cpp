@@ -75,7 +75,8 @@ class Smf final : public LineExtractor {
   SupportRules rules_;
 };
 
-const bool registered = Registry<LineExtractor>::add<Smf>(
+SCANBENCH_REGISTER(
+    LineExtractor, Smf,
     {.name = "smf",
      .summary = "split and merge with fuzzy clustering into two lines (SMF)",
      .reference = "Borges & Aldon, A split-and-merge segmentation algorithm for line extraction in 2-D range images, "

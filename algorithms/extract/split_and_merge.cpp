@@ -39,7 +39,8 @@ class SplitAndMerge final : public ContourExtractor {
   }
 };
 
-const bool registered = Registry<LineExtractor>::add<SplitAndMerge>(
+SCANBENCH_REGISTER(
+    LineExtractor, SplitAndMerge,
     {.name = "split_and_merge",
      .summary = "split-and-merge: splits contours until straight within the noise, merges collinear neighbours",
      .reference = "Pavlidis & Horowitz 1974; Nguyen et al. 2007, Autonomous Robots 23, algorithm Split-and-Merge"});

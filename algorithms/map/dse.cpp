@@ -300,7 +300,8 @@ LineMap Dse::map() const {
   return result;
 }
 
-[[maybe_unused]] const bool registered = Registry<Mapper>::add<Dse>(
+SCANBENCH_REGISTER(
+    Mapper, Dse,
     {.name = "dse",
      .summary = "polyline maps by discrete segment evolution: segments of map and scan are paired along main "
                 "directions, then merged cheapest first",

@@ -24,7 +24,7 @@ namespace {
 using namespace mapping;
 using namespace mapping::navigation;
 
-constexpr double kNovelM = 1.0;       // a scan without a wall of the map so near is in a part that has no map yet
+constexpr double kNovelWallM = 1.0;   // a scan without a wall of the map so near is in a part that has no map yet
 constexpr double kPointCellM = 0.05;  // of the map of points
 
 enum class Correlation { none, segment_segment, segment_point, point_point };
@@ -133,7 +133,7 @@ Insertion NavigationMap::insert(const Observation& observation, const Pose2& gue
         steps_.pose(observation, predicted), predicted, registration_);
   std::string message = explained(found, registration_);
   const bool fits = found.status != Status::no_match;
-  if (fits || walls_near(placed_at(predicted, scan), kNovelM).empty()) {
+  if (fits || walls_near(placed_at(predicted, scan), kNovelWallM).empty()) {
     if (!fits) message += "; the map has nothing there yet, so the scan is inserted where it is predicted";
     trace.stage(Stage::merge);
     update(observation, scan, found.map_from_sensor, trace);
@@ -197,7 +197,7 @@ void NavigationMap::erase(std::size_t number, Trace& trace) {
 void NavigationMap::add(Wall wall, Trace& trace) {
   for (bool grown = true; grown;) {
     grown = false;
-    double nearest = kNovelM;
+    double nearest = kNovelWallM;
     std::size_t partner = 0;
     const std::vector<Segment> place{wall.segment};
     for (const std::size_t number : index_.near(place, params_.unite_gap_m + params_.unite_offset_m)) {
@@ -230,10 +230,10 @@ LineMap NavigationMap::map() const {
   return result;
 }
 
-[[maybe_unused]] const bool registered = Registry<Mapper>::add<NavigationMap>(
-    {.name = "navigation_map",
-     .summary = "the first scan is the map; later ones are correlated with it and add their segments",
-     .reference = "Siadat, Kaske, Klausmann, Dufaut & Husson 1997, sections 6 and 7"});
+SCANBENCH_REGISTER(Mapper, NavigationMap,
+                   {.name = "navigation_map",
+                    .summary = "the first scan is the map; later ones are correlated with it and add their segments",
+                    .reference = "Siadat, Kaske, Klausmann, Dufaut & Husson 1997, sections 6 and 7"});
 
 }  // namespace
 }  // namespace scanbench

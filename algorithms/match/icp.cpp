@@ -20,7 +20,7 @@ namespace scanbench::matching {
 namespace {
 
 /// One step. The shift is along the reference's axes.
-struct IterationRow {
+struct IcpIterationRow {
   static constexpr std::string_view kName = "icp_iteration";
   int pairs = 0;
   double x_m = 0.0;
@@ -28,7 +28,7 @@ struct IterationRow {
   double yaw_rad = 0.0;
   double squares_m2 = 0.0;  ///< sum of squared distances before the step
   static constexpr auto columns() {
-    using R = IterationRow;
+    using R = IcpIterationRow;
     return std::tuple{column("pairs", &R::pairs), column("x_m", &R::x_m), column("y_m", &R::y_m),
                       column("yaw_rad", &R::yaw_rad), column("squares_m2", &R::squares_m2)};
   }
@@ -131,7 +131,7 @@ class Icp final : public ScanMatcher {
       const double still = std::max(kStillM2, (every > 1 ? kNearShare : kStillShare) * mean);
       settled = every == 1 && change < still;
       if (change < still) every = 1;
-      trace.row(IterationRow{static_cast<int>(pairs.size()), step.x(), step.y(), step.z(), squares});
+      trace.row(IcpIterationRow{static_cast<int>(pairs.size()), step.x(), step.y(), step.z(), squares});
     }
     for (Pair& pair : pairs) pair.point = pose * now.points[pair.current];
     set_noise(pairs, now, lines, pose);
@@ -148,10 +148,10 @@ class Icp final : public ScanMatcher {
   Params params_;
 };
 
-[[maybe_unused]] const bool registered = Registry<ScanMatcher>::add<Icp>(
-    {.name = "icp",
-     .summary = "point-to-point ICP: closed-form rigid fits to nearest returns",
-     .reference = "Besl & McKay 1992, PAMI 14(2); Lakaemper, Latecki & Wolter 2005, section 2"});
+SCANBENCH_REGISTER(ScanMatcher, Icp,
+                   {.name = "icp",
+                    .summary = "point-to-point ICP: closed-form rigid fits to nearest returns",
+                    .reference = "Besl & McKay 1992, PAMI 14(2); Lakaemper, Latecki & Wolter 2005, section 2"});
 
 }  // namespace
 }  // namespace scanbench::matching

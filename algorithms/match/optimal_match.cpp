@@ -22,7 +22,7 @@ namespace scanbench::matching {
 namespace {
 
 /// One step. The shift is along the reference's axes.
-struct RoundRow {
+struct OptimalRoundRow {
   static constexpr std::string_view kName = "optimal_match_round";
   double walls = 0.0;  ///< sum of their weights
   double x_m = 0.0;
@@ -30,7 +30,7 @@ struct RoundRow {
   double yaw_rad = 0.0;
   double misfit = 0.0;  ///< sum of weighted squared differences, in standard deviations
   static constexpr auto columns() {
-    using R = RoundRow;
+    using R = OptimalRoundRow;
     return std::tuple{column("walls", &R::walls), column("x_m", &R::x_m), column("y_m", &R::y_m),
                       column("yaw_rad", &R::yaw_rad), column("misfit", &R::misfit)};
   }
@@ -185,7 +185,7 @@ class OptimalMatch final : public ScanMatcher {
         belief.covariance = result.match.covariance;
       walls = std::move(paired);
       doubtful = doubtful && !same && round + 1 < kMostDoubtfulRounds;
-      trace.row(RoundRow{sum.walls, step.x(), step.y(), step.z(), sum.misfit});
+      trace.row(OptimalRoundRow{sum.walls, step.x(), step.y(), step.z(), sum.misfit});
     }
     return result;
   }
@@ -217,10 +217,10 @@ class OptimalMatch final : public ScanMatcher {
   double guess_sigma_rad_;
 };
 
-[[maybe_unused]] const bool registered = Registry<ScanMatcher>::add<OptimalMatch>(
-    {.name = "optimal_match",
-     .summary = "pose of greatest likelihood under the sensor's noise, by the walls that both scans see",
-     .reference = "docs/algorithms/scan_matching.md; bound after Censi 2007, ICRA"});
+SCANBENCH_REGISTER(ScanMatcher, OptimalMatch,
+                   {.name = "optimal_match",
+                    .summary = "pose of greatest likelihood under the sensor's noise, by the walls that both scans see",
+                    .reference = "docs/algorithms/scan_matching.md; bound after Censi 2007, ICRA"});
 
 }  // namespace
 }  // namespace scanbench::matching

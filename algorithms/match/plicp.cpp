@@ -48,10 +48,10 @@ class PlIcp final : public ScanMatcher {
   RegistrationRules rules_;
 };
 
-[[maybe_unused]] const bool registered = Registry<ScanMatcher>::add<PlIcp>(
-    {.name = "plicp",
-     .summary = "point-to-line ICP: returns on the lines through their partners' neighbours",
-     .reference = "Censi 2008, An ICP variant using a point-to-line metric, ICRA"});
+SCANBENCH_REGISTER(ScanMatcher, PlIcp,
+                   {.name = "plicp",
+                    .summary = "point-to-line ICP: returns on the lines through their partners' neighbours",
+                    .reference = "Censi 2008, An ICP variant using a point-to-line metric, ICRA"});
 
 }  // namespace
 }  // namespace scanbench::matching

@@ -52,7 +52,8 @@ class AmigoniChain final : public SegmentMerger {
   merge::MatchTolerance rules_;
 };
 
-[[maybe_unused]] const bool registered = Registry<SegmentMerger>::add<AmigoniChain>(
+SCANBENCH_REGISTER(
+    SegmentMerger, AmigoniChain,
     {.name = "amigoni_chain",
      .summary = "merges chains of pairwise matching segments (transitive closure of a simple relation)",
      .reference = "Amigoni & Gasparini, Analysis of methods for reducing line segments in maps, IROS 2008"});

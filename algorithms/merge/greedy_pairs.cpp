@@ -131,10 +131,10 @@ MergeResult GreedyPairs::merge(const MergeInput& input, Trace& trace) const {
   return merge::result_of(input.lines, distinct, group, groups);
 }
 
-[[maybe_unused]] const bool registered = Registry<SegmentMerger>::add<GreedyPairs>(
-    {.name = "greedy_pairs",
-     .summary = "replaces the pair of segments that matches best by one segment, until no pair matches",
-     .reference = "baseline; compare Lakaemper, IROS 2009, section II"});
+SCANBENCH_REGISTER(SegmentMerger, GreedyPairs,
+                   {.name = "greedy_pairs",
+                    .summary = "replaces the pair of segments that matches best by one segment, until no pair matches",
+                    .reference = "baseline; compare Lakaemper, IROS 2009, section II"});
 
 }  // namespace
 }  // namespace scanbench

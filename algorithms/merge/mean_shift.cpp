@@ -326,7 +326,8 @@ MergeResult MeanShift::merge(const MergeInput& input, Trace& trace) const {
   return result;
 }
 
-[[maybe_unused]] const bool registered = Registry<SegmentMerger>::add<MeanShift>(
+SCANBENCH_REGISTER(
+    SegmentMerger, MeanShift,
     {.name = "mean_shift",
      .summary =
          "clusters segments with mean shift, by direction and place and then by collinearity, and merges clusters",

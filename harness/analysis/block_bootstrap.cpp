@@ -15,18 +15,18 @@
 namespace scanbench::harness {
 namespace {
 
-constexpr std::size_t kResamples = 2000;
+constexpr std::size_t kBlockResamples = 2000;
 constexpr int kMostDraws = 10000;  // of which some may have no scan with a value
-constexpr double kTail = 0.025;
+constexpr double kBlockTail = 0.025;
 
-double mean_of(std::span<const double> values) {
+double block_mean(std::span<const double> values) {
   double sum = 0.0;
   for (const double v : values) sum += v;
   return sum / static_cast<double>(values.size());
 }
 
 double deviation_of(std::span<const double> values) {
-  const double mean = mean_of(values);
+  const double mean = block_mean(values);
   double squares = 0.0;
   for (const double v : values) squares += (v - mean) * (v - mean);
   return std::sqrt(squares / static_cast<double>(values.size() - 1));
@@ -100,17 +100,17 @@ struct Drawn {
 /// scans less often than others), and of Student's t interval.
 Drawn interval_of(std::vector<double> draws, double observed, std::size_t scans, double freedom) {
   const auto count = static_cast<std::int64_t>(scans);
-  if (draws.size() < kResamples) return {kInf, {observed, -kInf, kInf, count}};  // hardly any scan has a value
-  const double centre = mean_of(draws);
+  if (draws.size() < kBlockResamples) return {kInf, {observed, -kInf, kInf, count}};  // hardly any scan has a value
+  const double centre = block_mean(draws);
   const double error = deviation_of(draws);
   std::ranges::sort(draws);
   const auto percentile = [&](double share) {
-    return observed + draws[static_cast<std::size_t>(share * static_cast<double>(kResamples - 1))] - centre;
+    return observed + draws[static_cast<std::size_t>(share * static_cast<double>(kBlockResamples - 1))] - centre;
   };
-  const double reach = boost::math::quantile(boost::math::students_t(freedom), 1.0 - kTail) * error;
+  const double reach = boost::math::quantile(boost::math::students_t(freedom), 1.0 - kBlockTail) * error;
   return {error,
-          {observed, std::min(percentile(kTail), observed - reach), std::max(percentile(1.0 - kTail), observed + reach),
-           count}};
+          {observed, std::min(percentile(kBlockTail), observed - reach),
+           std::max(percentile(1.0 - kBlockTail), observed + reach), count}};
 }
 
 double p_value(double observed, double error, double freedom) {
@@ -126,7 +126,7 @@ bool is_equal(const ScanPair& pair) {
 
 /// Autocovariances of a series, up to a lag.
 std::vector<double> autocovariances(std::span<const double> series, std::size_t lags) {
-  const double mean = mean_of(series);
+  const double mean = block_mean(series);
   std::vector<double> covariances(lags + 1, 0.0);
   for (std::size_t k = 0; k <= lags && k < series.size(); ++k) {
     for (std::size_t i = 0; i + k < series.size(); ++i) covariances[k] += (series[i] - mean) * (series[i + k] - mean);
@@ -186,7 +186,7 @@ BlockInterval block_interval(std::span<const ScanPair> pairs, ScanMean mean,
   std::vector<double> differences, worsenings;
   CounterRng rng(0, RngStream::resampling, static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(result.block));
   const auto starts = static_cast<double>(n - result.block + 1);
-  for (int attempt = 0; attempt < kMostDraws && differences.size() < kResamples; ++attempt) {
+  for (int attempt = 0; attempt < kMostDraws && differences.size() < kBlockResamples; ++attempt) {
     Sums drawn;
     for (std::size_t taken = 0; taken < n; taken += result.block)
       sums.add(static_cast<std::size_t>(rng.uniform() * starts), std::min(result.block, n - taken), drawn);

@@ -27,17 +27,17 @@ Alignment align(const Aligner& module, const Series& series, const std::vector<P
   return result;
 }
 
-void nothing(const Aligners& subject, Findings& findings) {
+void align_no_scans(const Aligners& subject, Findings& findings) {
   align(*subject.make({}), {}, {}, findings);
 }
 
-void one(const Aligners& subject, Findings& findings) {
+void align_one_scan(const Aligners& subject, Findings& findings) {
   const std::vector<Pose2> initial{{3, -1, 0.4}};
   findings.expect(align(*subject.make({}), drive(1), initial, findings).world_from_sensor == initial,
                   "the pose of the only scan is changed");
 }
 
-void without_returns(const Aligners& subject, Findings& findings) {
+void align_without_returns(const Aligners& subject, Findings& findings) {
   const auto module = subject.make({});
   for (const double reading : {kInf, -kInf, kNaN, 0.0, -1.0}) {
     Series none, some = drive(3);
@@ -49,7 +49,7 @@ void without_returns(const Aligners& subject, Findings& findings) {
   }
 }
 
-void odd_readings(const Aligners& subject, Findings& findings) {
+void align_odd_readings(const Aligners& subject, Findings& findings) {
   const auto module = subject.make({});
   for (const double reading : {kNaN, kInf, -kInf, 0.0, -1.0}) {
     const Series clean = drive(3);
@@ -84,7 +84,7 @@ std::vector<Pose2> believed() {
   return poses;
 }
 
-void motion(const Aligners& subject, Findings& findings) {
+void aligned_poses_move(const Aligners& subject, Findings& findings) {
   const auto module = subject.make({});
   const Series series = drive(4);
   const Pose2 moved(12, -7, 2.2);
@@ -100,7 +100,7 @@ void motion(const Aligners& subject, Findings& findings) {
   }
 }
 
-void twice(const Aligners& subject, Findings& findings) {
+void align_again(const Aligners& subject, Findings& findings) {
   const auto module = subject.make({});
   const Series series = drive(4), fresh = drive(4);
   const std::vector<Pose2> initial = believed();
@@ -122,13 +122,13 @@ void twice(const Aligners& subject, Findings& findings) {
 
 const std::vector<Check<Aligner>>& aligner_checks() {
   static const std::vector<Check<Aligner>> checks{
-      {"NoScansGiveNoPoses", nothing},
-      {"OneScanStaysWhereItIs", one},
-      {"ScansWithoutReturnsAreAnswered", without_returns},
-      {"FaultyReadingsAmongGoodOnesAreAnswered", odd_readings},
+      {"NoScansGiveNoPoses", align_no_scans},
+      {"OneScanStaysWhereItIs", align_one_scan},
+      {"ScansWithoutReturnsAreAnswered", align_without_returns},
+      {"FaultyReadingsAmongGoodOnesAreAnswered", align_odd_readings},
       {"TruePosesStay", true_poses},
-      {"ThePosesMoveWithTheWorldFrame", motion},
-      {"TheAnswerIsTheSameTwice", twice},
+      {"ThePosesMoveWithTheWorldFrame", aligned_poses_move},
+      {"TheAnswerIsTheSameTwice", align_again},
   };
   return checks;
 }

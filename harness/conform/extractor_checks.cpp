@@ -68,9 +68,9 @@ void check_geometry(const ScanLines& result, Findings& findings) {
 }
 
 /// An instance with its checks.
-class Used {
+class CheckedExtractor {
  public:
-  Used(const Extractors& subject, Findings& findings, const ParamSet& params = {})
+  CheckedExtractor(const Extractors& subject, Findings& findings, const ParamSet& params = {})
       : module_(subject.make(params)), findings_(findings) {}
 
   ScanLines operator()(const OwnedScan& scan) const {
@@ -91,7 +91,7 @@ OwnedScan noisy_room(std::uint64_t seed, int beams = 361) {
   return with_noise(cast(ring_sensor(beams), random_room(seed)), 0.01, seed);
 }
 
-bool is_near(const PolarLine& found, const PolarLine& expected, double tolerance) {
+bool is_near_line(const PolarLine& found, const PolarLine& expected, double tolerance) {
   const LineDifference d = line_difference(found, expected);
   return d.rho <= tolerance && d.alpha <= tolerance;
 }
@@ -105,19 +105,19 @@ bool identical(const ScanLines& a, const ScanLines& b) {
 }
 
 void no_beams(const Extractors& subject, Findings& findings) {
-  findings.expect(Used(subject, findings)(constant_scan(fan_sensor(0, 1.0), 1.0)).lines.empty(),
+  findings.expect(CheckedExtractor(subject, findings)(constant_scan(fan_sensor(0, 1.0), 1.0)).lines.empty(),
                   "a scan without beams has lines");
 }
 
 void no_returns(const Extractors& subject, Findings& findings) {
-  const Used extract(subject, findings);
+  const CheckedExtractor extract(subject, findings);
   for (const double nothing : {kInf, -kInf, kNaN, 0.0, -1.0})
     findings.expect(extract(constant_scan(fan_sensor(181, kPi), nothing)).lines.empty(),
                     "a scan of readings " + number_text(nothing) + " has lines");
 }
 
 void few_returns(const Extractors& subject, Findings& findings) {
-  const Used extract(subject, findings);
+  const CheckedExtractor extract(subject, findings);
   for (int returns = 1; returns <= 3; ++returns) {
     OwnedScan scan = constant_scan(fan_sensor(181, kPi), kInf);
     for (int i = 0; i < returns; ++i) scan.ranges[as_index(60 + 3 * i)] = 2.0 + 0.1 * i;
@@ -127,7 +127,7 @@ void few_returns(const Extractors& subject, Findings& findings) {
 }
 
 void odd_points(const Extractors& subject, Findings& findings) {
-  const Used extract(subject, findings);
+  const CheckedExtractor extract(subject, findings);
   extract(constant_scan(fan_sensor(50, 0.0), 2.0));  // all beams in one direction
   extract(constant_scan(ring_sensor(360), 1e-12));   // all points practically at the sensor
   extract(constant_scan(ring_sensor(360), 2.0));     // a circle
@@ -138,14 +138,14 @@ void odd_points(const Extractors& subject, Findings& findings) {
 }
 
 void wall(const Extractors& subject, Findings& findings) {
-  const ScanLines result = Used(subject, findings)(cast(fan_sensor(91, radians(90)), {{{2, -9}, {2, 9}}}));
+  const ScanLines result = CheckedExtractor(subject, findings)(cast(fan_sensor(91, radians(90)), {{{2, -9}, {2, 9}}}));
   findings.expect(!result.lines.empty(), "a wall without noise has no line");
   for (const auto& line : result.lines)
-    findings.expect(is_near(line.line, {2.0, 0.0}, 1e-3), "the line of a wall at 2 m is elsewhere");
+    findings.expect(is_near_line(line.line, {2.0, 0.0}, 1e-3), "the line of a wall at 2 m is elsewhere");
 }
 
 void wall_once(const Extractors& subject, Findings& findings) {
-  const ScanLines result = Used(subject, findings)(cast(fan_sensor(91, radians(90)), {{{2, -9}, {2, 9}}}));
+  const ScanLines result = CheckedExtractor(subject, findings)(cast(fan_sensor(91, radians(90)), {{{2, -9}, {2, 9}}}));
   findings.expect(result.lines.size() == 1,
                   "a wall without noise has " + std::to_string(result.lines.size()) + " lines");
   if (result.lines.size() != 1) return;
@@ -158,36 +158,36 @@ void wall_once(const Extractors& subject, Findings& findings) {
 void clockwise(const Extractors& subject, Findings& findings) {
   SensorModel sensor;
   sensor.geometry = ScanGeometry(radians(45), -radians(1), 91);
-  const ScanLines result = Used(subject, findings)(cast(sensor, {{{2, -9}, {2, 9}}}));
+  const ScanLines result = CheckedExtractor(subject, findings)(cast(sensor, {{{2, -9}, {2, 9}}}));
   findings.expect(!result.lines.empty(), "a clockwise scan of a wall has no line");
   for (const auto& line : result.lines) {
-    findings.expect(is_near(line.line, {2.0, 0.0}, 1e-3), "the line of a wall at 2 m is elsewhere");
+    findings.expect(is_near_line(line.line, {2.0, 0.0}, 1e-3), "the line of a wall at 2 m is elsewhere");
     findings.expect(line.segment.a.y() < line.segment.b.y(), "the sensor is not on the left of a -> b");
   }
 }
 
 void corner(const Extractors& subject, Findings& findings) {
   const OwnedScan scan = cast(fan_sensor(91, radians(90)), {{{2, -3}, {2, 0.5}}, {{2, 0.5}, {-3, 0.5}}});
-  findings.expect(!Used(subject, findings)(scan).lines.empty(), "a corner has no line");
+  findings.expect(!CheckedExtractor(subject, findings)(scan).lines.empty(), "a corner has no line");
 }
 
 void seam(const Extractors& subject, Findings& findings) {
-  const ScanLines result = Used(subject, findings)(cast(ring_sensor(360), {{{-2, -2}, {-2, 2}}}));
+  const ScanLines result = CheckedExtractor(subject, findings)(cast(ring_sensor(360), {{{-2, -2}, {-2, 2}}}));
   findings.expect(!result.lines.empty(), "a wall behind the sensor has no line");
   for (const auto& line : result.lines)
-    findings.expect(is_near(line.line, {2.0, kPi}, 1e-3), "the line of a wall at 2 m is elsewhere");
+    findings.expect(is_near_line(line.line, {2.0, kPi}, 1e-3), "the line of a wall at 2 m is elsewhere");
   findings.expect(result.labels.size() == 360 && result.labels.front() >= 0 && result.labels.back() >= 0,
                   "the wall is not found on both sides of the seam");
 }
 
 void beams(const Extractors& subject, Findings& findings) {
-  const Used extract(subject, findings);
+  const CheckedExtractor extract(subject, findings);
   extract(cast(ring_sensor(10), box(-2, -2, 2, 2)));
   findings.expect(!extract(noisy_room(3, 100000)).lines.empty(), "a room seen with 100 000 beams has no line");
 }
 
 void holes(const Extractors& subject, Findings& findings) {
-  const Used extract(subject, findings);
+  const CheckedExtractor extract(subject, findings);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     OwnedScan scan = noisy_room(seed);
     CounterRng rng(seed, RngStream::dropout);
@@ -202,7 +202,7 @@ void holes(const Extractors& subject, Findings& findings) {
 }
 
 void scales(const Extractors& subject, Findings& findings) {
-  const Used extract(subject, findings);
+  const CheckedExtractor extract(subject, findings);
   for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
     OwnedScan scan = noisy_room(5);
     for (double& r : scan.ranges) r *= scale;
@@ -211,7 +211,7 @@ void scales(const Extractors& subject, Findings& findings) {
 }
 
 void rotation(const Extractors& subject, Findings& findings) {
-  const Used extract(subject, findings);
+  const CheckedExtractor extract(subject, findings);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const double angle = 0.3 + 1.1 * static_cast<double>(seed);
     const OwnedScan scan = noisy_room(seed);
@@ -221,7 +221,7 @@ void rotation(const Extractors& subject, Findings& findings) {
     for (std::size_t k = 0; same && k < before.lines.size(); ++k) {
       const Segment expected = turn * before.lines[k].segment;
       const Segment& found = after.lines[k].segment;
-      same = is_near(after.lines[k].line, transform(turn, before.lines[k].line), 1e-6) &&
+      same = is_near_line(after.lines[k].line, transform(turn, before.lines[k].line), 1e-6) &&
              (found.a - expected.a).norm() < 1e-6 && (found.b - expected.b).norm() < 1e-6 &&
              std::fabs(after.lines[k].rms_m - before.lines[k].rms_m) < 1e-6;
     }
@@ -229,8 +229,8 @@ void rotation(const Extractors& subject, Findings& findings) {
   }
 }
 
-void twice(const Extractors& subject, Findings& findings) {
-  const Used extract(subject, findings);
+void extract_again(const Extractors& subject, Findings& findings) {
+  const CheckedExtractor extract(subject, findings);
   const OwnedScan scan = noisy_room(6);
   const std::vector<double> copy = scan.ranges;
   const ScanLines first = extract(scan);
@@ -238,7 +238,7 @@ void twice(const Extractors& subject, Findings& findings) {
   findings.expect(identical(first, extract(scan)), "the same scan has other lines the second time");
   extract(noisy_room(7));
   findings.expect(identical(first, extract(scan)), "the same scan has other lines after another scan");
-  findings.expect(identical(first, Used(subject, findings)(scan)), "a second instance finds other lines");
+  findings.expect(identical(first, CheckedExtractor(subject, findings)(scan)), "a second instance finds other lines");
   const Trace listening({.stage = [](Stage) {}, .row = [](const TraceSchema&, std::span<const double>) {}});
   Trace trace = listening;
   findings.expect(identical(first, subject.make({})->extract(scan.view(), trace)),
@@ -263,7 +263,7 @@ void parameter_ends(const Extractors& subject, Findings& findings) {
   for (const ParamSpec& spec : subject.params)
     for (const ParamValue& value : extremes(spec)) {
       Findings here;
-      const Used extract(subject, here, {{spec.name, value}});
+      const CheckedExtractor extract(subject, here, {{spec.name, value}});
       extract(room);
       extract(nothing);
       for (const auto& fault : here.faults())
@@ -288,7 +288,7 @@ const std::vector<Check<LineExtractor>>& extractor_checks() {
       {"RoomsWithHolesAreAnswered", holes},
       {"HugeAndTinyScenesAreAnswered", scales},
       {"TheLinesTurnWithTheSceneAboutTheSensor", rotation},
-      {"TheAnswerIsTheSameTwiceAndTheScanUntouched", twice},
+      {"TheAnswerIsTheSameTwiceAndTheScanUntouched", extract_again},
       {"EveryParameterAtItsEndsGivesAConsistentAnswer", parameter_ends},
   };
   return checks;

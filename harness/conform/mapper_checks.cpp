@@ -54,29 +54,29 @@ Mapped map(const Mappers& subject, const Series& series, const std::vector<Pose2
   return map(*subject.make({}), series, guesses, findings);
 }
 
-bool same(const LineMap& a, const LineMap& b) {
+bool same_lines(const LineMap& a, const LineMap& b) {
   return std::ranges::equal(a.lines, b.lines, [](const MapLine& x, const MapLine& y) {
     return x.segment == y.segment && x.covariance == y.covariance && x.members == y.members && x.points == y.points;
   });
 }
 
-void nothing(const Mappers& subject, Findings& findings) {
+void map_no_scans(const Mappers& subject, Findings& findings) {
   findings.expect(subject.make({})->map().lines.empty(), "without a scan there are map lines");
 }
 
-void ready(const Mappers& subject, Findings& findings) {
+void map_after_each_scan(const Mappers& subject, Findings& findings) {
   const Mapped mapped = map(subject, drive(6), stops(6), findings);
   for (std::size_t k = 0; k < mapped.maps.size(); ++k)
     findings.expect(!mapped.maps[k].lines.empty(), "after scan " + std::to_string(k) + " of a room the map is empty");
 }
 
-void twice(const Mappers& subject, Findings& findings) {
+void map_again(const Mappers& subject, Findings& findings) {
   const Series series = drive(5);
   const auto module = subject.make({});
   const Mapped first = map(*module, series, stops(5), findings);
-  findings.expect(same(module->map(), first.maps.back()), "map() gives another map the second time");
+  findings.expect(same_lines(module->map(), first.maps.back()), "map() gives another map the second time");
   const auto expect_equal = [&](const Mapped& other, const std::string& fault) {
-    bool equal = same(first.maps.back(), other.maps.back());
+    bool equal = same_lines(first.maps.back(), other.maps.back());
     for (std::size_t k = 0; k < first.steps.size(); ++k)
       equal = equal && first.steps[k].status == other.steps[k].status &&
               first.steps[k].world_from_sensor == other.steps[k].world_from_sensor;
@@ -90,7 +90,7 @@ void twice(const Mappers& subject, Findings& findings) {
     findings.expect(series.scan(k).ranges == fresh.scan(k).ranges, "a scan was changed");
 }
 
-void motion(const Mappers& subject, Findings& findings) {
+void map_moves(const Mappers& subject, Findings& findings) {
   const Pose2 moved(30, -12, 2.2);
   const LineMap still = map(subject, drive(5), stops(5), findings).maps.back();
   const LineMap after = map(subject, drive(5), stops(5, moved), findings).maps.back();
@@ -100,7 +100,7 @@ void motion(const Mappers& subject, Findings& findings) {
                   "the map does not move with the poses");
 }
 
-void without_returns(const Mappers& subject, Findings& findings) {
+void map_without_returns(const Mappers& subject, Findings& findings) {
   for (const double range : {kInf, kNaN, -kInf}) {
     Series series;
     series.add(drive(1).scan(0));
@@ -145,11 +145,11 @@ void bad_lines(const Mappers& subject, Findings& findings) {
 
 const std::vector<Check<Mapper>>& mapper_checks() {
   static const std::vector<Check<Mapper>> checks{
-      {"NothingInsertedIsAnEmptyMap", nothing},
-      {"AMapIsReadyAfterEveryScan", ready},
-      {"TheSameScansGiveTheSameMap", twice},
-      {"MovingAllPosesMovesTheMap", motion},
-      {"AScanWithoutReturnsIsReportedAndLeavesTheMapAsItIs", without_returns},
+      {"NothingInsertedIsAnEmptyMap", map_no_scans},
+      {"AMapIsReadyAfterEveryScan", map_after_each_scan},
+      {"TheSameScansGiveTheSameMap", map_again},
+      {"MovingAllPosesMovesTheMap", map_moves},
+      {"AScanWithoutReturnsIsReportedAndLeavesTheMapAsItIs", map_without_returns},
       {"AnEmptyScanFirstIsNoMapAndTheNextOneIsTheMap", empty_first},
       {"LinesThatAreNotFiniteOrHaveNoLengthAreNotInTheMap", bad_lines},
   };

@@ -37,7 +37,7 @@ Match match(const ScanMatcher& module, const OwnedScan& a, const OwnedScan& b, c
   return result;
 }
 
-void nothing(const Matchers& subject, Findings& findings) {
+void match_no_returns(const Matchers& subject, Findings& findings) {
   const auto module = subject.make({});
   const Pose2 guess(0.1, 0.2, 0.3);
   const OwnedScan full = room({});
@@ -49,7 +49,7 @@ void nothing(const Matchers& subject, Findings& findings) {
   }
 }
 
-void odd_readings(const Matchers& subject, Findings& findings) {
+void match_odd_readings(const Matchers& subject, Findings& findings) {
   const auto module = subject.make({});
   for (const double reading : {kNaN, kInf, -kInf, 0.0, -1.0, 1e300, 1e-300}) {
     OwnedScan a = room({}), b = room({0.1, 0.05, 0.03}, 1);
@@ -58,7 +58,7 @@ void odd_readings(const Matchers& subject, Findings& findings) {
   }
 }
 
-void motion(const Matchers& subject, Findings& findings) {
+void match_moves(const Matchers& subject, Findings& findings) {
   const auto module = subject.make({});
   std::uint32_t frame = 0;
   for (const Pose2& step : {Pose2(0, 0, 0), Pose2(0.1, 0.05, 0.03), Pose2(-0.08, 0.1, -0.05)}) {
@@ -71,7 +71,7 @@ void motion(const Matchers& subject, Findings& findings) {
   }
 }
 
-void twice(const Matchers& subject, Findings& findings) {
+void match_again(const Matchers& subject, Findings& findings) {
   const auto module = subject.make({});
   const OwnedScan a = room({}), b = room({0.1, 0.05, 0.03}, 1);
   const Match first = match(*module, a, b, {}, findings);
@@ -89,10 +89,10 @@ void twice(const Matchers& subject, Findings& findings) {
 
 const std::vector<Check<ScanMatcher>>& matcher_checks() {
   static const std::vector<Check<ScanMatcher>> checks{
-      {"AScanWithoutReturnsDoesNotMatch", nothing},
-      {"FaultyReadingsAmongGoodOnesAreAnswered", odd_readings},
-      {"TheMotionBetweenTwoScansOfARoomIsFound", motion},
-      {"TheAnswerIsTheSameTwice", twice},
+      {"AScanWithoutReturnsDoesNotMatch", match_no_returns},
+      {"FaultyReadingsAmongGoodOnesAreAnswered", match_odd_readings},
+      {"TheMotionBetweenTwoScansOfARoomIsFound", match_moves},
+      {"TheAnswerIsTheSameTwice", match_again},
   };
   return checks;
 }

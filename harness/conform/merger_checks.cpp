@@ -19,7 +19,7 @@ bool is_finite(const Segment& s) {
   return s.a.allFinite() && s.b.allFinite();
 }
 
-void check_labels(const std::vector<MapLine>& lines, const MergeResult& result, Findings& findings) {
+void check_cluster_labels(const std::vector<MapLine>& lines, const MergeResult& result, Findings& findings) {
   findings.expect(result.labels.size() == lines.size(),
                   std::to_string(result.labels.size()) + " labels for " + std::to_string(lines.size()) + " segments");
   if (result.labels.size() != lines.size()) return;
@@ -51,13 +51,13 @@ void check_map(const MergeResult& result, Findings& findings) {
 }
 
 /// An instance with its checks.
-class Used {
+class CheckedMerger {
  public:
-  Used(const Mergers& subject, Findings& findings) : module_(subject.make({})), findings_(findings) {}
+  CheckedMerger(const Mergers& subject, Findings& findings) : module_(subject.make({})), findings_(findings) {}
 
   MergeResult operator()(const std::vector<MapLine>& lines, Trace trace = {}) const {
     MergeResult result = module_->merge({lines, {}}, trace);
-    check_labels(lines, result, findings_);
+    check_cluster_labels(lines, result, findings_);
     check_map(result, findings_);
     return result;
   }
@@ -99,16 +99,17 @@ bool same_map(const LineMap& a, const LineMap& b, double tolerance) {
          });
 }
 
-void nothing(const Mergers& subject, Findings& findings) {
-  findings.expect(Used(subject, findings)({}).map.lines.empty(), "no segments give map lines");
+void merge_no_lines(const Mergers& subject, Findings& findings) {
+  findings.expect(CheckedMerger(subject, findings)({}).map.lines.empty(), "no segments give map lines");
 }
 
-void one(const Mergers& subject, Findings& findings) {
-  findings.expect(Used(subject, findings)({line(1, 1, 3, 2)}).map.lines.size() <= 1, "one segment gives several");
+void merge_one_line(const Mergers& subject, Findings& findings) {
+  findings.expect(CheckedMerger(subject, findings)({line(1, 1, 3, 2)}).map.lines.size() <= 1,
+                  "one segment gives several");
 }
 
 void identical_segments(const Mergers& subject, Findings& findings) {
-  const MergeResult result = Used(subject, findings)(std::vector<MapLine>(8, line(1, 1, 3, 2)));
+  const MergeResult result = CheckedMerger(subject, findings)(std::vector<MapLine>(8, line(1, 1, 3, 2)));
   findings.expect(result.map.lines.size() == 1,
                   "eight equal segments give " + std::to_string(result.map.lines.size()) + " map lines");
   if (result.map.lines.size() != 1) return;
@@ -121,7 +122,7 @@ void identical_segments(const Mergers& subject, Findings& findings) {
 }
 
 void without_length(const Mergers& subject, Findings& findings) {
-  const Used merge(subject, findings);
+  const CheckedMerger merge(subject, findings);
   merge({line(1, 1, 1, 1)});
   merge(std::vector<MapLine>(5, line(1, 1, 1, 1)));
   auto lines = seen_room(4, 0.01, 1);
@@ -130,7 +131,7 @@ void without_length(const Mergers& subject, Findings& findings) {
 }
 
 void not_finite(const Mergers& subject, Findings& findings) {
-  const Used merge(subject, findings);
+  const CheckedMerger merge(subject, findings);
   auto lines = seen_room(5, 0.01, 2);
   const MergeResult clean = merge(lines);
   for (const double bad : {kNaN, kInf, -kInf}) {
@@ -141,7 +142,7 @@ void not_finite(const Mergers& subject, Findings& findings) {
 }
 
 void order(const Mergers& subject, Findings& findings) {
-  const Used merge(subject, findings);
+  const CheckedMerger merge(subject, findings);
   const auto lines = seen_room(6, 0.01, 3);
   std::vector<MapLine> shuffled;
   for (std::size_t i = 0; i < lines.size(); ++i) shuffled.push_back(lines[(i * 7) % lines.size()]);  // gcd(7, 24) = 1
@@ -149,8 +150,8 @@ void order(const Mergers& subject, Findings& findings) {
                   "the same segments in another order give another map");
 }
 
-void motion(const Mergers& subject, Findings& findings) {
-  const Used merge(subject, findings);
+void merged_lines_move(const Mergers& subject, Findings& findings) {
+  const CheckedMerger merge(subject, findings);
   auto lines = seen_room(6, 0.01, 4);
   LineMap expected = merge(lines).map;
   const Pose2 moved(3.0, -1.0, 0.4);
@@ -159,8 +160,8 @@ void motion(const Mergers& subject, Findings& findings) {
   findings.expect(same_map(expected, merge(lines).map, 1e-3), "the map does not move with the segments");
 }
 
-void twice(const Mergers& subject, Findings& findings) {
-  const Used merge(subject, findings);
+void merge_again(const Mergers& subject, Findings& findings) {
+  const CheckedMerger merge(subject, findings);
   const auto lines = seen_room(6, 0.02, 5);
   const MergeResult first = merge(lines);
   const auto same = [&](const MergeResult& other) {
@@ -173,7 +174,7 @@ void twice(const Mergers& subject, Findings& findings) {
   findings.expect(same(merge(lines)), "the same segments give another map the second time");
   merge(seen_room(3, 0.02, 6));
   findings.expect(same(merge(lines)), "the same segments give another map after other segments");
-  findings.expect(same(Used(subject, findings)(lines)), "a second instance makes another map");
+  findings.expect(same(CheckedMerger(subject, findings)(lines)), "a second instance makes another map");
   findings.expect(same(merge(lines, listening_trace())), "a trace that listens changes the map");
 }
 
@@ -181,14 +182,14 @@ void twice(const Mergers& subject, Findings& findings) {
 
 const std::vector<Check<SegmentMerger>>& merger_checks() {
   static const std::vector<Check<SegmentMerger>> checks{
-      {"NoSegmentsGiveAnEmptyMap", nothing},
-      {"OneSegmentIsAnswered", one},
+      {"NoSegmentsGiveAnEmptyMap", merge_no_lines},
+      {"OneSegmentIsAnswered", merge_one_line},
       {"IdenticalSegmentsBecomeOneInTheirPlace", identical_segments},
       {"SegmentsWithoutLengthAreAnswered", without_length},
       {"SegmentsThatAreNotFiniteAreDroppedAndChangeNothingElse", not_finite},
       {"TheOrderOfTheSegmentsDoesNotMatter", order},
-      {"TheMapMovesWithTheSegments", motion},
-      {"TheAnswerIsTheSameTwice", twice},
+      {"TheMapMovesWithTheSegments", merged_lines_move},
+      {"TheAnswerIsTheSameTwice", merge_again},
   };
   return checks;
 }

@@ -24,7 +24,7 @@ struct Field {
   std::size_t begin, size;
 };
 constexpr Field kName{0, 100}, kMode{100, 8}, kOwner{108, 8}, kGroup{116, 8}, kSize{124, 12}, kTime{136, 12},
-    kSum{148, 8}, kType{156, 1}, kMagic{257, 8}, kPrefix{345, 155};
+    kSum{148, 8}, kType{156, 1}, kMagicField{257, 8}, kPrefix{345, 155};
 
 using Header = std::array<char, kBlock>;
 
@@ -62,7 +62,7 @@ std::string entry(char type, std::string_view prefix, std::string_view name, std
   put_octal(header, kSize, bytes.size());
   put_octal(header, kTime, 0);
   header[kType.begin] = type;
-  put(header, kMagic, {"ustar\00000", 8});
+  put(header, kMagicField, {"ustar\00000", 8});
   put(header, kPrefix, prefix);
   put_octal(header, {kSum.begin, kSum.size - 1}, sum_of(header));
   header[kSum.begin + kSum.size - 1] = ' ';
@@ -120,7 +120,7 @@ std::vector<TarMember> tar_members(std::string_view archive, const std::filesyst
     if (archive.size() < kBlock) refuse(file);
     const std::string_view header = archive.substr(0, kBlock);
     if (header.find_first_not_of('\0') == std::string_view::npos) break;  // the end
-    if (header.substr(kMagic.begin, 5) != "ustar" || !has_its_sum(header, file)) refuse(file);
+    if (header.substr(kMagicField.begin, 5) != "ustar" || !has_its_sum(header, file)) refuse(file);
     const std::size_t size = octal_of(header, kSize, file);
     const std::size_t blocks = (size + kBlock - 1) / kBlock * kBlock;
     if (blocks > archive.size() - kBlock) refuse(file);

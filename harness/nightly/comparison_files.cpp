@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
+Json json_number(double value) {
   return std::isfinite(value) ? Json(value) : Json();  // JSON has no NaN
 }
 
@@ -45,7 +45,7 @@ Json statuses_json(const std::vector<StatusChange>& changes) {
 Json change_json(const MetricChange& change) {
   Json pairs = Json::array();
   for (const auto& pair : change.pairs)
-    pairs.push_back({{"seed", pair.seed}, {"before", number(pair.before)}, {"after", number(pair.after)}});
+    pairs.push_back({{"seed", pair.seed}, {"before", json_number(pair.before)}, {"after", json_number(pair.after)}});
   Json scans;  // null unless the scans of a recorded log are paired
   if (change.scans)
     scans = {{"of", change.scans->of},
@@ -59,15 +59,15 @@ Json change_json(const MetricChange& change) {
           {"unit", change.metric.unit},
           {"gate", change.gate},
           {"finding", to_string(change.finding)},
-          {"before", number(change.before)},
-          {"after", number(change.after)},
-          {"difference", number(change.difference.mean)},
-          {"ci_low", number(change.difference.low)},
-          {"ci_high", number(change.difference.high)},
+          {"before", json_number(change.before)},
+          {"after", json_number(change.after)},
+          {"difference", json_number(change.difference.mean)},
+          {"ci_low", json_number(change.difference.low)},
+          {"ci_high", json_number(change.difference.high)},
           {"tolerance", change.metric.tolerance},
-          {"effect", number(change.effect)},
-          {"p", number(change.p)},
-          {"q", number(change.q)},
+          {"effect", json_number(change.effect)},
+          {"p", json_number(change.p)},
+          {"q", json_number(change.q)},
           {"undefined_now", change.lost},
           {"scans", std::move(scans)},
           {"by_value", change.by_value},

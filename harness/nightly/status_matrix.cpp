@@ -19,7 +19,7 @@ namespace {
 using Place = std::pair<std::string, std::string>;  // scenario, pipeline
 
 /// Scenarios with the same pipelines.
-struct Group {
+struct MatrixGroup {
   std::vector<std::string> scenarios;
   std::vector<std::string> pipelines;
 };
@@ -31,7 +31,7 @@ struct State {
   std::vector<const MetricChange*> changes;
 };
 
-std::vector<Group> groups_of(const RunResults& now, const Comparison& comparison) {
+std::vector<MatrixGroup> groups_of(const RunResults& now, const Comparison& comparison) {
   std::vector<std::pair<std::string, std::vector<std::string>>> scenarios;  // in order, with their pipelines
   const auto add = [&](const CellKey& key) {
     auto scenario =
@@ -43,10 +43,11 @@ std::vector<Group> groups_of(const RunResults& now, const Comparison& comparison
   for (const auto& cell : now.cells)
     if (cell.requested) add(cell.key);
   for (const CellKey& key : comparison.missing) add(key);
-  std::vector<Group> groups;
+  std::vector<MatrixGroup> groups;
   for (auto& [name, pipelines] : scenarios) {
-    const auto known = std::ranges::find_if(
-        groups, [&, &of = pipelines](const Group& group) { return std::ranges::is_permutation(group.pipelines, of); });
+    const auto known = std::ranges::find_if(groups, [&, &of = pipelines](const MatrixGroup& group) {
+      return std::ranges::is_permutation(group.pipelines, of);
+    });
     if (known != groups.end())
       known->scenarios.push_back(name);
     else

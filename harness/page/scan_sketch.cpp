@@ -17,9 +17,9 @@ namespace scanbench::harness {
 namespace {
 
 // The frame, in units of half a pixel.
-constexpr double kWidth = 480.0;
-constexpr double kHeight = 360.0;
-constexpr double kMargin = 14.0;
+constexpr double kSketchWidth = 480.0;
+constexpr double kSketchHeight = 360.0;
+constexpr double kSketchMargin = 14.0;
 
 constexpr std::array<std::pair<const char*, const char*>, 5> kKinds{{{"right", "right"},
                                                                      {"split", "split"},
@@ -36,13 +36,13 @@ class View {
       include(line.segment.a);
       include(line.segment.b);
     }
-    scale_ = std::min((kWidth - 2 * kMargin) / std::max(high_.x() - low_.x(), 1e-3),
-                      (kHeight - 2 * kMargin) / std::max(high_.y() - low_.y(), 1e-3));
+    scale_ = std::min((kSketchWidth - 2 * kSketchMargin) / std::max(high_.x() - low_.x(), 1e-3),
+                      (kSketchHeight - 2 * kSketchMargin) / std::max(high_.y() - low_.y(), 1e-3));
   }
 
   std::string place(const Vec2& p) const {
     const Vec2 from_center = scale_ * (p - 0.5 * (low_ + high_));
-    return fmt::format("{:.0f} {:.0f}", 0.5 * kWidth + from_center.x(), 0.5 * kHeight - from_center.y());
+    return fmt::format("{:.0f} {:.0f}", 0.5 * kSketchWidth + from_center.x(), 0.5 * kSketchHeight - from_center.y());
   }
 
  private:
@@ -74,7 +74,7 @@ std::string scan_sketch(const ScanSketch& sketch) {
   return fmt::format(
       "<svg class=\"scan\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\"><path "
       "class=\"points\" d=\"{}\"/>{}<path class=\"sensor\" d=\"M{}m-7 -8l14 8l-14 8z\"/></svg>",
-      kWidth, kHeight, html_escaped(plain_line(sketch.label)), points, lines, view.place(Vec2::Zero()));
+      kSketchWidth, kSketchHeight, html_escaped(plain_line(sketch.label)), points, lines, view.place(Vec2::Zero()));
 }
 
 std::string scan_sketch_key() {

@@ -12,9 +12,9 @@
 namespace scanbench::harness {
 namespace {
 
-constexpr double kWidth = 120.0;
-constexpr double kHeight = 24.0;
-constexpr double kMargin = 3.0;
+constexpr double kSparkWidth = 120.0;
+constexpr double kSparkHeight = 24.0;
+constexpr double kSparkMargin = 3.0;
 
 }  // namespace
 
@@ -28,10 +28,11 @@ std::string sparkline(std::span<const double> values, const std::string& label) 
   }
   const auto x = [&](std::size_t i) {
     const double steps = static_cast<double>(std::max<std::size_t>(values.size(), 2) - 1);
-    return kMargin + (kWidth - 2 * kMargin) * static_cast<double>(i) / steps;
+    return kSparkMargin + (kSparkWidth - 2 * kSparkMargin) * static_cast<double>(i) / steps;
   };
   const auto y = [&](double v) {
-    return high > low ? kHeight - kMargin - (kHeight - 2 * kMargin) * (v - low) / (high - low) : 0.5 * kHeight;
+    return high > low ? kSparkHeight - kSparkMargin - (kSparkHeight - 2 * kSparkMargin) * (v - low) / (high - low)
+                      : 0.5 * kSparkHeight;
   };
   std::string path;
   std::string last;
@@ -48,7 +49,7 @@ std::string sparkline(std::span<const double> values, const std::string& label) 
   return fmt::format(
       "<svg class=\"spark\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" role=\"img\" "
       "aria-label=\"{2}\"><path d=\"{3}\" fill=\"none\" stroke=\"currentColor\" stroke-width=\"1.5\"/>{4}</svg>",
-      kWidth, kHeight, html_escaped(label), path, last);
+      kSparkWidth, kSparkHeight, html_escaped(label), path, last);
 }
 
 }  // namespace scanbench::harness

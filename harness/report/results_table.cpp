@@ -28,7 +28,7 @@ using metrics::MetricDescription;
 
 /// Errors and costs of a pipeline are compared only if its completeness is at most this much worse than the best.
 constexpr double kCompletenessMargin = 0.05;
-constexpr double kRounding = 1e-9;  ///< a difference of exactly the margin is within it
+constexpr double kMarginRounding = 1e-9;  ///< a difference of exactly the margin is within it
 /// Metrics of completeness: shares of the truth that a pipeline finds or misses; earlier ones are preferred.
 constexpr std::array<std::string_view, 4> kCompleteness{"f1", "covered_5cm", "placed", "missed"};
 
@@ -127,7 +127,7 @@ class TableBuilder {
       if (results_.coverage.at(results_.pipelines[i]).complete() && (std::isnan(best) || costs[i] < best))
         best = costs[i];
     for (std::size_t i = 0; i < costs.size(); ++i)
-      passed[i] = std::isnan(best) || costs[i] <= best + kCompletenessMargin + kRounding;
+      passed[i] = std::isnan(best) || costs[i] <= best + kCompletenessMargin + kMarginRounding;
     return passed;
   }
 

@@ -28,8 +28,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSweepFile = "sweep.json";
-constexpr const char* kCellsFile = "cells.csv";
-const std::vector<std::string> kCellColumns{"shard", "address", "scenario", "pipeline", "seed"};
+constexpr const char* kPlanFile = "cells.csv";
+const std::vector<std::string> kPlanColumns{"shard", "address", "scenario", "pipeline", "seed"};
 
 /// Throws ConfigError for a folder that this program may not write a plan into.
 void require_sweep_or_nothing(const fs::path& folder) {
@@ -75,7 +75,7 @@ int deal(const RunPlan& plan, const SweepOptions& options, std::vector<SweepCell
 }
 
 std::string cells_csv(const std::vector<SweepCell>& cells) {
-  CsvWriter csv(kCellColumns);
+  CsvWriter csv(kPlanColumns);
   for (const SweepCell& cell : cells) {
     csv.integer(cell.shard).text(cell.address).text(cell.key.scenario).text(cell.key.pipeline);
     csv.seed(cell.key.seed).end_row();
@@ -89,10 +89,10 @@ std::string seal_of(Json json) {
 }
 
 void write_plan(const SweepPlan& plan, const SweepOptions& options) {
-  write_file_atomically(plan.folder / kCellsFile, cells_csv(plan.cells));
+  write_file_atomically(plan.folder / kPlanFile, cells_csv(plan.cells));
   Json files = Json::array();
   std::vector<fs::path> paths = scenario_files(plan.folder, plan.scenarios);
-  paths.emplace_back(kCellsFile);
+  paths.emplace_back(kPlanFile);
   for (const auto& path : paths)
     files.push_back({{"path", path.generic_string()}, {"sha256", sha256_of_file(plan.folder / path)}});
   Json json{{"schema", 1},
@@ -117,8 +117,8 @@ void write_plan(const SweepPlan& plan, const SweepOptions& options) {
 }
 
 void load_cells(SweepPlan& plan) {
-  const fs::path file = plan.folder / kCellsFile;
-  const CsvTable csv(read_file(file), file, kCellColumns);
+  const fs::path file = plan.folder / kPlanFile;
+  const CsvTable csv(read_file(file), file, kPlanColumns);
   plan.cells.reserve(csv.rows());
   for (std::size_t r = 0; r < csv.rows(); ++r)
     plan.cells.push_back(

@@ -92,7 +92,8 @@ class RasterTruth : public MetricFamily {
   Params params_;
 };
 
-const bool registered = Registry<MetricFamily>::add<RasterTruth>(
+SCANBENCH_REGISTER(
+    MetricFamily, RasterTruth,
     {.name = "raster_truth",
      .summary = "found lines and true walls as pixels: precision, recall, F, Chamfer and Hausdorff distances",
      .reference = "this project"});

@@ -108,11 +108,11 @@ class MrptIcp final : public ScanMatcher {
   Params params_;
 };
 
-const bool registered = Registry<ScanMatcher>::add<MrptIcp>(
-    {.name = "mrpt_icp",
-     .summary = "mrpt::slam::CICP of MRPT " + mrpt_version() + ": ICP with a threshold that shrinks",
-     .reference =
-         "MRPT " + mrpt_version() + ", mrpt-slam; Martinez, Gonzalez, Morales & Mandow 2006, J. Field Robotics"});
+SCANBENCH_REGISTER(ScanMatcher, MrptIcp,
+                   {.name = "mrpt_icp",
+                    .summary = "mrpt::slam::CICP of MRPT " + mrpt_version() + ": ICP with a threshold that shrinks",
+                    .reference = "MRPT " + mrpt_version() +
+                                 ", mrpt-slam; Martinez, Gonzalez, Morales & Mandow 2006, J. Field Robotics"});
 
 }  // namespace
 }  // namespace scanbench

@@ -183,10 +183,10 @@ class CvHough final : public LineExtractor {
   Params params_;
 };
 
-const bool registered = Registry<LineExtractor>::add<CvHough>(
-    {.name = "cv_hough",
-     .summary = "cv::HoughLinesPointSet of OpenCV " CV_VERSION ", its lines split into segments at gaps",
-     .reference = "OpenCV " CV_VERSION ", module imgproc; the segments are ours"});
+SCANBENCH_REGISTER(LineExtractor, CvHough,
+                   {.name = "cv_hough",
+                    .summary = "cv::HoughLinesPointSet of OpenCV " CV_VERSION ", its lines split into segments at gaps",
+                    .reference = "OpenCV " CV_VERSION ", module imgproc; the segments are ours"});
 
 }  // namespace
 }  // namespace scanbench

@@ -56,10 +56,11 @@ class PclIcp final : public ScanMatcher {
   Params params_;
 };
 
-const bool registered = Registry<ScanMatcher>::add<PclIcp>(
-    {.name = "pcl_icp",
-     .summary = "pcl::IterativeClosestPoint of PCL " PCL_VERSION_PRETTY ": point-to-point ICP in the plane",
-     .reference = "PCL " PCL_VERSION_PRETTY ", registration; Besl & McKay 1992, PAMI 14(2)"});
+SCANBENCH_REGISTER(ScanMatcher, PclIcp,
+                   {.name = "pcl_icp",
+                    .summary = "pcl::IterativeClosestPoint of PCL " PCL_VERSION_PRETTY
+                               ": point-to-point ICP in the plane",
+                    .reference = "PCL " PCL_VERSION_PRETTY ", registration; Besl & McKay 1992, PAMI 14(2)"});
 
 }  // namespace
 }  // namespace scanbench

@@ -59,10 +59,10 @@ class PclNdt final : public ScanMatcher {
   Params params_;
 };
 
-const bool registered = Registry<ScanMatcher>::add<PclNdt>(
-    {.name = "pcl_ndt",
-     .summary = "pcl::NormalDistributionsTransform of PCL " PCL_VERSION_PRETTY ", in the plane",
-     .reference = "PCL " PCL_VERSION_PRETTY ", registration; Magnusson 2009, Orebro University"});
+SCANBENCH_REGISTER(ScanMatcher, PclNdt,
+                   {.name = "pcl_ndt",
+                    .summary = "pcl::NormalDistributionsTransform of PCL " PCL_VERSION_PRETTY ", in the plane",
+                    .reference = "PCL " PCL_VERSION_PRETTY ", registration; Magnusson 2009, Orebro University"});
 
 }  // namespace
 }  // namespace scanbench

@@ -20,10 +20,10 @@
 namespace scanbench::render {
 namespace {
 
-constexpr int kTile = GlContext::kSide;
+constexpr int kRasterTile = GlContext::kSide;
 // A piece of a line as wide as a tile is less than two tiles high. With this margin about the tile OpenGL cuts none of
 // them, which would give its corners other roundings. The whole is a power of two, so coordinates remain exact.
-constexpr int kMargin = 3 * kTile / 2;
+constexpr int kMargin = 3 * kRasterTile / 2;
 constexpr std::size_t kLayersAtOnce = 3;  // red, green and blue
 
 struct Corner {
@@ -38,7 +38,7 @@ using TileTriangles = std::array<std::vector<Corner>, kLayersAtOnce>;
 using Tiles = std::map<std::pair<int, int>, TileTriangles>;
 
 int tile_of(double pixel) {
-  return static_cast<int>(std::floor(pixel / kTile));
+  return static_cast<int>(std::floor(pixel / kRasterTile));
 }
 
 /// A segment in pixels, with its major axis along u: v changes by at most one pixel per column of u.
@@ -63,9 +63,9 @@ struct Thin {
 /// share the quadrilateral agree on its pixels.
 void add_piece(const Thin& line, int first, int last, int tile_u, int tile_v, std::vector<Corner>& triangles) {
   const auto corner = [&](double u, double lift) {
-    const auto along = static_cast<float>(u + 0.5 - static_cast<double>(tile_u) * kTile);
+    const auto along = static_cast<float>(u + 0.5 - static_cast<double>(tile_u) * kRasterTile);
     const double v = std::round(256.0 * line.v(u)) / 256.0;
-    const auto across = static_cast<float>(v + lift - static_cast<double>(tile_v) * kTile);
+    const auto across = static_cast<float>(v + lift - static_cast<double>(tile_v) * kRasterTile);
     return line.steep ? Corner{across, along} : Corner{along, across};
   };
   const double left = first - 0.5, right = last + 0.5;
@@ -76,7 +76,8 @@ void add_piece(const Thin& line, int first, int last, int tile_u, int tile_v, st
 /// Cuts the line at the columns where tiles begin. All tiles that a piece touches draw it.
 void add_line(const Thin& line, std::size_t layer, Tiles& tiles) {
   for (int tile_u = tile_of(line.first); tile_u <= tile_of(line.last); ++tile_u) {
-    const int first = std::max(line.first, tile_u * kTile), last = std::min(line.last, tile_u * kTile + kTile - 1);
+    const int first = std::max(line.first, tile_u * kRasterTile),
+              last = std::min(line.last, tile_u * kRasterTile + kRasterTile - 1);
     const auto [low, high] = std::minmax({line.v(first - 0.5), line.v(last + 0.5)});
     for (int tile_v = tile_of(low + 0.49); tile_v <= tile_of(high + 0.51); ++tile_v) {
       const std::pair key = line.steep ? std::pair(tile_u, tile_v) : std::pair(tile_v, tile_u);
@@ -86,7 +87,7 @@ void add_line(const Thin& line, std::size_t layer, Tiles& tiles) {
 }
 
 void draw(const TileTriangles& triangles, const CurrentGl& current) {
-  current.view(-kMargin, kTile + kMargin, -kMargin, kTile + kMargin, kMargin);
+  current.view(-kMargin, kRasterTile + kMargin, -kMargin, kRasterTile + kMargin, kMargin);
   const OsMesa& gl = current.gl();
   gl.clear_color(0, 0, 0, 0);
   gl.clear(GL_COLOR_BUFFER_BIT);
@@ -103,12 +104,12 @@ void draw(const TileTriangles& triangles, const CurrentGl& current) {
 }
 
 /// The columns of the set pixels of one row of tiles, per layer and row.
-using BandRows = std::array<std::array<std::vector<std::int32_t>, kTile>, kLayersAtOnce>;
+using BandRows = std::array<std::array<std::vector<std::int32_t>, kRasterTile>, kLayersAtOnce>;
 
 void collect(const std::vector<std::uint8_t>& buffer, int first_column, BandRows& rows) {
-  for (std::size_t y = 0; y < as_index(kTile); ++y) {
-    const std::uint8_t* row = &buffer[4 * as_index(kTile) * y];
-    for (std::size_t x = 0; x < as_index(kTile); x += 4) {
+  for (std::size_t y = 0; y < as_index(kRasterTile); ++y) {
+    const std::uint8_t* row = &buffer[4 * as_index(kRasterTile) * y];
+    for (std::size_t x = 0; x < as_index(kRasterTile); x += 4) {
       std::array<std::uint64_t, 2> four{};  // most pixels are not set
       std::memcpy(four.data(), row + 4 * x, sizeof four);
       if ((four[0] | four[1]) == 0) continue;
@@ -170,20 +171,22 @@ class OsmesaRaster : public LineRaster {
     for (auto tile = tiles.begin(); tile != tiles.end(); ++tile) {
       const auto [row, column] = tile->first;
       render::draw(tile->second, current);
-      collect(current.pixels(), column * kTile, rows);
+      collect(current.pixels(), column * kRasterTile, rows);
       if (const auto next = std::next(tile); next != tiles.end() && next->first.first == row) continue;
       for (std::size_t layer = 0; layer < layers.size(); ++layer)
-        for (std::size_t y = 0; y < as_index(kTile); ++y) {
+        for (std::size_t y = 0; y < as_index(kRasterTile); ++y) {
           for (const std::int32_t x : rows[layer][y])
-            pixels[layer].push_back({.y = row * kTile + static_cast<std::int32_t>(y), .x = x});
+            pixels[layer].push_back({.y = row * kRasterTile + static_cast<std::int32_t>(y), .x = x});
           rows[layer][y].clear();
         }
     }
   }
 };
 
-const bool registered = Registry<LineRaster>::add<OsmesaRaster>(
-    {.name = std::string(LineRaster::kDefault), .summary = "lines one pixel wide, by OSMesa", .reference = ""});
+SCANBENCH_REGISTER(LineRaster, OsmesaRaster,
+                   {.name = std::string(LineRaster::kDefault),
+                    .summary = "lines one pixel wide, by OSMesa",
+                    .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

@@ -17,7 +17,7 @@ struct CurveStyle {
 };
 constexpr std::array<CurveStyle, 2> kCurves{
     {{kBlue, Dash::solid, Marker::circle, true}, {kVermillion, Dash::dashed, Marker::square, false}}};
-constexpr double kCurveWidth = 1.2;
+constexpr double kFacetCurveWidth = 1.2;
 constexpr double kMarkerSize = 3.6;
 const Stroke kOthers{{205, 205, 205}, 0.6, Dash::solid};
 const Stroke kReference{kBlack, 0.9, Dash::dotted};
@@ -25,7 +25,7 @@ const Stroke kReference{kBlack, 0.9, Dash::dotted};
 void add_curve(const FacetCurve& curve, const CurveStyle& style, Panel& panel) {
   panel.items.emplace_back(
       ErrorBars{.intervals = curve.intervals, .stroke = {style.color, 0.8, Dash::solid}, .cap_pt = 3.0});
-  panel.items.emplace_back(Polyline{.points = curve.points, .stroke = {style.color, kCurveWidth, style.dash}});
+  panel.items.emplace_back(Polyline{.points = curve.points, .stroke = {style.color, kFacetCurveWidth, style.dash}});
   panel.items.emplace_back(Points{.points = curve.points,
                                   .marker = style.marker,
                                   .color = style.color,
@@ -36,7 +36,7 @@ void add_curve(const FacetCurve& curve, const CurveStyle& style, Panel& panel) {
 void add_legend_entries(const FacetChart& chart, Scene& scene) {
   for (std::size_t i = 0; i < chart.curve_names.size(); ++i)
     scene.legend.push_back({.text = chart.curve_names[i],
-                            .stroke = Stroke{kCurves[i].color, kCurveWidth, kCurves[i].dash},
+                            .stroke = Stroke{kCurves[i].color, kFacetCurveWidth, kCurves[i].dash},
                             .marker = kCurves[i].marker,
                             .marker_color = kCurves[i].color,
                             .marker_size_pt = kMarkerSize,

@@ -112,7 +112,8 @@ class Alignment : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<Alignment>(
+SCANBENCH_REGISTER(
+    Figure, Alignment,
     {.name = "alignment",
      .summary =
          "points of all scans, superimposed by odometry, by the poses that a pipeline used, and by the true ones "

@@ -18,7 +18,7 @@ namespace {
 const Stroke kLine{kBlack, 0.8, Dash::solid};
 constexpr Color kFarther = kBlue, kNearer = kVermillion;
 constexpr double kStemPt = 0.5;
-constexpr double kDotPt = 1.6;
+constexpr double kResidualDotPt = 1.6;
 
 /// Where a beam meets its line, and the return's distance beyond that [m].
 struct Residual {
@@ -66,12 +66,12 @@ class BeamResiduals : public Figure {
                      .stroke = Stroke{kFarther, kStemPt, Dash::solid},
                      .marker = Marker::dot,
                      .marker_color = kFarther,
-                     .marker_size_pt = kDotPt},
+                     .marker_size_pt = kResidualDotPt},
                     {.text = "before it",
                      .stroke = Stroke{kNearer, kStemPt, Dash::solid},
                      .marker = Marker::dot,
                      .marker_color = kNearer,
-                     .marker_size_pt = kDotPt}};
+                     .marker_size_pt = kResidualDotPt}};
     return {{"beam_residuals",
              fmt::format("{}: scan {}, sensor frame. The stems are the residuals of the returns along their beams from "
                          "the lines that they support, drawn {:g} times as long.",
@@ -98,7 +98,8 @@ class BeamResiduals : public Figure {
   Panel panel_of(const std::string& name, const ScanLines& lines, const std::vector<Residual>& residuals) const {
     double squares = 0.0;
     Lines farther{.stroke = {kFarther, kStemPt, Dash::solid}}, nearer{.stroke = {kNearer, kStemPt, Dash::solid}};
-    Points far_tips{.color = kFarther, .size_pt = kDotPt}, near_tips{.color = kNearer, .size_pt = kDotPt};
+    Points far_tips{.color = kFarther, .size_pt = kResidualDotPt},
+        near_tips{.color = kNearer, .size_pt = kResidualDotPt};
     std::vector<Vec2> tips;
     for (const Residual& r : residuals) {
       squares += r.beyond_m * r.beyond_m;
@@ -125,10 +126,10 @@ class BeamResiduals : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<BeamResiduals>(
-    {.name = "beam_residuals",
-     .summary = "residuals of one scan along its beams from the lines that they support, exaggerated",
-     .reference = ""});
+SCANBENCH_REGISTER(Figure, BeamResiduals,
+                   {.name = "beam_residuals",
+                    .summary = "residuals of one scan along its beams from the lines that they support, exaggerated",
+                    .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

@@ -15,8 +15,8 @@ namespace {
 
 // Missed parts are wide and below all others, because a found line may cross them. True ones are above the false ones,
 // of which a run of many scans has many.
-const Stroke kMissed{kPurple, 2.4, Dash::solid}, kRight{kGreen, 0.8, Dash::solid},
-    kWrong{kVermillion, 0.8, Dash::solid};
+const Stroke kMissedStroke{kPurple, 2.4, Dash::solid}, kRightStroke{kGreen, 0.8, Dash::solid},
+    kWrongStroke{kVermillion, 0.8, Dash::solid};
 
 class Difference : public Figure {
  public:
@@ -39,9 +39,9 @@ class Difference : public Figure {
     std::vector<Segment> walls = true_walls_of(input);
     for (const NamedResult* named : shown) scene.panels.push_back(panel_of(*named, walls, shown.size()));
     const LineDifference& first = *shown.front()->difference;
-    scene.legend = {{.text = "found and true", .stroke = kRight},
-                    {.text = "missed", .stroke = kMissed},
-                    {.text = "false", .stroke = kWrong}};
+    scene.legend = {{.text = "found and true", .stroke = kRightStroke},
+                    {.text = "missed", .stroke = kMissedStroke},
+                    {.text = "false", .stroke = kWrongStroke}};
     return {
         {"difference",
          fmt::format("{}: found lines and the visible parts of true walls, drawn as pixels of {:g} cm. Found pixels "
@@ -66,14 +66,15 @@ class Difference : public Figure {
                 .tell_outside = "line"};
     const std::size_t budget = kSegmentBudget / (3 * panels);
     for (const auto& [parts, stroke] :
-         {std::pair(&d.missed, kMissed), std::pair(&d.wrong, kWrong), std::pair(&d.right, kRight)})
+         {std::pair(&d.missed, kMissedStroke), std::pair(&d.wrong, kWrongStroke), std::pair(&d.right, kRightStroke)})
       if (!parts->empty()) panel.items.emplace_back(Lines{.segments = thinned(*parts, budget), .stroke = stroke});
     set_view(ends_of(d.wrong), ends_of(walls), panel);
     return panel;
   }
 };
 
-const bool registered = Registry<Figure>::add<Difference>(
+SCANBENCH_REGISTER(
+    Figure, Difference,
     {.name = "difference",
      .summary = "found lines and true walls in three colours: found and true, missed, false; with counts of pixels",
      .reference = ""});

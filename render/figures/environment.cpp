@@ -136,8 +136,10 @@ class Environment : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<Environment>(
-    {.name = "environment", .summary = "walls with labels, trajectory, waypoints and one scan", .reference = ""});
+SCANBENCH_REGISTER(Figure, Environment,
+                   {.name = "environment",
+                    .summary = "walls with labels, trajectory, waypoints and one scan",
+                    .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

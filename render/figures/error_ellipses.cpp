@@ -184,10 +184,10 @@ class ErrorEllipses : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<ErrorEllipses>(
-    {.name = "error_ellipses",
-     .summary = "errors of lines or of matched poses with their empirical and their estimated ellipse",
-     .reference = ""});
+SCANBENCH_REGISTER(Figure, ErrorEllipses,
+                   {.name = "error_ellipses",
+                    .summary = "errors of lines or of matched poses with their empirical and their estimated ellipse",
+                    .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

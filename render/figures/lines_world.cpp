@@ -14,9 +14,9 @@
 namespace scanbench::render {
 namespace {
 
-const Stroke kWallStroke{kWallColor, 0.35, Dash::solid};
-const Stroke kPathStroke{kGrey, 0.5, Dash::dotted};
-constexpr double kLineWidth = 0.6;
+const Stroke kThinWallStroke{kWallColor, 0.35, Dash::solid};
+const Stroke kWorldPathStroke{kGrey, 0.5, Dash::dotted};
+constexpr double kWorldLineWidth = 0.6;
 
 class LinesWorld : public Figure {
  public:
@@ -48,18 +48,18 @@ class LinesWorld : public Figure {
       Panel panel{.tell_outside = "line"};
       panel.title =
           fmt::format("{}: {}, {}", names_of(input.results, group), counted(found, "line"), to_string(placed.source));
-      add_path(input, placed.world_from_sensor, kPathStroke, panel);
-      lines.draw({method_color(input.results, group.front()), kLineWidth, Dash::solid}, false, panel);
-      if (recording.truth) panel.items.emplace_back(Lines{true_walls(recording, Pose2()), kWallStroke});
+      add_path(input, placed.world_from_sensor, kWorldPathStroke, panel);
+      lines.draw({method_color(input.results, group.front()), kWorldLineWidth, Dash::solid}, false, panel);
+      if (recording.truth) panel.items.emplace_back(Lines{true_walls(recording, Pose2()), kThinWallStroke});
       set_view(ends_of(lines.found()), wall_ends, panel);
       scene.panels.push_back(std::move(panel));
     }
-    if (recording.truth) scene.legend.push_back({.text = "true walls", .stroke = kWallStroke});
+    if (recording.truth) scene.legend.push_back({.text = "true walls", .stroke = kThinWallStroke});
     if (judged)
-      add_verdict_legend(kLineWidth, scene);
+      add_verdict_legend(kWorldLineWidth, scene);
     else
       add_method_legend(input.results, groups, 0.9, scene);
-    scene.legend.push_back(path_legend(input, kPathStroke));
+    scene.legend.push_back(path_legend(input, kWorldPathStroke));
     const std::string thinned = stride > 1 ? fmt::format(" Only one scan in {} is drawn.", stride) : "";
     return {{"lines_world",
              input.title + ": the lines found in all scans, placed by the poses of each pipeline." + thinned,
@@ -78,8 +78,8 @@ class LinesWorld : public Figure {
   }
 };
 
-const bool registered = Registry<Figure>::add<LinesWorld>(
-    {.name = "lines_world", .summary = "the lines of all scans, placed in the world", .reference = ""});
+SCANBENCH_REGISTER(Figure, LinesWorld,
+                   {.name = "lines_world", .summary = "the lines of all scans, placed in the world", .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

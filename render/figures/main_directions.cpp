@@ -22,20 +22,20 @@
 namespace scanbench::render {
 namespace {
 
-constexpr std::string_view kSlot = "map";
+constexpr std::string_view kDirectionsSlot = "map";
 constexpr double kSameRad = 0.0873;  // 5 degrees: directions nearer than this are one that drifts
 constexpr double kSeenM = 1.0;       // length of a scan's lines that shows a direction
 constexpr double kRayPt = 1.0;       // width of the rays that show directions
 const Color kDirectionColor = kVermillion;
 const Stroke kMapStroke{kBlue, 1.0, Dash::solid};
-const Stroke kWallStroke{kTruthUnderlay, 2.2, Dash::solid};
+const Stroke kTrueWallStroke{kTruthUnderlay, 2.2, Dash::solid};
 const Stroke kRayStroke{kDirectionColor, kRayPt, Dash::dashed};
 
 /// Rows of one kind with the frame that they belong to.
 template <TraceRowType Row>
 std::vector<std::pair<int, Row>> framed_rows(const TraceRows& trace) {
   std::vector<std::pair<int, Row>> rows;
-  if (const auto found = trace.find(key_of<Row>(kSlot)); found != trace.end())
+  if (const auto found = trace.find(key_of<Row>(kDirectionsSlot)); found != trace.end())
     for (const TraceRow& raw : found->second)
       if (const auto row = row_from<Row>(raw.values)) rows.emplace_back(raw.frame, *row);
   return rows;
@@ -125,7 +125,8 @@ class MainDirections : public Figure {
 
   std::vector<std::string> trace_rows(std::string_view pipeline) const override {
     if (!shows(params_.pipeline, pipeline)) return {};
-    return {key_of<mapping::BornRow>(kSlot), key_of<mapping::GoneRow>(kSlot), key_of<mapping::DirectionRow>(kSlot)};
+    return {key_of<mapping::BornRow>(kDirectionsSlot), key_of<mapping::GoneRow>(kDirectionsSlot),
+            key_of<mapping::DirectionRow>(kDirectionsSlot)};
   }
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {
@@ -169,7 +170,7 @@ class MainDirections : public Figure {
     const std::vector<int> frames = chosen(adoption, seen, static_cast<int>(poses.size()) - 1);
     for (const int frame : frames) scene.panels.push_back(moment(input, history, poses, frame));
     scene.legend = {{.text = "map", .stroke = kMapStroke}, {.text = "main directions", .stroke = kRayStroke}};
-    if (input.recording.truth) scene.legend.push_back({.text = "walls", .stroke = kWallStroke});
+    if (input.recording.truth) scene.legend.push_back({.text = "walls", .stroke = kTrueWallStroke});
     std::string caption =
         fmt::format("{}: the map of {} and its main directions after scans", input.title, shown.pipeline);
     for (std::size_t i = 0; i < frames.size(); ++i) caption += fmt::format("{} {}", i == 0 ? "" : ",", frames[i]);
@@ -187,7 +188,7 @@ class MainDirections : public Figure {
     std::vector<double> angles;
     if (found != history.directions.begin()) angles = std::prev(found)->second;
     Panel panel{};
-    panel.items.emplace_back(Lines{.segments = true_walls(input.recording, {}), .stroke = kWallStroke});
+    panel.items.emplace_back(Lines{.segments = true_walls(input.recording, {}), .stroke = kTrueWallStroke});
     panel.items.emplace_back(Lines{.segments = map, .stroke = kMapStroke});
     std::string text;
     Lines rays{.stroke = kRayStroke};
@@ -234,7 +235,8 @@ class MainDirections : public Figure {
   Params params_;
 };
 
-[[maybe_unused]] const bool registered = Registry<Figure>::add<MainDirections>(
+SCANBENCH_REGISTER(
+    Figure, MainDirections,
     {.name = "main_directions",
      .summary = "the map at three moments around the adoption of a main direction, and all main directions over time",
      .reference = "Lakaemper, Latecki & Wolter 2005, figure 7"});

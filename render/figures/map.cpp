@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kMostLinesWithEnds = 200;  // in a panel: the ends of more would hide the lines
 
-const Stroke kPathStroke{kGrey, 0.5, Dash::dotted};
-constexpr double kLineWidth = 1.2;
+const Stroke kMapPathStroke{kGrey, 0.5, Dash::dotted};
+constexpr double kMapLineWidth = 1.2;
 
 class Map : public Figure {
  public:
@@ -43,8 +43,8 @@ class Map : public Figure {
       scene.panels.push_back(panel_of(input, group, groups.size(), most_lines <= kMostLinesWithEnds));
     scene.legend.push_back(
         {.text = "points of all scans", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.0});
-    add_method_legend(input.results, groups, kLineWidth, scene);
-    scene.legend.push_back(path_legend(input, kPathStroke));
+    add_method_legend(input.results, groups, kMapLineWidth, scene);
+    scene.legend.push_back(path_legend(input, kMapPathStroke));
     return {{"map", input.title + ": the line map of each pipeline over the points of all scans.", std::move(scene)}};
   }
 
@@ -66,7 +66,7 @@ class Map : public Figure {
     const PlacedFrames placed = place_frames(input.recording, named.result);
     const std::vector<Vec2> points = all_points(input.recording, placed.world_from_sensor, kPointBudget / panels);
     const Lines lines{.segments = segments_of(named),
-                      .stroke = {method_color(input.results, group.front()), kLineWidth, Dash::solid}};
+                      .stroke = {method_color(input.results, group.front()), kMapLineWidth, Dash::solid}};
     const std::vector<Vec2> ends = ends_of(lines.segments);
     Panel panel{.title = names_of(input.results, group) + ": " + counted(lines.segments.size(), "line"),
                 .tell_outside = "point"};
@@ -75,14 +75,16 @@ class Map : public Figure {
     if (with_ends)
       panel.items.emplace_back(
           Points{.points = ends, .marker = Marker::circle, .color = lines.stroke.color, .size_pt = 2.4});
-    add_path(input, placed.world_from_sensor, kPathStroke, panel);
+    add_path(input, placed.world_from_sensor, kMapPathStroke, panel);
     set_view(points.empty() ? ends : points, {}, panel);
     return panel;
   }
 };
 
-const bool registered = Registry<Figure>::add<Map>(
-    {.name = "map", .summary = "the line map of each pipeline over the points of all scans", .reference = ""});
+SCANBENCH_REGISTER(Figure, Map,
+                   {.name = "map",
+                    .summary = "the line map of each pipeline over the points of all scans",
+                    .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

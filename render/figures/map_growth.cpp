@@ -15,13 +15,13 @@
 namespace scanbench::render {
 namespace {
 
-constexpr std::string_view kSlot = "map";
+constexpr std::string_view kGrowthSlot = "map";
 
 /// (scan, lines of the map after it) from the trace.
 std::vector<Vec2> growth_of(const NamedResult& result) {
   std::vector<Vec2> growth;
   if (result.trace == nullptr) return growth;
-  if (const auto found = result.trace->find(key_of<mapping::InsertionRow>(kSlot)); found != result.trace->end())
+  if (const auto found = result.trace->find(key_of<mapping::InsertionRow>(kGrowthSlot)); found != result.trace->end())
     for (const TraceRow& raw : found->second)
       if (const auto row = row_from<mapping::InsertionRow>(raw.values)) growth.emplace_back(raw.frame, row->map_lines);
   return growth;
@@ -33,7 +33,7 @@ class MapGrowth : public Figure {
   explicit MapGrowth(const Params&) {}
 
   std::vector<std::string> trace_rows(std::string_view /*pipeline*/) const override {
-    return {key_of<mapping::InsertionRow>(kSlot)};
+    return {key_of<mapping::InsertionRow>(kGrowthSlot)};
   }
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {
@@ -60,8 +60,8 @@ class MapGrowth : public Figure {
   }
 };
 
-[[maybe_unused]] const bool registered = Registry<Figure>::add<MapGrowth>(
-    {.name = "map_growth", .summary = "lines of the map after each scan, for mappers", .reference = ""});
+SCANBENCH_REGISTER(Figure, MapGrowth,
+                   {.name = "map_growth", .summary = "lines of the map after each scan, for mappers", .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

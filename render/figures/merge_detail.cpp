@@ -14,8 +14,8 @@
 namespace scanbench::render {
 namespace {
 
-const Stroke kGivenStroke{kBlue, 0.8, Dash::solid};
-const Stroke kMergedStroke{kBlack, 1.3, Dash::solid};
+const Stroke kDetailGivenStroke{kBlue, 0.8, Dash::solid};
+const Stroke kDetailMergedStroke{kBlack, 1.3, Dash::solid};
 
 class MergeDetail : public Figure {
  public:
@@ -50,17 +50,17 @@ class MergeDetail : public Figure {
     scene.title = fmt::format("{}: {}, scan {} (0 to {})", input.title, both.named->pipeline, frame,
                               input.recording.observed.frames.size() - 1);
     Points scan{.points = points, .color = kBlack, .size_pt = 1.4};
-    scene.panels = {panel("a) points of one scan", window, {}, kGivenStroke, points.empty() ? "no points" : ""),
-                    panel("b) lines found in it", window, found, kGivenStroke, found.empty() ? "no lines" : ""),
-                    panel("c) lines of all scans", window, both.all_given(), kGivenStroke,
+    scene.panels = {panel("a) points of one scan", window, {}, kDetailGivenStroke, points.empty() ? "no points" : ""),
+                    panel("b) lines found in it", window, found, kDetailGivenStroke, found.empty() ? "no lines" : ""),
+                    panel("c) lines of all scans", window, both.all_given(), kDetailGivenStroke,
                           both.given_count() == 0 ? "no lines" : ""),
-                    panel("d) merged", window, both.map, kMergedStroke, both.map.empty() ? "no lines" : "")};
+                    panel("d) merged", window, both.map, kDetailMergedStroke, both.map.empty() ? "no lines" : "")};
     scene.panels[0].items.emplace_back(scan);
     scan.color = kFaintPoints;
     scene.panels[1].items.insert(scene.panels[1].items.begin(), scan);
     scene.legend = {{.text = "scan points", .marker = Marker::dot, .marker_size_pt = 2.0},
-                    {.text = "lines found", .stroke = kGivenStroke},
-                    {.text = "lines of the map", .stroke = kMergedStroke}};
+                    {.text = "lines found", .stroke = kDetailGivenStroke},
+                    {.text = "lines of the map", .stroke = kDetailMergedStroke}};
     return {
         {"merge_detail",
          fmt::format("{}: a detail of {:.3g} m: points of scan {}, lines found in it, lines of all scans in the same "
@@ -93,7 +93,8 @@ class MergeDetail : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<MergeDetail>(
+SCANBENCH_REGISTER(
+    Figure, MergeDetail,
     {.name = "merge_detail",
      .summary = "a detail as points of one scan, its lines, the lines of all scans, and the merged lines",
      .reference = "Lakaemper 2009, figure 5"});

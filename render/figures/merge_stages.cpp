@@ -12,8 +12,8 @@
 namespace scanbench::render {
 namespace {
 
-const Stroke kGivenStroke{kBlue, 0.5, Dash::solid};
-const Stroke kMergedStroke{kBlack, 1.0, Dash::solid};
+const Stroke kStageGivenStroke{kBlue, 0.5, Dash::solid};
+const Stroke kStageMergedStroke{kBlack, 1.0, Dash::solid};
 
 class MergeStages : public Figure {
  public:
@@ -48,11 +48,11 @@ class MergeStages : public Figure {
       if (segments.empty()) add_note("no lines", panel);
       scene.panels.push_back(std::move(panel));
     };
-    add("given", given, kGivenStroke);
+    add("given", given, kStageGivenStroke);
     const std::vector<Segment> merged = merged_before_cleaning(*both.named);
-    if (!merged.empty() && merged != both.map) add("merged", merged, kMergedStroke);
+    if (!merged.empty() && merged != both.map) add("merged", merged, kStageMergedStroke);
     const bool cleaned = scene.panels.size() == 2;
-    add(cleaned ? "after cleaning" : "merged", both.map, kMergedStroke);
+    add(cleaned ? "after cleaning" : "merged", both.map, kStageMergedStroke);
 
     const Scene looks = small_multiples(scene.panels.size());
     scene.width_in = kDoubleColumnIn;
@@ -63,7 +63,7 @@ class MergeStages : public Figure {
       scene.legend.push_back(
           {.text = "scan points", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.0});
     scene.legend.push_back({.text = "lines given", .stroke = Stroke{kBlue, 0.9, Dash::solid}});
-    scene.legend.push_back({.text = "lines of the map", .stroke = kMergedStroke});
+    scene.legend.push_back({.text = "lines of the map", .stroke = kStageMergedStroke});
     return {{"merge_stages",
              fmt::format("{}: {} given to {} and {} in the map{}.", input.title, counted(given.size(), "line"),
                          both.named->pipeline, counted(both.map.size(), "line"),
@@ -83,7 +83,8 @@ class MergeStages : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<MergeStages>(
+SCANBENCH_REGISTER(
+    Figure, MergeStages,
     {.name = "merge_stages",
      .summary = "the lines given, the lines they are merged to, and those left after cleaning, over the scan points",
      .reference = "Lakaemper 2009, figures 6 and 9"});

@@ -18,7 +18,7 @@ namespace {
 
 const Stroke kUnderlay{kTruthUnderlay, 2.6, Dash::solid};
 const Stroke kSensorStroke{kGrey, 0.9, Dash::solid};
-constexpr double kLineWidth = 1.3;
+constexpr double kScanLineWidth = 1.3;
 
 struct ShownScan {
   std::size_t frame;
@@ -118,7 +118,7 @@ class ScanOverlay : public Figure {
       panel.items.emplace_back(
           Lines{true_walls(recording, recording.truth->world_from_sensor[scan.frame].inverse()), kUnderlay});
     panel.items.emplace_back(Points{.points = points, .color = kBlack, .size_pt = 1.1});
-    lines.draw({method_color(input.results, group.front()), kLineWidth, Dash::solid}, true, panel);
+    lines.draw({method_color(input.results, group.front()), kScanLineWidth, Dash::solid}, true, panel);
     panel.items.emplace_back(Arrow{.pose = Pose2(), .length_pt = 12, .stroke = kSensorStroke});
     // All panels of a scan have one view. It contains the points and the found lines, but not walls far away.
     std::vector<Vec2> seen = points;
@@ -135,19 +135,19 @@ class ScanOverlay : public Figure {
     if (has_truth(input.recording, 0)) scene.legend.push_back({.text = "true walls", .stroke = kUnderlay});
     scene.legend.push_back({.text = "scan points", .marker = Marker::dot, .marker_size_pt = 2.0});
     if (judged)
-      add_verdict_legend(kLineWidth, scene);
+      add_verdict_legend(kScanLineWidth, scene);
     else
-      add_method_legend(input.results, groups, kLineWidth, scene);
+      add_method_legend(input.results, groups, kScanLineWidth, scene);
     scene.legend.push_back({.text = "sensor", .stroke = kSensorStroke, .arrow = true});
   }
 
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<ScanOverlay>(
-    {.name = "scan_overlay",
-     .summary = "the median and the worst scan, and the lines that each pipeline found",
-     .reference = ""});
+SCANBENCH_REGISTER(Figure, ScanOverlay,
+                   {.name = "scan_overlay",
+                    .summary = "the median and the worst scan, and the lines that each pipeline found",
+                    .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

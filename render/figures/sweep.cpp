@@ -149,10 +149,10 @@ class Sweep : public Figure {
   Params params_;
 };
 
-const bool registered =
-    Registry<Figure>::add<Sweep>({.name = "sweep",
-                                  .summary = "a metric against a parameter of the pipelines, with its band over seeds",
-                                  .reference = ""});
+SCANBENCH_REGISTER(Figure, Sweep,
+                   {.name = "sweep",
+                    .summary = "a metric against a parameter of the pipelines, with its band over seeds",
+                    .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

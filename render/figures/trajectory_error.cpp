@@ -17,7 +17,7 @@ namespace scanbench::render {
 namespace {
 
 const Stroke kOdometry{kGrey, 0.9, Dash::dotted};
-constexpr double kCurveWidth = 1.1;
+constexpr double kErrorCurveWidth = 1.1;
 
 enum class Motion { best, first, none };
 
@@ -71,7 +71,7 @@ class TrajectoryError : public Figure {
     for (const NamedPoses& poses : shown) names.push_back(poses.name);
     const std::vector<MethodStyle> styles = method_styles(names);
     for (std::size_t i = 0; i < shown.size(); ++i) {
-      const Stroke stroke{styles[i].color, kCurveWidth, styles[i].dash};
+      const Stroke stroke{styles[i].color, kErrorCurveWidth, styles[i].dash};
       add_curves(shown[i].poses, truth, path, stroke, position, heading);
       scene.legend.push_back({.text = names[i], .stroke = stroke});
     }
@@ -141,10 +141,10 @@ class TrajectoryError : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<TrajectoryError>(
-    {.name = "trajectory_error",
-     .summary = "errors of position and heading along the path, a curve per pipeline, with the odometry",
-     .reference = ""});
+SCANBENCH_REGISTER(Figure, TrajectoryError,
+                   {.name = "trajectory_error",
+                    .summary = "errors of position and heading along the path, a curve per pipeline, with the odometry",
+                    .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

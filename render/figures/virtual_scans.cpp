@@ -37,20 +37,20 @@ struct Iterations {
   }
 };
 
-constexpr int kDropped = 3;
-constexpr std::string_view kSlot = "align";
+constexpr int kDroppedFate = 3;
+constexpr std::string_view kVirtualScansSlot = "align";
 
 Iterations iterations_of(const TraceRows* trace, std::size_t scans) {
   Iterations result;
   if (trace == nullptr) return result;
-  for (const auto& row : rows_of<force_field::PoseRow>(*trace, kSlot)) {
+  for (const auto& row : rows_of<force_field::PoseRow>(*trace, kVirtualScansSlot)) {
     if (row.scan < 0 || row.scan >= static_cast<int>(scans)) continue;
     auto& poses = result.poses[row.iteration];
     poses.resize(scans);
     poses[static_cast<std::size_t>(row.scan)] = Pose2(row.x_m, row.y_m, row.yaw_rad);
   }
-  for (const auto& row : rows_of<force_field::HypothesisRow>(*trace, kSlot))
-    if (row.fate != kDropped)
+  for (const auto& row : rows_of<force_field::HypothesisRow>(*trace, kVirtualScansSlot))
+    if (row.fate != kDroppedFate)
       result.hypotheses[row.iteration].push_back(
           {{row.x1_m, row.y1_m}, {row.x2_m, row.y2_m}, {row.x3_m, row.y3_m}, {row.x4_m, row.y4_m}});
   return result;
@@ -73,7 +73,7 @@ class VirtualScans : public Figure {
 
   std::vector<std::string> trace_rows(std::string_view pipeline) const override {
     if (!shows(params_.pipeline, pipeline)) return {};
-    return {key_of<force_field::PoseRow>(kSlot), key_of<force_field::HypothesisRow>(kSlot)};
+    return {key_of<force_field::PoseRow>(kVirtualScansSlot), key_of<force_field::HypothesisRow>(kVirtualScansSlot)};
   }
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {
@@ -136,7 +136,8 @@ class VirtualScans : public Figure {
   Params params_;
 };
 
-[[maybe_unused]] const bool registered = Registry<Figure>::add<VirtualScans>(
+SCANBENCH_REGISTER(
+    Figure, VirtualScans,
     {.name = "virtual_scans",
      .summary = "lines of all scans at some iterations of an alignment, with its hypotheses about lines and rectangles",
      .reference = "Lakaemper 2010, figures 10 and 12"});

@@ -23,8 +23,8 @@
 namespace scanbench::render {
 namespace {
 
-constexpr std::string_view kSlot = "align";
-constexpr int kDropped = 3;  // the fate of a hypothesis that was given up
+constexpr std::string_view kAlignmentSlot = "align";
+constexpr int kDroppedHypothesis = 3;  // the fate of a hypothesis that was given up
 const Stroke kHypothesis{Color{200, 200, 200}, 2.6, Dash::solid};
 
 struct Iteration {
@@ -33,18 +33,18 @@ struct Iteration {
   std::vector<std::vector<Vec2>> hypotheses{};  ///< corners
 };
 
-std::vector<Iteration> iterations_of(const TraceRows* trace, std::size_t scans) {
+std::vector<Iteration> film_iterations_of(const TraceRows* trace, std::size_t scans) {
   std::map<int, Iteration> found;
   if (trace == nullptr) return {};
-  for (const auto& row : rows_of<force_field::PoseRow>(*trace, kSlot)) {
+  for (const auto& row : rows_of<force_field::PoseRow>(*trace, kAlignmentSlot)) {
     if (row.scan < 0 || row.scan >= static_cast<int>(scans)) continue;
     Iteration& iteration = found[row.iteration];
     iteration.number = row.iteration;
     iteration.poses.resize(scans);
     iteration.poses[static_cast<std::size_t>(row.scan)] = Pose2(row.x_m, row.y_m, row.yaw_rad);
   }
-  for (const auto& row : rows_of<force_field::HypothesisRow>(*trace, kSlot))
-    if (const auto at = found.find(row.iteration); at != found.end() && row.fate != kDropped)
+  for (const auto& row : rows_of<force_field::HypothesisRow>(*trace, kAlignmentSlot))
+    if (const auto at = found.find(row.iteration); at != found.end() && row.fate != kDroppedHypothesis)
       at->second.hypotheses.push_back(
           {{row.x1_m, row.y1_m}, {row.x2_m, row.y2_m}, {row.x3_m, row.y3_m}, {row.x4_m, row.y4_m}});
   std::vector<Iteration> iterations;
@@ -63,14 +63,14 @@ class AlignmentMoves final : public FilmKind {
   explicit AlignmentMoves(const Params&) {}
 
   std::vector<std::string> trace_rows() const override {
-    return {key_of<force_field::PoseRow>(kSlot), key_of<force_field::HypothesisRow>(kSlot)};
+    return {key_of<force_field::PoseRow>(kAlignmentSlot), key_of<force_field::HypothesisRow>(kAlignmentSlot)};
   }
 
   std::optional<Film> make(const FigureInput& input, std::size_t most) const override {
     if (input.results.empty()) return std::nullopt;
     const NamedResult& shown = input.results.front();
     const auto iterations =
-        std::make_shared<const std::vector<Iteration>>(iterations_of(shown.trace, shown.result->lines.size()));
+        std::make_shared<const std::vector<Iteration>>(film_iterations_of(shown.trace, shown.result->lines.size()));
     if (iterations->empty()) return std::nullopt;
     const auto steps = chosen_steps(iterations->size(), most);
     std::vector<Vec2> places;
@@ -113,10 +113,10 @@ class AlignmentMoves final : public FilmKind {
   }
 };
 
-const bool registered =
-    Registry<FilmKind>::add<AlignmentMoves>({.name = "alignment",
-                                             .summary = "scans that an aligner moves, with its hypotheses",
-                                             .reference = "Lakaemper 2010, figures 10 and 12"});
+SCANBENCH_REGISTER(FilmKind, AlignmentMoves,
+                   {.name = "alignment",
+                    .summary = "scans that an aligner moves, with its hypotheses",
+                    .reference = "Lakaemper 2010, figures 10 and 12"});
 
 }  // namespace
 }  // namespace scanbench::render

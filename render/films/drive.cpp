@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kBackgroundPoints = 2500;
 const Stroke kWalls{kTruthUnderlay, 2.2, Dash::solid};
-const Stroke kPath{kPathColor, 0.8, Dash::solid};
+const Stroke kDrivePath{kPathColor, 0.8, Dash::solid};
 
 class Drive final : public FilmKind {
  public:
@@ -39,7 +39,7 @@ class Drive final : public FilmKind {
       const std::size_t f = steps[k];
       Panel panel = *ground;
       panel.title = fmt::format("{}: scan {} (0 to {})", shown.pipeline, f, frames - 1);
-      add_path(input, std::span(*poses).first(f + 1), kPath, panel);
+      add_path(input, std::span(*poses).first(f + 1), kDrivePath, panel);
       const Pose2& pose = (*poses)[f];
       panel.items.emplace_back(
           Points{.points = frame_points(input.recording, f, pose), .color = kScanColor, .size_pt = 1.6});
@@ -53,7 +53,7 @@ class Drive final : public FilmKind {
       if (input.recording.truth) legend.push_back({.text = "walls", .stroke = kWalls});
       legend.push_back({.text = "scan", .marker = Marker::dot, .marker_color = kScanColor, .marker_size_pt = 2.4});
       legend.push_back({.text = "lines of " + shown.pipeline, .stroke = found});
-      legend.push_back(path_legend(input, kPath));
+      legend.push_back(path_legend(input, kDrivePath));
       return film_scene(input.title, {std::move(panel)}, std::move(legend));
     };
     return Film{steps.size(), scene,
@@ -80,8 +80,10 @@ class Drive final : public FilmKind {
   }
 };
 
-const bool registered = Registry<FilmKind>::add<Drive>(
-    {.name = "drive", .summary = "the robot, its path, its scans and the lines found in them", .reference = ""});
+SCANBENCH_REGISTER(FilmKind, Drive,
+                   {.name = "drive",
+                    .summary = "the robot, its path, its scans and the lines found in them",
+                    .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

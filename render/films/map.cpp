@@ -23,8 +23,8 @@
 namespace scanbench::render {
 namespace {
 
-constexpr std::string_view kSlot = "map";
-const Stroke kPath{kPathColor, 0.8, Dash::solid};
+constexpr std::string_view kMapFilmSlot = "map";
+const Stroke kMapFilmPath{kPathColor, 0.8, Dash::solid};
 const Stroke kNewest{kVermillion, 1.6, Dash::solid};
 const Stroke kMerged{kBlack, 1.4, Dash::solid};
 
@@ -35,11 +35,11 @@ struct Changes {
 
   explicit Changes(const TraceRows* trace) {
     if (trace == nullptr) return;
-    if (const auto rows = trace->find(key_of<mapping::BornRow>(kSlot)); rows != trace->end())
+    if (const auto rows = trace->find(key_of<mapping::BornRow>(kMapFilmSlot)); rows != trace->end())
       for (const TraceRow& raw : rows->second)
         if (const auto row = row_from<mapping::BornRow>(raw.values))
           born.emplace(raw.frame, std::pair(row->line, Segment{{row->x1_m, row->y1_m}, {row->x2_m, row->y2_m}}));
-    if (const auto rows = trace->find(key_of<mapping::GoneRow>(kSlot)); rows != trace->end())
+    if (const auto rows = trace->find(key_of<mapping::GoneRow>(kMapFilmSlot)); rows != trace->end())
       for (const TraceRow& raw : rows->second)
         if (const auto row = row_from<mapping::GoneRow>(raw.values)) gone.emplace(raw.frame, row->line);
   }
@@ -78,7 +78,7 @@ class MapGrows final : public FilmKind {
   explicit MapGrows(const Params&) {}
 
   std::vector<std::string> trace_rows() const override {
-    return {key_of<mapping::BornRow>(kSlot), key_of<mapping::GoneRow>(kSlot)};
+    return {key_of<mapping::BornRow>(kMapFilmSlot), key_of<mapping::GoneRow>(kMapFilmSlot)};
   }
 
   std::optional<Film> make(const FigureInput& input, std::size_t most) const override {
@@ -98,14 +98,14 @@ class MapGrows final : public FilmKind {
                                 counted(lines.segments.size(), "line") + (is_merged ? " of the map" : ""));
       panel.items.emplace_back(std::move(lines));
       if (!is_merged) panel.items.emplace_back(Lines{growth->found[f], kNewest});
-      add_path(input, std::span(growth->poses).first(f + 1), kPath, panel);
+      add_path(input, std::span(growth->poses).first(f + 1), kMapFilmPath, panel);
       panel.items.emplace_back(Arrow{.pose = growth->poses[f], .length_pt = 14, .stroke = kNewest});
       const bool is_map = is_merged || !growth->changes.born.empty();
       std::vector<LegendEntry> legend{
           {.text = is_map ? "map" : "lines of all scans so far",
            .stroke = is_merged ? kMerged : Stroke{method_color(input.results, 0), 0.9, Dash::solid}}};
       if (!is_merged) legend.push_back({.text = "lines of this scan", .stroke = kNewest});
-      legend.push_back(path_legend(input, kPath));
+      legend.push_back(path_legend(input, kMapFilmPath));
       return film_scene(input.title, {std::move(panel)}, std::move(legend));
     };
     return Film{steps.size(), scene, caption_of(input.title, shown.pipeline, *growth)};
@@ -138,8 +138,7 @@ class MapGrows final : public FilmKind {
   }
 };
 
-const bool registered =
-    Registry<FilmKind>::add<MapGrows>({.name = "map", .summary = "a map that grows scan by scan", .reference = ""});
+SCANBENCH_REGISTER(FilmKind, MapGrows, {.name = "map", .summary = "a map that grows scan by scan", .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

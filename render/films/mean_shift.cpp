@@ -111,8 +111,10 @@ class MeanShiftClimbs final : public FilmKind {
   }
 };
 
-const bool registered = Registry<FilmKind>::add<MeanShiftClimbs>(
-    {.name = "mean_shift", .summary = "points that climb to their modes", .reference = "Lakaemper 2009, figure 2"});
+SCANBENCH_REGISTER(FilmKind, MeanShiftClimbs,
+                   {.name = "mean_shift",
+                    .summary = "points that climb to their modes",
+                    .reference = "Lakaemper 2009, figure 2"});
 
 }  // namespace
 }  // namespace scanbench::render

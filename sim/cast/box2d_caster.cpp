@@ -25,7 +25,7 @@ namespace scanbench::sim {
 namespace {
 
 // Surfaces closer together than this along a ray count as one place.
-constexpr double kTieM = 1e-9;
+constexpr double kTreeTieM = 1e-9;
 // Box2D's edges reach this far beyond the walls' ends: its floats leave gaps at shared corners.
 constexpr double kEdgeExtensionM = 1e-4;
 
@@ -39,8 +39,8 @@ struct Nearest {
   std::int32_t surface = -1;
 
   void offer(double r, std::int32_t s) {
-    if (r == kNoHit || r > range + kTieM) return;
-    surface = r < range - kTieM ? s : std::min(s, surface);
+    if (r == kNoHit || r > range + kTreeTieM) return;
+    surface = r < range - kTreeTieM ? s : std::min(s, surface);
     range = std::min(r, range);
   }
 };

@@ -35,8 +35,8 @@ class Poses : public TrajectoryKind {
   Params params_;
 };
 
-[[maybe_unused]] const bool registered = Registry<TrajectoryKind>::add<Poses>(
-    {.name = "poses", .summary = "poses listed one by one, one scan period apart", .reference = ""});
+SCANBENCH_REGISTER(TrajectoryKind, Poses,
+                   {.name = "poses", .summary = "poses listed one by one, one scan period apart", .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::sim

@@ -32,10 +32,10 @@ class Robots : public TrajectoryKind {
   Params params_;
 };
 
-[[maybe_unused]] const bool registered = Registry<TrajectoryKind>::add<Robots>(
-    {.name = "robots",
-     .summary = "robots placed in the world, one scan each; nothing moves between them",
-     .reference = "Lakaemper, \"Augmenting Sparse Laser Scans with Virtual Scans\", 2010, section 6"});
+SCANBENCH_REGISTER(TrajectoryKind, Robots,
+                   {.name = "robots",
+                    .summary = "robots placed in the world, one scan each; nothing moves between them",
+                    .reference = "Lakaemper, \"Augmenting Sparse Laser Scans with Virtual Scans\", 2010, section 6"});
 
 }  // namespace
 }  // namespace scanbench::sim

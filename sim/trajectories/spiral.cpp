@@ -102,7 +102,8 @@ class Spiral : public TrajectoryKind {
   Vec2 center_;
 };
 
-[[maybe_unused]] const bool registered = Registry<TrajectoryKind>::add<Spiral>(
+SCANBENCH_REGISTER(
+    TrajectoryKind, Spiral,
     {.name = "spiral",
      .summary = "drive along an Archimedean spiral, looking ahead",
      .reference = "Lakaemper, \"Simultaneous Multi-Line-Segment Merging for Robot Mapping using Mean Shift "

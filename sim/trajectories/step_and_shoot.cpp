@@ -59,7 +59,8 @@ class StepAndShoot : public TrajectoryKind {
   Vec2 start_;
 };
 
-[[maybe_unused]] const bool registered = Registry<TrajectoryKind>::add<StepAndShoot>(
+SCANBENCH_REGISTER(
+    TrajectoryKind, StepAndShoot,
     {.name = "step_and_shoot",
      .summary = "stops at equal steps along a line, a scan at each of some headings per stop",
      .reference = "Lakaemper, \"Simultaneous Multi-Line-Segment Merging for Robot Mapping using Mean Shift "

@@ -82,10 +82,10 @@ class Waypoints : public TrajectoryKind {
   Params params_;
 };
 
-[[maybe_unused]] const bool registered = Registry<TrajectoryKind>::add<Waypoints>(
-    {.name = "waypoints",
-     .summary = "drive along straight pieces between named points, looking ahead",
-     .reference = "Borges & Aldon, ICPR 2000, section 4"});
+SCANBENCH_REGISTER(TrajectoryKind, Waypoints,
+                   {.name = "waypoints",
+                    .summary = "drive along straight pieces between named points, looking ahead",
+                    .reference = "Borges & Aldon, ICPR 2000, section 4"});
 
 }  // namespace
 }  // namespace scanbench::sim

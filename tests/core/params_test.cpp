@@ -129,7 +129,7 @@ class Dog final : public Animal {
   Params params_;
 };
 
-const bool registered = Registry<Animal>::add<Dog>({.name = "dog", .summary = "barks", .reference = ""});
+SCANBENCH_REGISTER(Animal, Dog, {.name = "dog", .summary = "barks", .reference = ""});
 
 TEST(Registry, MakesAModuleFromItsParameters) {
   ASSERT_TRUE(registered);

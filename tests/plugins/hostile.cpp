@@ -155,8 +155,8 @@ class Hostile final : public LineExtractor {
   Params params_;
 };
 
-const bool registered = Registry<LineExtractor>::add<Hostile>(
-    {.name = "hostile", .summary = "does what a module must not do", .reference = "none"});
+SCANBENCH_REGISTER(LineExtractor, Hostile,
+                   {.name = "hostile", .summary = "does what a module must not do", .reference = "none"});
 
 }  // namespace
 }  // namespace scanbench

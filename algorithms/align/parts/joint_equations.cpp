@@ -21,7 +21,7 @@ constexpr std::size_t kFewScans = 200;
 
 // A long chain of scans, each of which meets only its neighbours, needs as many iterations as it has scans. Its
 // factorization takes milliseconds.
-constexpr int kMostIterations = 500;
+constexpr int kMostGradientSteps = 500;
 
 }  // namespace
 
@@ -108,7 +108,7 @@ std::optional<std::vector<Eigen::Vector3d>> JointEquations::iterated(const std::
   for (const Block& block : blocks_)
     if (free[block.row].rank() > 0 && free[block.column].rank() > 0)
       lower.push_back({block.row, block.column, onto[block.row] * block.value * onto[block.column]});
-  return BlockSystem(std::move(diagonal), lower).solve(right, kMostIterations);
+  return BlockSystem(std::move(diagonal), lower).solve(right, kMostGradientSteps);
 }
 
 }  // namespace scanbench::align

@@ -4,14 +4,14 @@
 namespace scanbench::align {
 namespace {
 
-constexpr int kMostIterations = 20;
+constexpr int kMostRegistrationSteps = 20;
 
 }  // namespace
 
 Pose2 register_scan(const ScanShape& scan, const LineGrid& lines, const Pose2& predicted, PartnerRules rules,
                     const Gates& gates) {
   Pose2 pose = predicted;
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMostRegistrationSteps; ++iteration) {
     rules.gate_m = gates.at(iteration);
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kListedScans = 5;
 constexpr std::size_t kNamedGroups = 8;
-constexpr double kFarthestM = 1e9;
+constexpr double kFarthestOriginM = 1e9;
 
 std::string named(const std::vector<std::size_t>& group) {
   if (group.size() > kListedScans) return std::to_string(group.size()) + " scans";
@@ -65,7 +65,7 @@ std::string unusable_pose(std::span<const Pose2> poses) {
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const Pose2& p = poses[k];
     const bool turns = std::isfinite(p.cos()) && std::isfinite(p.sin());
-    if (!turns || !p.translation().allFinite() || p.translation().cwiseAbs().maxCoeff() > kFarthestM)
+    if (!turns || !p.translation().allFinite() || p.translation().cwiseAbs().maxCoeff() > kFarthestOriginM)
       return "the given pose of scan " + std::to_string(k) + " is not finite or beyond 1e9 m";
   }
   return "";

@@ -11,7 +11,7 @@
 namespace scanbench::extract {
 namespace {
 
-constexpr double kLargestGain = 100.0;  // its exponential does not overflow
+constexpr double kLargestEndGain = 100.0;  // its exponential does not overflow
 
 int longest_tail(std::span<const BeamReading> readings, int min_readings) {
   return std::clamp((static_cast<int>(readings.size()) - min_readings) / 2, 0, kLongestTail);
@@ -111,7 +111,7 @@ ShortenedByNumber shortened_lines(const BeamLine& fit, const UncertainEnd& end) 
 }
 
 double likelihood_ratio(double gain) {
-  return std::exp(std::min(gain, kLargestGain));
+  return std::exp(std::min(gain, kLargestEndGain));
 }
 
 UncertainEnd possible_tails(const FittedReadings& line, const ReadingNoise& noise, End end, int min_readings) {

@@ -23,11 +23,12 @@ constexpr std::size_t kKnotsPerGroup = 16;
 constexpr std::size_t kGroupsPerAnchor = 4;
 constexpr std::size_t kKnotsPerSweep = 8;  // pruned groups are removed after this number of knots
 
-// Sums of w * (cos^2, cos sin, sin^2, cos v, sin v, v^2) over points, in the frame of an anchor.
-using Sums = std::array<double, 6>;
+// LineSums of w * (cos^2, cos sin, sin^2, cos v, sin v, v^2) over points, in the frame of an anchor.
+using LineSums = std::array<double, 6>;
 
-// Sums in a frame near their points: its axis is the direction of the first point, and inverse ranges are counted from
-// an arc at that point. Sums over the whole scan would lose the misfit of a few adjacent beams to cancellation.
+// LineSums in a frame near their points: its axis is the direction of the first point, and inverse ranges are counted
+// from an arc at that point. LineSums over the whole scan would lose the misfit of a few adjacent beams to
+// cancellation.
 class AnchoredSums {
  public:
   explicit AnchoredSums(const SegmentationPoint& p) : axis_(p.direction), inverse_range_(p.inverse_range) {}
@@ -44,14 +45,14 @@ class AnchoredSums {
     sums_[4] += ws * v;
     sums_[5] += p.weight * v * v;
   }
-  const Sums& sums() const { return sums_; }
+  const LineSums& sums() const { return sums_; }
 
   std::size_t groups = 0;  // number of groups of starts that used it
 
  private:
   Vec2 axis_;
   double inverse_range_;
-  Sums sums_{};
+  LineSums sums_{};
 };
 
 double half_misfit(double cc, double cs, double ss, double cv, double sv, double vv) {
@@ -61,7 +62,7 @@ double half_misfit(double cc, double cs, double ss, double cv, double sv, double
   return half > 0.0 ? half : 0.0;  // NaN of 0/0 gives 0
 }
 
-double half_misfit(const Sums& s) {
+double half_misfit(const LineSums& s) {
   return half_misfit(s[0], s[1], s[2], s[3], s[4], s[5]);
 }
 
@@ -90,9 +91,9 @@ std::vector<std::size_t> knots_of(std::span<const SegmentationPoint> points, int
 struct Start {
   double base = 0.0;
   double bound = 0.0;  // lower bound of base + misfit: its last value, because misfits never decrease
-  Sums sums{};
+  LineSums sums{};
 
-  double misfit(const Sums& at_end) const {
+  double misfit(const LineSums& at_end) const {
     return half_misfit(at_end[0] - sums[0], at_end[1] - sums[1], at_end[2] - sums[2], at_end[3] - sums[3],
                        at_end[4] - sums[4], at_end[5] - sums[5]);
   }
@@ -121,7 +122,7 @@ class Logarithms {
 // Neighbouring starts with a common lower bound. A line from one of them costs at least the cheapest start plus the
 // misfit of the points behind the last start. This bound also holds at every later end, because misfits never decrease.
 // While it is above the cost of the best known cut, none of the starts is tried.
-struct Group {
+struct BeamGroup {
   std::size_t begin, end;  // in knots
   std::size_t anchor;
   double least_base = kInf;
@@ -173,7 +174,7 @@ class Recurrence {
       ++anchors_.back().groups;
       groups_.push_back({.begin = s, .end = s, .anchor = anchors_.size() - 1});
     }
-    Group& group = groups_.back();
+    BeamGroup& group = groups_.back();
     const double base = steps_[s].cost - on_lines_;
     starts_[s] = {.base = base, .bound = base, .sums = anchors_.back().sums()};
     group.end = s + 1;
@@ -199,13 +200,13 @@ class Recurrence {
     // others by their bounds.
     if (steps_[t - 1].is_line) {
       const std::size_t from = steps_[t - 1].from;
-      const auto group = std::ranges::upper_bound(groups_, from, {}, &Group::begin);
+      const auto group = std::ranges::upper_bound(groups_, from, {}, &BeamGroup::begin);
       if (group != groups_.begin() && from < std::prev(group)->end) try_line(*std::prev(group), from, t, best);
     }
-    for (Group& group : groups_) try_lines_from(group, t, best);
+    for (BeamGroup& group : groups_) try_lines_from(group, t, best);
   }
 
-  void try_line(const Group& group, std::size_t s, std::size_t t, Step& best) {
+  void try_line(const BeamGroup& group, std::size_t s, std::size_t t, Step& best) {
     const std::size_t n = knots_[t] - knots_[s];
     Start& start = starts_[s];
     if (has_misfit(n)) start.bound = std::max(start.bound, start.base + start.misfit(anchors_[group.anchor].sums()));
@@ -213,7 +214,7 @@ class Recurrence {
     if (cost < best.cost) best = {.cost = cost, .from = s, .is_line = true};
   }
 
-  void try_lines_from(Group& group, std::size_t t, Step& best) {
+  void try_lines_from(BeamGroup& group, std::size_t t, Step& best) {
     const std::size_t fewest_points = knots_[t] - knots_[group.end - 1];
     const double common = on_lines_ + line_base_ + logarithm_(fewest_points);
     if (group.bound + common >= best.cost) return;
@@ -238,7 +239,7 @@ class Recurrence {
     if (++since_sweep_ < kKnotsPerSweep) return;
     since_sweep_ = 0;
     const double limit = steps_[t].cost - on_lines_;
-    std::erase_if(groups_, [&](const Group& g) { return g.bound >= limit && g.end < t; });
+    std::erase_if(groups_, [&](const BeamGroup& g) { return g.bound >= limit && g.end < t; });
     // Drops anchors that no group uses. The last group is never pruned here and keeps the last anchor.
     std::size_t kept = 0;
     for (std::size_t i = 0, a = 0; a < anchors_.size(); ++a) {
@@ -268,7 +269,7 @@ class Recurrence {
   Logarithms logarithm_;
   std::vector<Step> steps_;
   std::vector<Start> starts_;
-  std::vector<Group> groups_;
+  std::vector<BeamGroup> groups_;
   std::vector<AnchoredSums> anchors_;  // in the order of the groups that use them
   double on_lines_ = 0.0;              // line_cost and gap_cost of all points so far
   std::size_t since_sweep_ = 0;

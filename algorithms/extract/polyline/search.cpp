@@ -16,20 +16,20 @@ constexpr double kProhibitive = 1e6;  // [nats], finite, because differences of 
 constexpr double kLeastSine = 1e-9;
 constexpr double kLeastCosine = -0.99;
 
-// Sums over points of w (d d', d v, v v), and of their cost on a wall without the misfit.
-struct Sums {
+// RunSums over points of w (d d', d v, v v), and of their cost on a wall without the misfit.
+struct RunSums {
   double xx = 0, xy = 0, yy = 0, xv = 0, yv = 0, vv = 0, fixed = 0;
 
-  Sums operator-(const Sums& o) const {
+  RunSums operator-(const RunSums& o) const {
     return {xx - o.xx, xy - o.xy, yy - o.yy, xv - o.xv, yv - o.yv, vv - o.vv, fixed - o.fixed};
   }
 };
 
-std::vector<Sums> running_sums(std::span<const SegmentationPoint> points) {
-  std::vector<Sums> sums(points.size() + 1);
+std::vector<RunSums> running_sums(std::span<const SegmentationPoint> points) {
+  std::vector<RunSums> sums(points.size() + 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SegmentationPoint& p = points[i];
-    Sums s = sums[i];
+    RunSums s = sums[i];
     const double w = p.weight, x = p.direction.x(), y = p.direction.y(), v = p.inverse_range;
     s.xx += w * x * x;
     s.xy += w * x * y;
@@ -46,7 +46,7 @@ std::vector<Sums> running_sums(std::span<const SegmentationPoint> points) {
 // The cost of the points after one vertex up to the next, as a quadratic form of the two inverse ranges.
 class Wall {
  public:
-  Wall(const Vec2& p, const Vec2& q, const Sums& s) : one_(0.5 * s.vv), fixed_(s.fixed) {
+  Wall(const Vec2& p, const Vec2& q, const RunSums& s) : one_(0.5 * s.vv), fixed_(s.fixed) {
     // theta = u_p f + u_q g is the wall: theta . p = u_p, theta . q = u_q.
     const double sine = cross(p, q);
     const Vec2 f = -perpendicular(q) / sine, g = perpendicular(p) / sine;
@@ -236,7 +236,7 @@ class Programme {
            point(p).direction.dot(point(q).direction) > kLeastCosine;
   }
   Wall wall(std::size_t p, std::size_t q) const {
-    Sums sums = sums_[as_index(places_[q]) + 1] - sums_[as_index(places_[p]) + 1];
+    RunSums sums = sums_[as_index(places_[q]) + 1] - sums_[as_index(places_[p]) + 1];
     if (places_[q] == places_[p] + 1) sums.fixed += kBareWall;
     return {point(p).direction, point(q).direction, sums};
   }
@@ -324,7 +324,7 @@ class Programme {
   std::size_t levels_, width_ = 0;
   std::size_t step_;  // of m at a vertex
   double vertex_cost_;
-  std::vector<Sums> sums_;
+  std::vector<RunSums> sums_;
   std::vector<int> places_;
   std::vector<int> blocks_;  // per point: the number of infinite gaps before it
   std::vector<double> open_, done_, clutter_;

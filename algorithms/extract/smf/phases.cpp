@@ -13,7 +13,7 @@
 namespace scanbench::extract {
 namespace {
 
-using Group = std::vector<int>;
+using Members = std::vector<int>;
 using Lines = std::vector<SmfLine>;
 
 /// The lines before a generation of splits.
@@ -30,7 +30,7 @@ struct MergeRow {
   static constexpr auto columns() { return std::tuple{column("lines", &MergeRow::lines)}; }
 };
 
-SmfLine line_of(std::span<const Vec2> points, Group support) {
+SmfLine line_of(std::span<const Vec2> points, Members support) {
   SmfLine line;
   line.support = std::move(support);
   line.moments = moments_of(points, line.support);
@@ -39,23 +39,23 @@ SmfLine line_of(std::span<const Vec2> points, Group support) {
 
 // Split phase.
 
-std::pair<Group, Group> halves(const Group& order, std::size_t first) {
+std::pair<Members, Members> halves(const Members& order, std::size_t first) {
   const auto middle = order.begin() + static_cast<std::ptrdiff_t>(first);
-  std::pair<Group, Group> result{{order.begin(), middle}, {middle, order.end()}};
+  std::pair<Members, Members> result{{order.begin(), middle}, {middle, order.end()}};
   std::sort(result.first.begin(), result.first.end());
   std::sort(result.second.begin(), result.second.end());
   return result;
 }
 
-std::pair<Group, Group> initial_halves(std::span<const Vec2> points, const SmfLine& line, SmfInitialisation kind) {
-  const Group& q = line.support;
+std::pair<Members, Members> initial_halves(std::span<const Vec2> points, const SmfLine& line, SmfInitialisation kind) {
+  const Members& q = line.support;
   const auto at = [&](int j) { return points[as_index(j)]; };
   switch (kind) {
     case SmfInitialisation::scan_order:
       break;
     case SmfInitialisation::principal_axis: {
       const Vec2 along = perpendicular(fit_line(line.moments).normal);
-      Group order = q;
+      Members order = q;
       std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return along.dot(at(a)) < along.dot(at(b)); });
       return halves(order, q.size() / 2);
     }
@@ -89,7 +89,7 @@ std::pair<SmfLine, SmfLine> split(std::span<const Vec2> points, const SmfLine& l
 
   auto [first, second] = initial_halves(points, line, options.initialisation);
   const Vec2 normal = fit_line(line.moments).normal;
-  const auto prototype = [&](const Group& half) {
+  const auto prototype = [&](const Members& half) {
     std::vector<Vec2> p;
     p.reserve(half.size());
     for (const int j : half) p.push_back(points[as_index(j)]);
@@ -98,7 +98,7 @@ std::pair<SmfLine, SmfLine> split(std::span<const Vec2> points, const SmfLine& l
   const FuzzyLine initial[] = {prototype(first), prototype(second)};
   const FuzzyLines fuzzy = fuzzy_lines(support, initial, options.fuzzy);
 
-  Group to_first, to_second;
+  Members to_first, to_second;
   for (std::size_t j = 0; j < support.size(); ++j)
     (fuzzy.membership(0, j) >= fuzzy.membership(1, j) ? to_first : to_second).push_back(line.support[j]);
   if (to_first.empty() || to_second.empty())  // only one cluster was found; without this the split phase would not end
@@ -170,7 +170,7 @@ std::optional<Fusion> best_fusion(std::span<const Vec2> points, const Lines& lin
 }
 
 SmfLine fuse(std::span<const Vec2> points, const SmfLine& a, const SmfLine& b) {
-  Group support(a.support.size() + b.support.size());
+  Members support(a.support.size() + b.support.size());
   std::merge(a.support.begin(), a.support.end(), b.support.begin(), b.support.end(), support.begin());
   return line_of(points, std::move(support));
 }
@@ -188,7 +188,7 @@ double smf_dispersion(const PointMoments& moments, const SmfOptions& options) {
 std::vector<SmfLine> smf_split(std::span<const Vec2> points, const SmfOptions& options, Trace& trace) {
   Lines lines;
   if (points.empty()) return lines;
-  Group all(points.size());
+  Members all(points.size());
   std::iota(all.begin(), all.end(), 0);
   lines.push_back(line_of(points, std::move(all)));  // step 1
   for (bool again = true; again;) {                  // steps 2 to 4: a generation

@@ -16,7 +16,7 @@ namespace {
 constexpr double kNearM = 0.1;  // a return so near to one of the last scan is on it
 constexpr double kLeastShare = 0.5;
 constexpr double kGoodShare = 0.7;
-const double kSearchStep = radians(10.0);
+constexpr double kTurnStep = radians(10.0);
 
 /// Share of the current returns that are on those of the reference.
 double share_on(const matching::ReturnedPoints& reference, const matching::ReturnedPoints& current,
@@ -60,9 +60,9 @@ std::optional<Pose2> StepMatching::pose(const Observation& scan, const Pose2& pr
     best = match.reference_from_current;
   };
   match_from(0.0);
-  const int turns = static_cast<int>(search_rad_ / kSearchStep + 1e-9);
+  const int turns = static_cast<int>(search_rad_ / kTurnStep + 1e-9);
   for (int k = 1; k <= turns && most < kGoodShare; ++k)
-    for (const double side : {1.0, -1.0}) match_from(side * k * kSearchStep);
+    for (const double side : {1.0, -1.0}) match_from(side * k * kTurnStep);
   if (most < kLeastShare) return std::nullopt;
   return last_->map_from_sensor * best;
 }

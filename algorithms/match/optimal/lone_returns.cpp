@@ -8,10 +8,10 @@
 namespace scanbench::matching {
 namespace {
 
-constexpr double kGate = 9.0;          // three standard deviations
-constexpr double kStray = 0.2;         // share of returns that are not of the line that they are on ...
-constexpr double kStrayDensity = 1.0;  // ... whose distances from it spread over a metre
-constexpr double kLeastCosine = 0.15;  // of a beam with the normal
+constexpr double kReturnGate = 9.0;          // three standard deviations
+constexpr double kStrayReturns = 0.2;        // share of returns that are not of the line that they are on ...
+constexpr double kStrayReturnDensity = 1.0;  // ... whose distances from it spread over a metre
+constexpr double kLeastReturnCosine = 0.15;  // of a beam with the normal
 constexpr double kAllowedTurn = 0.01;  // rad^2; a line with a larger variance of its angle is known at its middle only
 
 /// A return and a line in the reference frame; the belief about the pose moves one of the two.
@@ -25,7 +25,7 @@ std::optional<Sighted> sighted(const LoneReturn& reading, const MeasuredLine& li
   const Vec2 ray = reading.point - sensor_of_point;
   const double cosine = line.normal.dot(ray) / ray.norm();
   const double along = perpendicular(line.normal).dot(reading.point - line.middle);
-  if (!(cosine > kLeastCosine) || std::fabs(along) > line.half_length || line.covariance(1, 1) > kAllowedTurn)
+  if (!(cosine > kLeastReturnCosine) || std::fabs(along) > line.half_length || line.covariance(1, 1) > kAllowedTurn)
     return std::nullopt;
   const Eigen::Vector2d turn(1.0, -along);
   const double across = reading.sigma * cosine;
@@ -37,7 +37,7 @@ std::optional<Sighted> sighted(const LoneReturn& reading, const MeasuredLine& li
 void add_best(const LoneReturn& reading, std::span<const MeasuredLine> lines, const Vec2& sensor_of_point, double sign,
               const PoseBelief& belief, const PoseDoubt& doubt, WallEquations& sum) {
   const Vec2 sensor = belief.reference_from_current.translation();
-  double least = kGate;
+  double least = kReturnGate;
   std::optional<Sighted> best;
   const MeasuredLine* on = nullptr;
   for (const MeasuredLine& line : lines) {
@@ -55,7 +55,8 @@ void add_best(const LoneReturn& reading, std::span<const MeasuredLine> lines, co
   const double allowed = best->variance + g.dot(doubt.covariance * g);
   const double variance = doubt.of_each_wall ? allowed : best->variance;
   const double density = std::exp(-0.5 * best->distance * best->distance / allowed) / std::sqrt(kTwoPi * allowed);
-  const double weight = (1.0 - kStray) * density / ((1.0 - kStray) * density + kStray * kStrayDensity);
+  const double weight =
+      (1.0 - kStrayReturns) * density / ((1.0 - kStrayReturns) * density + kStrayReturns * kStrayReturnDensity);
   sum.equations.add(on->normal, best->point - sensor, -sign * best->distance, weight / variance, on->covariance(1, 1));
   sum.misfit += weight * best->distance * best->distance / variance;
   sum.coordinates += weight;

@@ -13,12 +13,12 @@
 namespace scanbench::matching {
 namespace {
 
-constexpr double kGate = 13.8;          // 99.9 % of chi-square with 2 degrees of freedom
-constexpr double kLeastCosine = 0.8;    // lines that differ by more are no measurements of one angle
-constexpr double kLeastOverlap = 0.25;  // of the shorter line
-constexpr double kAlike = 0.5;          // share of walls whose lines are moved alike by what they doubt
-constexpr double kStray = 0.02;         // share of pairs that are not one wall ...
-constexpr double kStrayDensity = 2.0;   // ... and whose differences spread over a metre and half a radian
+constexpr double kWallGate = 13.8;         // 99.9 % of chi-square with 2 degrees of freedom
+constexpr double kLeastWallCosine = 0.8;   // lines that differ by more are no measurements of one angle
+constexpr double kLeastOverlap = 0.25;     // of the shorter line
+constexpr double kAlike = 0.5;             // share of walls whose lines are moved alike by what they doubt
+constexpr double kStrayWalls = 0.02;       // share of pairs that are not one wall ...
+constexpr double kStrayWallDensity = 2.0;  // ... and whose differences spread over a metre and half a radian
 
 /// Turning a line moves it by -t d alpha at the point t along it.
 Eigen::Matrix2d shift_to(const Vec2& point, const MeasuredLine& line) {
@@ -67,7 +67,7 @@ Eigen::Matrix<double, 2, 3> jacobian_at(const Vec2& point, const Vec2& normal, c
 /// Normalised difference of two lines in one frame; infinite for lines that cannot be one wall.
 double difference(const MeasuredLine& reference, const MeasuredLine& current, const PoseBelief& belief) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  if (!(reference.normal.dot(current.normal) > kLeastCosine)) return kNever;
+  if (!(reference.normal.dot(current.normal) > kLeastWallCosine)) return kNever;
   if (!(overlap(current, reference) > kLeastOverlap * 2.0 * std::min(reference.half_length, current.half_length)))
     return kNever;
   const WallPlace there = place_at(reference, current.middle, current.normal);
@@ -80,14 +80,14 @@ double difference(const MeasuredLine& reference, const MeasuredLine& current, co
 
 /// True if two lines of one scan can be parts of one wall, by their own covariances.
 bool agree(const MeasuredLine& a, const MeasuredLine& b) {
-  if (!(a.normal.dot(b.normal) > kLeastCosine)) return false;
+  if (!(a.normal.dot(b.normal) > kLeastWallCosine)) return false;
   const WallPlace other = place_at(b, a.middle, a.normal);
-  return normalised(other.place, other.covariance + a.covariance) < kGate;
+  return normalised(other.place, other.covariance + a.covariance) < kWallGate;
 }
 
 std::optional<std::size_t> least(std::span<const double> values) {
   const auto at = std::ranges::min_element(values);
-  if (at == values.end() || !(*at < kGate)) return std::nullopt;
+  if (at == values.end() || !(*at < kWallGate)) return std::nullopt;
   return static_cast<std::size_t>(at - values.begin());
 }
 
@@ -178,9 +178,10 @@ WallEquations wall_equations(std::span<const WallPair> walls, std::span<const Me
           kShares[k] * std::exp(-0.5 * normalised(ways[k].off, allowed)) / (kTwoPi * std::sqrt(allowed.determinant()));
       if (doubt.of_each_wall) ways[k].covariance = allowed;
     }
-    const double one_wall = (1.0 - kStray) * (densities[0] + densities[1]), stray = kStray * kStrayDensity;
+    const double one_wall = (1.0 - kStrayWalls) * (densities[0] + densities[1]),
+                 stray = kStrayWalls * kStrayWallDensity;
     for (std::size_t k = 0; k < 2; ++k) {
-      const double weight = (1.0 - kStray) * densities[k] / (one_wall + stray);
+      const double weight = (1.0 - kStrayWalls) * densities[k] / (one_wall + stray);
       const Eigen::Matrix2d information = weight * ways[k].covariance.inverse();
       result.equations.matrix += jacobian.transpose() * information * jacobian;
       result.equations.rhs += jacobian.transpose() * (information * ways[k].off);

@@ -8,10 +8,10 @@ namespace scanbench::matching {
 namespace {
 
 // A wall seen along has a normal that is too uncertain for the small noise across it.
-constexpr double kLeastCosine = 0.15;
+constexpr double kLeastPairCosine = 0.15;
 
 double sigma_across(const ReturnedPoints& scan, std::size_t k, const Vec2& normal_in_scan) {
-  const double cosine = std::max(std::fabs(normal_in_scan.dot(scan.direction(k))), kLeastCosine);
+  const double cosine = std::max(std::fabs(normal_in_scan.dot(scan.direction(k))), kLeastPairCosine);
   return std::max(scan.sigmas[k], kLeastSigmaM) * cosine;
 }
 

@@ -8,7 +8,7 @@ namespace scanbench::matching {
 namespace {
 
 /// One step. The shift is along the reference's axes.
-struct IterationRow {
+struct PointLineIterationRow {
   static constexpr std::string_view kName = "point_line_iteration";
   int pairs = 0;
   double x_m = 0.0;
@@ -16,7 +16,7 @@ struct IterationRow {
   double yaw_rad = 0.0;
   double misfit = 0.0;  ///< sum of squared residuals before the step, in standard deviations
   static constexpr auto columns() {
-    using R = IterationRow;
+    using R = PointLineIterationRow;
     return std::tuple{column("pairs", &R::pairs), column("x_m", &R::x_m), column("y_m", &R::y_m),
                       column("yaw_rad", &R::yaw_rad), column("misfit", &R::misfit)};
   }
@@ -71,7 +71,7 @@ Match register_points_on_lines(const ReturnedPoints& reference, const std::vecto
     settled = near && (still(step) || (nearly_still(step) && size > 0.5 * last_size));
     last_size = size;
     near = near || small(step) || iteration == rules.max_iterations / 2;
-    trace.row(IterationRow{static_cast<int>(pairs.size()), step.x(), step.y(), step.z(), information.misfit});
+    trace.row(PointLineIterationRow{static_cast<int>(pairs.size()), step.x(), step.y(), step.z(), information.misfit});
   }
   return conclusion(information, pose, guess, lever, settled);
 }

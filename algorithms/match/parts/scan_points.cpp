@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kAngleSigma = 0.05;  // rad; a window grows until its line's angle is as certain
 constexpr std::size_t kMostNeighbours = 60;
-constexpr int kMostMissing = 3;        // beams within a window
-constexpr double kLeastCosine = 0.2;   // of a beam with the normal
-constexpr double kCornerSigmas = 1.5;  // largest root mean square residual of a line
+constexpr int kMostMissing = 3;           // beams within a window
+constexpr double kLeastBeamCosine = 0.2;  // of a beam with the normal
+constexpr double kCornerSigmas = 1.5;     // largest root mean square residual of a line
 
 /// Sums of x, y and their products over the points before one.
 struct Sums {
@@ -72,7 +72,8 @@ class Windows {
 
 /// Noise across a line at return k.
 double noise_across(const ReturnedPoints& scan, std::size_t k, const LocalLine& line) {
-  return std::max(scan.sigmas[k], kLeastSigmaM) * std::max(std::fabs(line.normal.dot(scan.direction(k))), kLeastCosine);
+  return std::max(scan.sigmas[k], kLeastSigmaM) *
+         std::max(std::fabs(line.normal.dot(scan.direction(k))), kLeastBeamCosine);
 }
 
 class Lines {

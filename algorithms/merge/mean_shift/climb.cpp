@@ -17,7 +17,7 @@ namespace scanbench::merge {
 namespace {
 
 constexpr float kSlowShift = 0.15F;
-constexpr double kCurvatureFloor = 0.02;
+constexpr double kClimbCurvatureFloor = 0.02;
 constexpr float kGoal = 1e-5F;      // largest Newton step at convergence: about the resolution of float
 constexpr float kFlatGoal = 1e-6F;  // largest shift at convergence
 constexpr float kRounding = 1e-6F;  // relative error of a density
@@ -45,7 +45,7 @@ Float3 fast_step(const ShiftAndCovariance& s) {
   minus_hessian << 1.0 - double{s.xx}, -double{s.xy}, -double{s.xz}, -double{s.xy}, 1.0 - double{s.yy}, -double{s.yz},
       -double{s.xz}, -double{s.yz}, 1.0 - double{s.zz};
   const Eigen::Vector3d gradient(s.shift.step.x, s.shift.step.y, s.shift.step.z);
-  const Eigen::Matrix3d beyond_floor = minus_hessian - kCurvatureFloor * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d beyond_floor = minus_hessian - kClimbCurvatureFloor * Eigen::Matrix3d::Identity();
   const double minor = beyond_floor(0, 0) * beyond_floor(1, 1) - beyond_floor(0, 1) * beyond_floor(0, 1);
   if (beyond_floor(0, 0) > 0 && minor > 0 && beyond_floor.determinant() > 0)  // every curvature above the floor
     return shortened(minus_hessian.inverse() * gradient);
@@ -53,7 +53,7 @@ Float3 fast_step(const ShiftAndCovariance& s) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(minus_hessian);
   Eigen::Vector3d along_axes = eigen.eigenvectors().transpose() * gradient;
-  for (int k = 0; k < 3; ++k) along_axes[k] /= std::max(std::abs(eigen.eigenvalues()[k]), kCurvatureFloor);
+  for (int k = 0; k < 3; ++k) along_axes[k] /= std::max(std::abs(eigen.eigenvalues()[k]), kClimbCurvatureFloor);
   return shortened(eigen.eigenvectors() * along_axes);
 }
 

@@ -6,9 +6,9 @@
 namespace scanbench::merge {
 namespace {
 
-constexpr double kGradientGoal = 1e-10;
-constexpr double kGradientFlat = 1e-6;    // with a smaller gradient, a place that is no maximum is a saddle
-constexpr double kCurvatureFloor = 1e-4;  // Newton's divisor on plateaus, where the curvature is rounding errors
+constexpr double kPolishGradientGoal = 1e-10;
+constexpr double kGradientFlat = 1e-6;          // with a smaller gradient, a place that is no maximum is a saddle
+constexpr double kNewtonCurvatureFloor = 1e-4;  // Newton's divisor on plateaus, where the curvature is rounding errors
 constexpr double kLongestStep = 0.5;
 constexpr double kSaddleStep = 0.01;
 constexpr int kMaxSteps = 200;
@@ -54,7 +54,7 @@ Vec3 ascent_step(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& eigen, co
   Vec3 step = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
     const Vec3 axis = eigen.eigenvectors().col(k);
-    step += axis * (axis.dot(gradient) / std::max(std::abs(eigen.eigenvalues()[k]), kCurvatureFloor));
+    step += axis * (axis.dot(gradient) / std::max(std::abs(eigen.eigenvalues()[k]), kNewtonCurvatureFloor));
   }
   const double length = step.norm();
   return length > kLongestStep ? Vec3(step * (kLongestStep / length)) : step;
@@ -73,8 +73,8 @@ PolishedMode polish_mode(const Vec3& start, double period, const Neighbours& nei
     const double gradient = here.shift.norm();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(here.minus_hessian);
     curvature = eigen.eigenvalues()[0];
-    const bool saddle = curvature < -kCurvatureFloor;
-    if (gradient <= kGradientGoal && !saddle) break;
+    const bool saddle = curvature < -kNewtonCurvatureFloor;
+    if (gradient <= kPolishGradientGoal && !saddle) break;
 
     Vec3 step = ascent_step(eigen, here.shift);
     if (gradient <= kGradientFlat && saddle) {

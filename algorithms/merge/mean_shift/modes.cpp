@@ -23,13 +23,13 @@
 namespace scanbench::merge {
 namespace {
 
-constexpr double kBox = 1.0;         // side of a box
+constexpr double kModeBox = 1.0;     // side of a box
 constexpr double kHysteresis = 0.1;  // distance by which a climb may leave its box before it changes to the next
 constexpr double kMargin =
     kHysteresis + kLongestFastStep + 1e-3;  // distance from the box up to which candidates are complete
 constexpr double kSame = 2e-3;              // ends of climbs this close are one mode: they are converged to 1e-5
 constexpr double kSamePolished = 1e-5;
-constexpr double kGradientGoal = 1e-6;
+constexpr double kModeGradientGoal = 1e-6;
 
 /// Coordinates are below 1e9, so that 32 bits hold the number of a box.
 struct BoxKey {
@@ -44,26 +44,26 @@ class Boxes {
  public:
   explicit Boxes(double period) {
     if (period > 0) {
-      count_z_ = std::max<std::int32_t>(1, static_cast<std::int32_t>(period / kBox));
+      count_z_ = std::max<std::int32_t>(1, static_cast<std::int32_t>(period / kModeBox));
       side_z_ = period / static_cast<double>(count_z_);
     }
   }
   BoxKey key(const Vec3& p) const {
-    return {floor_of(p.x() / kBox), floor_of(p.y() / kBox), wrap_z(floor_of(p.z() / side_z_))};
+    return {floor_of(p.x() / kModeBox), floor_of(p.y() / kModeBox), wrap_z(floor_of(p.z() / side_z_))};
   }
   Vec3 centre(const BoxKey& k) const {
-    return {(static_cast<double>(k.x) + 0.5) * kBox, (static_cast<double>(k.y) + 0.5) * kBox,
+    return {(static_cast<double>(k.x) + 0.5) * kModeBox, (static_cast<double>(k.y) + 0.5) * kModeBox,
             (static_cast<double>(k.z) + 0.5) * side_z_};
   }
   /// Half sides, grown by a margin.
-  Vec3 half(double margin) const { return {0.5 * kBox + margin, 0.5 * kBox + margin, 0.5 * side_z_ + margin}; }
+  Vec3 half(double margin) const { return {0.5 * kModeBox + margin, 0.5 * kModeBox + margin, 0.5 * side_z_ + margin}; }
   std::int32_t wrap_z(std::int32_t z) const { return count_z_ > 0 ? ((z % count_z_) + count_z_) % count_z_ : z; }
 
  private:
   static std::int32_t floor_of(double v) { return static_cast<std::int32_t>(std::floor(v)); }
 
   std::int32_t count_z_ = 0;
-  double side_z_ = kBox;
+  double side_z_ = kModeBox;
 };
 
 /// A point and the box that it is in. Of millions of points, this is what a search keeps beside them.
@@ -132,7 +132,11 @@ void for_each_box(const std::vector<Item>& sorted, BoxOf box_of, Visit&& visit) 
 class ModeSearch {
  public:
   ModeSearch(std::span<const Vec3> points, const ModeOptions& options, std::vector<std::vector<Vec3>>* paths)
-      : points_(points), options_(options), paths_(paths), grid_(points, kBox, options.period), boxes_(options.period) {
+      : points_(points),
+        options_(options),
+        paths_(paths),
+        grid_(points, kModeBox, options.period),
+        boxes_(options.period) {
     rules_.squared_cutoff = static_cast<float>(options.cutoff * options.cutoff);
     rules_.tolerance = static_cast<float>(options.tolerance);
     rules_.max_steps = options.max_steps;
@@ -295,7 +299,7 @@ int ModeSearch::adopt_end(const Vec3& end, bool* is_new_end) {
   if (known >= 0) return known;
   *is_new_end = true;
   const PolishedMode polished = polish_mode(end, options_.period, neighbours_);
-  if (polished.gradient > kGradientGoal) result_.converged = false;
+  if (polished.gradient > kModeGradientGoal) result_.converged = false;
 
   int mode = -1;  // two ends of climbs with a truncated kernel may be one mode
   const BoxKey box = boxes_.key(polished.position);
@@ -344,7 +348,7 @@ void ModeSearch::remember(const Vec3& end, double radius, int mode) {
 }  // namespace
 
 double min_period(double cutoff) {
-  return 2.0 * (cutoff + kBox + kMargin + 1e-3);
+  return 2.0 * (cutoff + kModeBox + kMargin + 1e-3);
 }
 
 Modes find_modes(std::span<const Vec3> points, const ModeOptions& options, std::vector<std::vector<Vec3>>* paths) {

@@ -15,8 +15,9 @@
 namespace scanbench::merge {
 namespace {
 
-constexpr double kBox = 1.0;  // half side of the region that one list of candidates serves, in standard deviations
-const double kBoxDiagonal = std::sqrt(3.0) * kBox;
+constexpr double kCandidateBox =
+    1.0;  // half side of the region that one list of candidates serves, in standard deviations
+const double kBoxDiagonal = std::sqrt(3.0) * kCandidateBox;
 
 /// The joint space in units in which no kernel is wider than 1 in any direction.
 class SinglePhase {
@@ -74,7 +75,7 @@ class SinglePhase {
 };
 
 Vec3 SinglePhase::mode_from(const Vec3& start, const Frame& frame, std::vector<Vec3>* path, bool& converged) const {
-  const auto half = static_cast<float>(kBox);
+  const auto half = static_cast<float>(kCandidateBox);
   const ClimbRules rules{.squared_cutoff = static_cast<float>(kernels_.cutoff * kernels_.cutoff),
                          .capture = false,
                          .accelerate = kernels_.accelerate,

@@ -189,7 +189,8 @@ class CollinearClusters : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<CollinearClusters>(
+SCANBENCH_REGISTER(
+    Figure, CollinearClusters,
     {.name = "collinear_clusters",
      .summary = "phase 2: one cluster with the kernel's ellipse, its sub-clusters, all modes and the merged lines",
      .reference = "Lakaemper 2009, figure 3"});

@@ -62,10 +62,10 @@ class DirectionClusters : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<DirectionClusters>(
-    {.name = "direction_clusters",
-     .summary = "segments by their clusters of phase 1, numbered, and the most crowded part magnified",
-     .reference = "Lakaemper 2009, figure 2 c, d"});
+SCANBENCH_REGISTER(Figure, DirectionClusters,
+                   {.name = "direction_clusters",
+                    .summary = "segments by their clusters of phase 1, numbered, and the most crowded part magnified",
+                    .reference = "Lakaemper 2009, figure 2 c, d"});
 
 }  // namespace
 }  // namespace scanbench::render

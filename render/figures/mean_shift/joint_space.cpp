@@ -58,10 +58,10 @@ class JointSpace : public Figure {
   Params params_;
 };
 
-const bool registered =
-    Registry<Figure>::add<JointSpace>({.name = "joint_space",
-                                       .summary = "segments as points of the centre-direction joint space, in 3-D",
-                                       .reference = "Lakaemper 2009, figure 1"});
+SCANBENCH_REGISTER(Figure, JointSpace,
+                   {.name = "joint_space",
+                    .summary = "segments as points of the centre-direction joint space, in 3-D",
+                    .reference = "Lakaemper 2009, figure 1"});
 
 }  // namespace
 }  // namespace scanbench::render

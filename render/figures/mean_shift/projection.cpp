@@ -19,7 +19,7 @@ constexpr std::size_t kMostNames = 6;  // more would cover each other
 const Stroke kSegmentStroke{kBlue, 1.1, Dash::solid};
 const Stroke kLineStroke{kBlack, 0.8, Dash::dash_dot};
 const Stroke kDropStroke{kGrey, 0.5, Dash::dotted};
-const Stroke kMergedStroke{kVermillion, 2.4, Dash::solid};
+const Stroke kProjectedMergeStroke{kVermillion, 2.4, Dash::solid};
 
 /// The cluster's own frame: u along its line from the mode, v across.
 struct LineFrame {
@@ -78,7 +78,7 @@ class Projection : public Figure {
     scene.legend = {{.text = "segments and their projections", .stroke = kSegmentStroke},
                     {.text = "cluster's line", .stroke = kLineStroke},
                     {.text = "projection", .stroke = kDropStroke},
-                    {.text = "merged", .stroke = kMergedStroke}};
+                    {.text = "merged", .stroke = kProjectedMergeStroke}};
     return {{"projection",
              fmt::format("{}: {}; overlapping projections are united. Across is drawn larger than along.", input.title,
                          what),
@@ -108,7 +108,7 @@ class Projection : public Figure {
   static void draw_plan(const MeanShiftRows& rows, const CollinearCluster& cluster, const LineFrame& frame,
                         Panel& panel) {
     const auto in_cm = [&](const Vec2& p) { return Vec2(frame(p).x(), 100.0 * frame(p).y()); };
-    Lines segments{.stroke = kSegmentStroke}, drops{.stroke = kDropStroke}, merged{.stroke = kMergedStroke};
+    Lines segments{.stroke = kSegmentStroke}, drops{.stroke = kDropStroke}, merged{.stroke = kProjectedMergeStroke};
     double low = INFINITY, high = -INFINITY;
     std::vector<Item> names;
     for (std::size_t i = 0; i < cluster.projections.size(); ++i) {
@@ -135,7 +135,7 @@ class Projection : public Figure {
   /// Row by row from the top: each projection, then the merged lines.
   static void draw_overlap(const CollinearCluster& cluster, const LineFrame& frame, Panel& panel) {
     const std::size_t n = cluster.projections.size();
-    Lines projections{.stroke = kSegmentStroke}, merged{.stroke = kMergedStroke};
+    Lines projections{.stroke = kSegmentStroke}, merged{.stroke = kProjectedMergeStroke};
     double low = INFINITY, high = -INFINITY;
     for (std::size_t i = 0; i < n; ++i) {
       const auto y = static_cast<double>(n - i);
@@ -157,7 +157,8 @@ class Projection : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<Projection>(
+SCANBENCH_REGISTER(
+    Figure, Projection,
     {.name = "projection",
      .summary =
          "the segments of one sub-cluster, their projections on its line, and the unions of overlapping projections",

@@ -14,9 +14,9 @@
 namespace scanbench::render {
 namespace {
 
-const Stroke kPathStroke{kBlue, 0.5, Dash::solid};
+const Stroke kShiftPathStroke{kBlue, 0.5, Dash::solid};
 const Points kStartStyle{.color = kBlack, .size_pt = 1.7};
-const Points kModeStyle{.marker = Marker::diamond, .color = kVermillion, .size_pt = 4.0};
+const Points kReachedModeStyle{.marker = Marker::diamond, .color = kVermillion, .size_pt = 4.0};
 
 /// Leaves out steps that are too small to see, and cuts the path at the seam of directions, where it leaves at one side
 /// and enters at the other.
@@ -68,7 +68,7 @@ class Trajectories : public Figure {
 
     const double resolution = 0.002 * std::max(extent_of(rows->segments()), 1e-6);
     const std::size_t stride = rows->paths.size() / (kPointBudget / 8) + 1;
-    Polyline flat{.points = {}, .stroke = kPathStroke}, deep = flat;
+    Polyline flat{.points = {}, .stroke = kShiftPathStroke}, deep = flat;
     std::vector<Vec3> starts;
     for (std::size_t k = 0; k < rows->paths.size(); k += stride) {
       starts.push_back(rows->pieces[k].point);
@@ -83,15 +83,15 @@ class Trajectories : public Figure {
     joint.items.emplace_back(std::move(deep));
     add_dots(view, starts, kStartStyle, above, joint);
     const std::vector<Vec3> modes = distinct(rows->ends);
-    add_dots(view, modes, kModeStyle, above, joint);
+    add_dots(view, modes, kReachedModeStyle, above, joint);
     if (rows->pieces.empty()) add_note("no segments", above), add_note("no segments", joint);
     scene.panels = {std::move(above), std::move(joint)};
     scene.legend = {{.text = "points", .marker = Marker::dot, .marker_size_pt = 2.4},
                     {.text = "their trajectories", .stroke = Stroke{kBlue, 0.8, Dash::solid}},
                     {.text = "modes of the density",
-                     .marker = kModeStyle.marker,
-                     .marker_color = kModeStyle.color,
-                     .marker_size_pt = kModeStyle.size_pt}};
+                     .marker = kReachedModeStyle.marker,
+                     .marker_color = kReachedModeStyle.color,
+                     .marker_size_pt = kReachedModeStyle.size_pt}};
     return {{"trajectories",
              fmt::format(
                  "{}: trajectories of {} to {} of the density in phase 1 (sigma {:.3g} m, 10 deg count as {:.3g} m). "
@@ -124,10 +124,10 @@ class Trajectories : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<Trajectories>(
-    {.name = "trajectories",
-     .summary = "paths of mean shift from the points of the joint space to the modes, in 2-D and 3-D",
-     .reference = "Lakaemper 2009, figure 2 a, b"});
+SCANBENCH_REGISTER(Figure, Trajectories,
+                   {.name = "trajectories",
+                    .summary = "paths of mean shift from the points of the joint space to the modes, in 2-D and 3-D",
+                    .reference = "Lakaemper 2009, figure 2 a, b"});
 
 }  // namespace
 }  // namespace scanbench::render

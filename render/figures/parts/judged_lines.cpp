@@ -18,11 +18,11 @@ struct Look {
 };
 
 constexpr std::size_t kUnjudged = 3, kMissed = 4, kOwn = 5;
-constexpr std::array<Look, 5> kLooks{{{"right", kGreen, Dash::solid, 1.0, Marker::circle, true},
-                                      {"split", kOrange, Dash::dashed, 1.2, Marker::square, true},
-                                      {"false", kVermillion, Dash::dotted, 1.5, Marker::cross, true},
-                                      {"too short to judge", kGrey, Dash::solid, 0.6, Marker::none, true},
-                                      {"missed", kPurple, Dash::dash_dot, 1.5, Marker::diamond, false}}};
+constexpr std::array<Look, 5> kVerdictLooks{{{"right", kGreen, Dash::solid, 1.0, Marker::circle, true},
+                                             {"split", kOrange, Dash::dashed, 1.2, Marker::square, true},
+                                             {"false", kVermillion, Dash::dotted, 1.5, Marker::cross, true},
+                                             {"too short to judge", kGrey, Dash::solid, 0.6, Marker::none, true},
+                                             {"missed", kPurple, Dash::dash_dot, 1.5, Marker::diamond, false}}};
 
 std::size_t kind_of(LineVerdict verdict) {
   switch (verdict) {
@@ -64,7 +64,7 @@ void JudgedLines::draw(const Stroke& own, bool ends, Panel& panel) const {
   // line is.
   for (const std::size_t kind : {kMissed, kUnjudged, std::size_t{0}, std::size_t{1}, std::size_t{2}, kOwn}) {
     if (lines_[kind].empty()) continue;
-    const Look look = kind == kOwn ? Look{"", own.color, own.dash, 1.0, Marker::circle, true} : kLooks[kind];
+    const Look look = kind == kOwn ? Look{"", own.color, own.dash, 1.0, Marker::circle, true} : kVerdictLooks[kind];
     panel.items.emplace_back(
         Lines{.segments = lines_[kind], .stroke = {look.color, look.width * own.width_pt, look.dash}});
     if (!ends || look.marker == Marker::none) continue;
@@ -75,7 +75,7 @@ void JudgedLines::draw(const Stroke& own, bool ends, Panel& panel) const {
 }
 
 void add_verdict_legend(double width_pt, Scene& scene) {
-  for (const Look& look : kLooks)
+  for (const Look& look : kVerdictLooks)
     scene.legend.push_back({.text = look.name,
                             .stroke = Stroke{look.color, look.width * width_pt, look.dash},
                             .marker = look.marker,

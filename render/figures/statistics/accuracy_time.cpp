@@ -15,7 +15,7 @@ namespace scanbench::render {
 namespace {
 
 const Stroke kFront{kGrey, 1.0, Dash::dashed};
-constexpr double kMarkerPt = 5.0;
+constexpr double kTimeMarkerPt = 5.0;
 
 struct PlacedPipeline {
   std::string name;
@@ -79,9 +79,11 @@ class AccuracyTime : public Figure {
       panel.items.emplace_back(Points{.points = {{p.time.mean, p.quality.mean}},
                                       .marker = styles[i].marker,
                                       .color = styles[i].color,
-                                      .size_pt = kMarkerPt});
-      scene.legend.push_back(
-          {.text = p.name, .marker = styles[i].marker, .marker_color = styles[i].color, .marker_size_pt = kMarkerPt});
+                                      .size_pt = kTimeMarkerPt});
+      scene.legend.push_back({.text = p.name,
+                              .marker = styles[i].marker,
+                              .marker_color = styles[i].color,
+                              .marker_size_pt = kTimeMarkerPt});
     }
     for (const PlacedPipeline& p : front)
       panel.items.emplace_back(Text{.at = {p.time.mean, p.quality.mean}, .text = p.name, .offset_pt = {4.0, 4.0}});
@@ -125,10 +127,10 @@ class AccuracyTime : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<AccuracyTime>(
-    {.name = "accuracy_time",
-     .summary = "a metric against time, one point per pipeline, with the Pareto front",
-     .reference = ""});
+SCANBENCH_REGISTER(Figure, AccuracyTime,
+                   {.name = "accuracy_time",
+                    .summary = "a metric against time, one point per pipeline, with the Pareto front",
+                    .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

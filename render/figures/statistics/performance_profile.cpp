@@ -21,7 +21,7 @@
 namespace scanbench::render {
 namespace {
 
-constexpr double kMarkerPt = 3.6;
+constexpr double kProfileMarkerPt = 3.6;
 
 /// Per problem the cost of each pipeline; +inf where it has no value or failed.
 using Costs = std::vector<std::vector<double>>;
@@ -73,7 +73,7 @@ class PerformanceProfile : public Figure {
     for (std::size_t i = 0; i < names.size(); ++i) {
       const std::vector<Vec2> curve = steps(ratios, i, end);
       const Stroke stroke{styles[i].color, 1.2, styles[i].dash};
-      Points marks{.marker = styles[i].marker, .color = stroke.color, .size_pt = kMarkerPt};
+      Points marks{.marker = styles[i].marker, .color = stroke.color, .size_pt = kProfileMarkerPt};
       for (const double share : {0.25, 0.5, 0.75, 1.0})  // where the curve reaches them
         if (const auto at = std::ranges::find_if(curve, [&](const Vec2& p) { return p.y() >= share - 1e-9; });
             at != curve.end())
@@ -84,7 +84,7 @@ class PerformanceProfile : public Figure {
                               .stroke = stroke,
                               .marker = styles[i].marker,
                               .marker_color = stroke.color,
-                              .marker_size_pt = kMarkerPt});
+                              .marker_size_pt = kProfileMarkerPt});
     }
     scene.panels.push_back(std::move(panel));
     return {{"performance_profile",
@@ -173,7 +173,8 @@ class PerformanceProfile : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<PerformanceProfile>(
+SCANBENCH_REGISTER(
+    Figure, PerformanceProfile,
     {.name = "performance_profile",
      .summary = "over all scenarios of a run, the share of problems that a pipeline solves within a factor of the best",
      .reference = "Dolan & More 2002, section 2"});

@@ -14,7 +14,7 @@ namespace scanbench::render {
 namespace {
 
 const Stroke kEqualF{{215, 215, 215}, 0.6, Dash::solid};
-constexpr double kMarkerPt = 3.6;
+constexpr double kRecallMarkerPt = 3.6;
 
 class PrecisionRecall : public Figure {
  public:
@@ -58,7 +58,8 @@ class PrecisionRecall : public Figure {
     for (std::size_t i = 0; i < groups.size(); ++i) {
       const auto& [color, dash, marker] = styles[i];
       panel.items.emplace_back(Polyline{.points = curves[i], .stroke = {color, 1.2, dash}});
-      panel.items.emplace_back(Points{.points = curves[i], .marker = marker, .color = color, .size_pt = kMarkerPt});
+      panel.items.emplace_back(
+          Points{.points = curves[i], .marker = marker, .color = color, .size_pt = kRecallMarkerPt});
       for (const std::size_t end : {std::size_t{0}, curves[i].size() - 1})  // which way the parameter grows
         panel.items.emplace_back(Text{.at = curves[i][end],
                                       .text = fmt::format("{:.3g}", groups[i].members[end].first),
@@ -68,7 +69,7 @@ class PrecisionRecall : public Figure {
                               .stroke = Stroke{color, 1.2, dash},
                               .marker = marker,
                               .marker_color = color,
-                              .marker_size_pt = kMarkerPt});
+                              .marker_size_pt = kRecallMarkerPt});
     }
     scene.legend.push_back({.text = "equal F", .stroke = kEqualF});
     scene.panels.push_back(std::move(panel));
@@ -121,7 +122,8 @@ class PrecisionRecall : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<PrecisionRecall>(
+SCANBENCH_REGISTER(
+    Figure, PrecisionRecall,
     {.name = "precision_recall",
      .summary = "precision against recall of pipelines that differ in one parameter, over lines of equal F",
      .reference = "van Rijsbergen 1979, Information retrieval, chapter 7"});

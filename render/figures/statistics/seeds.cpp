@@ -15,7 +15,7 @@
 namespace scanbench::render {
 namespace {
 
-constexpr double kDotPt = 3.0;
+constexpr double kSeedDotPt = 3.0;
 const Stroke kInterval{kBlack, 1.2, Dash::solid};
 
 /// Offsets across the row, in rows, so that values nearer to each other than `width` do not cover each other: each
@@ -72,7 +72,7 @@ class Seeds : public Figure {
     }
     Scene scene{.title = fmt::format("{}: {} over the seeds", input.title, params_.metric),
                 .box_aspect = std::clamp(0.13 * rows, 0.3, 2.0)};
-    scene.legend = {{.text = "one seed", .marker = Marker::circle, .marker_color = kGrey, .marker_size_pt = kDotPt},
+    scene.legend = {{.text = "one seed", .marker = Marker::circle, .marker_color = kGrey, .marker_size_pt = kSeedDotPt},
                     {.text = "mean and 95 % interval",
                      .stroke = kInterval,
                      .marker = Marker::diamond,
@@ -91,7 +91,7 @@ class Seeds : public Figure {
     std::vector<double> values = measured.metrics.at(params_.metric);
     std::ranges::sort(values);
     const std::vector<double> offsets = spread(values, width);
-    Points dots{.marker = Marker::circle, .color = color, .size_pt = kDotPt};
+    Points dots{.marker = Marker::circle, .color = color, .size_pt = kSeedDotPt};
     for (std::size_t k = 0; k < values.size(); ++k) dots.points.emplace_back(values[k], row + offsets[k]);
     panel.items.emplace_back(std::move(dots));
     const MeanBand band = *band_of(measured, params_.metric);
@@ -106,7 +106,8 @@ class Seeds : public Figure {
   Params params_;
 };
 
-const bool registered = Registry<Figure>::add<Seeds>(
+SCANBENCH_REGISTER(
+    Figure, Seeds,
     {.name = "seeds",
      .summary = "a metric over the seeds: a dot for each, the mean and its 95 % interval, a row per pipeline",
      .reference = ""});

@@ -105,8 +105,8 @@ class FaultyLine final : public LineExtractor {
  private:
   Params params_;
 };
-const bool registered = Registry<LineExtractor>::add<FaultyLine>(
-    {.name = "test_faulty_line", .summary = "of the tests", .reference = "none"});
+SCANBENCH_REGISTER(LineExtractor, FaultyLine,
+                   {.name = "test_faulty_line", .summary = "of the tests", .reference = "none"});
 
 TEST(Pipeline, RefusesALineThatBreaksTheContract) {
   ASSERT_TRUE(registered);

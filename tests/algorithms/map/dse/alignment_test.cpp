@@ -25,8 +25,7 @@ class AlongX final : public ScanMatcher {
     return found;
   }
 };
-const bool registered =
-    Registry<ScanMatcher>::add<AlongX>({.name = "test_along_x", .summary = "of the tests", .reference = "none"});
+SCANBENCH_REGISTER(ScanMatcher, AlongX, {.name = "test_along_x", .summary = "of the tests", .reference = "none"});
 
 const std::vector<Segment>& room() {
   static const std::vector<Segment> walls = testing::box(-3, -2, 4, 2);
