@@ -34,8 +34,8 @@ constexpr double kSigmaEnd = 0.05;
 constexpr int kIterations = 100;
 
 std::vector<Segment> arena() {
-  std::vector<Segment> walls = testing::box(0, 0, 12, 8.4);
-  for (const Segment& s : testing::polygon({{5.1, 3.6}, {5.1, 4.8}, {6.9, 4.8}, {6.9, 3.6}})) walls.push_back(s);
+  std::vector<Segment> walls = support::box(0, 0, 12, 8.4);
+  for (const Segment& s : support::polygon({{5.1, 3.6}, {5.1, 4.8}, {6.9, 4.8}, {6.9, 3.6}})) walls.push_back(s);
   CounterRng rng(3, RngStream::pose);
   for (int k = 0; k < 14; ++k) {
     const Vec2 p(0.5 + 11 * rng.uniform(), 0.5 + 7 * rng.uniform());
@@ -46,7 +46,7 @@ std::vector<Segment> arena() {
 }
 
 struct Scans {
-  testing::ScanSeries series;
+  support::ScanSeries series;
   std::vector<Pose2> given;
 };
 
@@ -57,8 +57,8 @@ const Scans& scans() {
     CounterRng rng(5, RngStream::pose);
     for (int k = 0; k < kScans; ++k) {
       const Pose2 truth(0.6 + 10.8 * rng.uniform(), 0.6 + 7.2 * rng.uniform(), kTwoPi * rng.uniform());
-      result.series.add_extracted(testing::with_noise(
-          testing::cast(testing::fan_sensor(221, radians(110)), walls, truth), 0.01, 7, static_cast<std::uint32_t>(k)));
+      result.series.add_extracted(support::with_noise(
+          support::cast(support::fan_sensor(221, radians(110)), walls, truth), 0.01, 7, static_cast<std::uint32_t>(k)));
       result.given.push_back(truth * Pose2(0.1 * rng.normal(), 0.1 * rng.normal(), 0.03 * rng.normal()));
     }
     return result;
@@ -84,7 +84,7 @@ FieldPoints field_points() {
 std::vector<Segment> office() {
   constexpr double kSide = 6.0, kDoor = 1.0;
   constexpr int kColumns = 10, kRows = 6;
-  std::vector<Segment> walls = testing::box(0, 0, kColumns * kSide, kRows * kSide);
+  std::vector<Segment> walls = support::box(0, 0, kColumns * kSide, kRows * kSide);
   const auto wall_with_door = [&](const Vec2& from, const Vec2& along) {
     walls.push_back({from, from + 0.5 * (kSide - kDoor) * along});
     walls.push_back({from + 0.5 * (kSide + kDoor) * along, from + kSide * along});
@@ -107,7 +107,7 @@ const FieldPoints& office_points() {
     for (int k = 0; k < 400; ++k) {
       const Pose2 truth(0.5 + 59 * rng.uniform(), 0.5 + 35 * rng.uniform(), kTwoPi * rng.uniform());
       const Pose2 given = truth * Pose2(0.05 * rng.normal(), 0.05 * rng.normal(), 0.01 * rng.normal());
-      const auto scan = testing::cast(testing::fan_sensor(361, kTwoPi), walls, truth);
+      const auto scan = support::cast(support::fan_sensor(361, kTwoPi), walls, truth);
       const auto view = scan.view();
       for (int i = 0; i < view.beams(); ++i) {
         const int wall = scan.ids[static_cast<std::size_t>(i)];
@@ -149,7 +149,7 @@ void ours(benchmark::State& state) {
     point_forces(points, field, forces);
     benchmark::DoNotOptimize(forces.data());
   }
-  const std::vector<Vec2> exact = testing::plain_forces(points, field.sigma, field.soft());
+  const std::vector<Vec2> exact = support::plain_forces(points, field.sigma, field.soft());
   state.counters["relative_rms_error"] = relative_error(forces, exact);
   state.counters["points"] = static_cast<double>(points.size());
   report_memory(state);
@@ -179,14 +179,14 @@ void plain_400_scans_sampled(benchmark::State& state) {
   for (auto _ : state) {
     exact.clear();
     for (std::size_t k = 0; k < points.size(); k += kStride)
-      exact.push_back(testing::plain_force_on(k, points, field.sigma, field.soft()));
+      exact.push_back(support::plain_force_on(k, points, field.sigma, field.soft()));
   }
   state.counters["relative_rms_error"] = relative_error(sampled, exact);
 }
 
 void plain_double_loop(benchmark::State& state) {
   const FieldPoints points = field_points();
-  for (auto _ : state) benchmark::DoNotOptimize(testing::plain_forces(points, sigma_of(state)).data());
+  for (auto _ : state) benchmark::DoNotOptimize(support::plain_forces(points, sigma_of(state)).data());
 }
 
 struct Cloud {

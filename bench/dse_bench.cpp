@@ -93,11 +93,11 @@ class Drive {
 void along_corridor(benchmark::State& state, const char* mapper) {
   for (auto _ : state) {
     Drive drive(mapper);
-    const SensorModel sensor = testing::fan_sensor(361, kPi);
+    const SensorModel sensor = support::fan_sensor(361, kPi);
     for (int k = 0; k < state.range(0); ++k) {
       const Pose2 pose(0.1 * k, 0, 0);
       const auto scan =
-          testing::with_noise(testing::cast(sensor, corridor(pose.x()), pose), 0.01, 1, static_cast<std::uint32_t>(k));
+          support::with_noise(support::cast(sensor, corridor(pose.x()), pose), 0.01, 1, static_cast<std::uint32_t>(k));
       drive.insert(scan.view(), pose);
     }
     report(state, drive.readings());

@@ -23,8 +23,8 @@ function(scanbench_flags target)
   endif()
 endfunction()
 
-# Precompiles the headers that nearly every file includes, once per target. No file may rely on this: each includes what
-# it uses, and -DSCANBENCH_PRECOMPILE=OFF builds without precompiled headers.
+# Precompiles the headers that nearly every file includes, once for all targets with the same flags. No file may rely on
+# this: each includes what it uses, and -DSCANBENCH_PRECOMPILE=OFF builds without precompiled headers.
 # scanbench_precompile(target [more headers...] | target REUSE other)
 function(scanbench_precompile target)
   cmake_parse_arguments(arg "" "REUSE" "" ${ARGN})
@@ -42,11 +42,48 @@ function(scanbench_precompile target)
   endif()
 endfunction()
 
-# scanbench_library(name [OBJECT] [FOLDER folder] [REUSE other | PRECOMPILE header...]): target scanbench_<name> from
-# all files of the folder. The folder is `name` unless FOLDER is given. The target reuses the precompiled headers of
-# another target, or precompiles additional ones.
+# scanbench_join(target [BY_FOLDER]): compiles the sources of the target together in batches, so that common headers are
+# parsed and common templates instantiated once a batch. A batch has neighbours, with BY_FOLDER of one folder, and at most
+# 96 kB of text: 1.2 GB of the compiler's memory. Generated sources and those with flags of their own stay alone. Names in
+# unnamed namespaces must be unique within a target, or within a folder.
+set(SCANBENCH_BATCH_BYTES 98304)
+set(SCANBENCH_ALONE distributions segment_index)  # Boost's templates fill a batch
+function(scanbench_join target)
+  cmake_parse_arguments(arg "BY_FOLDER" "" "" ${ARGN})
+  if(NOT SCANBENCH_JOIN)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "^/.*\\.cpp$")
+  list(JOIN SCANBENCH_ALONE "|" alone)
+  list(FILTER sources EXCLUDE REGEX "_kernels\\.cpp$|/(${alone})\\.cpp$|^${PROJECT_BINARY_DIR}/")
+  list(SORT sources)
+  set(batch 0)
+  set(bytes 0)
+  foreach(source ${sources})
+    file(SIZE ${source} size)
+    math(EXPR bytes "${bytes} + ${size}")
+    get_filename_component(folder ${source} DIRECTORY)
+    if(bytes GREATER SCANBENCH_BATCH_BYTES OR (arg_BY_FOLDER AND NOT folder STREQUAL last_folder))
+      math(EXPR batch "${batch} + 1")
+      set(bytes ${size})
+    endif()
+    set(last_folder ${folder})
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP batch${batch})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # g++ takes joined sources for headers, in which members of types in unnamed namespaces would be a mistake.
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
+endfunction()
+
+# scanbench_library(name [OBJECT] [FOLDER folder] [SPEED O1|O2] [REUSE other | PRECOMPILE header...]): target
+# scanbench_<name> from all files of the folder. The folder is `name` unless FOLDER is given. SPEED replaces -O3 of the
+# release build where compiling quickly is worth more than running quickly. The target reuses the precompiled headers of
+# another target with the same SPEED, or precompiles additional ones.
 function(scanbench_library name)
-  cmake_parse_arguments(arg "OBJECT" "FOLDER;REUSE" "PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(arg "OBJECT" "FOLDER;REUSE;SPEED" "PRECOMPILE" ${ARGN})
   if(NOT arg_FOLDER)
     set(arg_FOLDER ${name})
   endif()
@@ -60,11 +97,15 @@ function(scanbench_library name)
   target_sources(scanbench_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
   set_target_properties(scanbench_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
   scanbench_flags(scanbench_${name})
+  if(arg_SPEED)
+    target_compile_options(scanbench_${name} PRIVATE $<$<CONFIG:Release>:-${arg_SPEED}>)
+  endif()
   if(arg_REUSE)
     scanbench_precompile(scanbench_${name} REUSE scanbench_${arg_REUSE})
   else()
     scanbench_precompile(scanbench_${name} ${arg_PRECOMPILE})
   endif()
+  scanbench_join(scanbench_${name})
 endfunction()
 
 # scanbench_executable(name FOLDER folder | SOURCES file... [ROOMS name...]): links every module, or only the named

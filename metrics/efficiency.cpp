@@ -14,10 +14,10 @@
 
 #include <Eigen/LU>
 
+#include "core/distributions.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "core/registry.hpp"
-#include "metrics/chi_square.hpp"
 #include "metrics/line_bound.hpp"
 #include "metrics/line_matching.hpp"
 #include "metrics/rows.hpp"
@@ -129,8 +129,8 @@ class Efficiency : public MetricFamily {
     MetricRow& row = rows.add("nees", kAll, nees);
     if (row.count > 0) {
       const double n = number(row.count);
-      row.ci_low = chi_square_quantile(0.025, row.count) / n;
-      row.ci_high = chi_square_quantile(0.975, row.count) / n;
+      row.ci_low = chi_square_quantile(0.025, 2.0 * static_cast<double>(row.count)) / n;
+      row.ci_high = chi_square_quantile(0.975, 2.0 * static_cast<double>(row.count)) / n;
     }
     return rows.take();
   }

@@ -7,10 +7,9 @@
 #include <span>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "core/geometry/symmetric_matrix.hpp"
 #include "metrics/line_bound.hpp"
 
 namespace scanbench::metrics {
@@ -44,11 +43,11 @@ Sight sight_of(const SurfaceView& view, const Pose2& world_from_sensor, const Se
 
 /// Inverse on the range of a symmetric, positive semidefinite matrix: a wall that one beam sees has no angle.
 Eigen::Matrix2d inverse_on_range(const Eigen::Matrix2d& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(matrix);
+  const SymmetricEigen<Eigen::Matrix2d> eigen = symmetric_eigen(matrix);
   Eigen::Vector2d inverse = Eigen::Vector2d::Zero();
   for (Eigen::Index k = 0; k < 2; ++k)
-    if (eigen.eigenvalues()(k) > 1e-12 * eigen.eigenvalues()(1)) inverse(k) = 1.0 / eigen.eigenvalues()(k);
-  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+    if (eigen.values(k) > 1e-12 * eigen.values(1)) inverse(k) = 1.0 / eigen.values(k);
+  return eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
 }
 
 Eigen::Index block(std::size_t scan) {
@@ -100,7 +99,7 @@ double relative_sigma_m(const Eigen::MatrixXd& covariance, std::span<const Pose2
   both << covariance.block<3, 3>(block(a), block(a)), covariance.block<3, 3>(block(a), block(b)),
       covariance.block<3, 3>(block(b), block(a)), covariance.block<3, 3>(block(b), block(b));
   const Eigen::Matrix3d of_motion = relative * both * relative.transpose();
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(of_motion, Eigen::EigenvaluesOnly).eigenvalues()(2));
+  return std::sqrt(symmetric_eigenvalues(of_motion)(2));
 }
 
 /// The largest set of scans that are determined relative to one of them; the first of equally large ones.
@@ -125,8 +124,7 @@ std::optional<JointPoseBound> joint_pose_bound(const MetricInput& input, double 
   // A prior on every pose: the bound of P e does not see it but for 1 / kPriorSigmaM^2 of the information.
   for (Eigen::Index i = 0; i < information.rows(); ++i)
     information(i, i) += (i % 3 == 2 ? lever_m * lever_m : 1.0) / (kPriorSigmaM * kPriorSigmaM);
-  const Eigen::MatrixXd covariance =
-      information.llt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  const Eigen::MatrixXd covariance = inverse_of_definite(information);
 
   JointPoseBound bound;
   bound.scans = determined(covariance, poses, max_sigma_m, lever_m);

@@ -7,9 +7,9 @@
 #include <limits>
 #include <map>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "core/geometry/symmetric_matrix.hpp"
 #include "metrics/line_bound.hpp"
 
 namespace scanbench::metrics {
@@ -43,8 +43,7 @@ PoseInformation pose_information(const MetricInput& input, const Surfaces& surfa
 double weakest_sigma_m(const Eigen::Matrix3d& information, double lever_m) {
   const Eigen::Vector3d scale(1.0, 1.0, 1.0 / lever_m);
   const Eigen::Matrix3d metres = scale.asDiagonal() * information * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(metres, Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d& values = eigen.eigenvalues();
+  const Eigen::Vector3d values = symmetric_eigenvalues(metres);
   return values(0) > 1e-12 * values(2) ? 1.0 / std::sqrt(values(0)) : std::numeric_limits<double>::infinity();
 }
 

@@ -10,8 +10,8 @@
 #include <cmath>
 
 #include <Eigen/LU>
-#include <boost/math/distributions/chi_squared.hpp>
 
+#include "core/distributions.hpp"
 #include "core/error.hpp"
 #include "core/geometry/pose_errors.hpp"
 #include "core/registry.hpp"
@@ -46,10 +46,6 @@ struct PosePart {
     return 1.96 * std::sqrt(std::max(fourth_power.value() - mean * mean, 0.0) / (n - 1));
   }
 };
-
-double chi_square(double p, std::int64_t degrees_of_freedom) {
-  return boost::math::quantile(boost::math::chi_squared(static_cast<double>(degrees_of_freedom)), p);
-}
 
 constexpr const char* kTable = "pose_errors";  // pose_errors.csv
 
@@ -142,8 +138,8 @@ class PoseEfficiency : public MetricFamily {
     MetricRow& row = rows.add("pose_nees", kAll, nees);
     if (row.count > 0) {
       const auto n = static_cast<double>(row.count);
-      row.ci_low = chi_square(0.025, 3 * row.count) / n;
-      row.ci_high = chi_square(0.975, 3 * row.count) / n;
+      row.ci_low = chi_square_quantile(0.025, 3.0 * static_cast<double>(row.count)) / n;
+      row.ci_high = chi_square_quantile(0.975, 3.0 * static_cast<double>(row.count)) / n;
     }
     rows.add("pose_unmatched", kAll, unmatched);
     rows.add("pose_unobservable", kAll, unobservable);

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "core/distributions.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/special_values.hpp"
@@ -107,7 +107,7 @@ Drawn interval_of(std::vector<double> draws, double observed, std::size_t scans,
   const auto percentile = [&](double share) {
     return observed + draws[static_cast<std::size_t>(share * static_cast<double>(kBlockResamples - 1))] - centre;
   };
-  const double reach = boost::math::quantile(boost::math::students_t(freedom), 1.0 - kBlockTail) * error;
+  const double reach = student_quantile(1.0 - kBlockTail, freedom) * error;
   return {error,
           {observed, std::min(percentile(kBlockTail), observed - reach),
            std::max(percentile(1.0 - kBlockTail), observed + reach), count}};
@@ -116,8 +116,7 @@ Drawn interval_of(std::vector<double> draws, double observed, std::size_t scans,
 double p_value(double observed, double error, double freedom) {
   if (std::isnan(observed)) return kNaN;
   if (!(error > 0)) return observed == 0.0 ? 1.0 : 0.0;
-  const boost::math::students_t distribution(freedom);
-  return 2.0 * boost::math::cdf(boost::math::complement(distribution, std::fabs(observed) / error));
+  return student_two_sided(observed / error, freedom);
 }
 
 bool is_equal(const ScanPair& pair) {

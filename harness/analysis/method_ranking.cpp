@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <cstdint>
 #include <set>
@@ -11,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/distributions.hpp"
 #include "core/special_values.hpp"
 #include "harness/analysis/gates.hpp"
 #include "harness/files/atomic_file.hpp"
@@ -50,10 +50,7 @@ double value_in(const std::vector<MetricRow>& rows, std::string_view metric) {
 }
 
 double clopper_pearson(double trials, double successes, bool upper) {
-  using Binomial = boost::math::binomial_distribution<>;
-  constexpr double kTail = 0.025;
-  if (upper) return successes >= trials ? 1.0 : Binomial::find_upper_bound_on_p(trials, successes, kTail);
-  return successes <= 0.0 ? 0.0 : Binomial::find_lower_bound_on_p(trials, successes, kTail);
+  return (upper ? share_upper_bound : share_lower_bound)(trials, successes, 0.025);
 }
 
 /// The cells of one group of scenarios.

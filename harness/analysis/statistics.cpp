@@ -2,11 +2,10 @@
 #include "harness/analysis/statistics.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <vector>
 
+#include "core/distributions.hpp"
 #include "core/error.hpp"
 #include "core/median.hpp"
 #include "core/rng.hpp"
@@ -41,8 +40,7 @@ Ends student_t(std::span<const double> values, double mean) {
   const auto n = static_cast<double>(values.size());
   double squares = 0.0;
   for (const double v : values) squares += (v - mean) * (v - mean);
-  const boost::math::students_t distribution(n - 1.0);
-  const double reach = boost::math::quantile(distribution, 1.0 - kTail) * std::sqrt(squares / (n - 1.0) / n);
+  const double reach = student_quantile(1.0 - kTail, n - 1.0) * std::sqrt(squares / (n - 1.0) / n);
   return {mean - reach, mean + reach};
 }
 
@@ -61,10 +59,9 @@ Ends bca_bootstrap(std::span<const double> values, double mean) {
     equal += r == mean ? 1 : 0;
   }
   std::ranges::sort(resampled);
-  const boost::math::normal normal;
   const double share = std::clamp((static_cast<double>(below) + 0.5 * static_cast<double>(equal)) / kResamples,
                                   1.0 / kResamples, 1.0 - 1.0 / kResamples);
-  const double bias = boost::math::quantile(normal, share);
+  const double bias = normal_quantile(share);
   // The mean without value i differs from their mean by (mean - v_i) / (n - 1): the factor cancels in the acceleration.
   double cubes = 0.0;
   double squares = 0.0;
@@ -75,8 +72,8 @@ Ends bca_bootstrap(std::span<const double> values, double mean) {
   if (squares == 0.0) return {mean, mean};
   const double acceleration = cubes / (6.0 * std::pow(squares, 1.5));
   const auto end = [&](double probability) {
-    const double z = bias + boost::math::quantile(normal, probability);
-    const double adjusted = boost::math::cdf(normal, bias + z / (1.0 - acceleration * z));
+    const double z = bias + normal_quantile(probability);
+    const double adjusted = normal_probability(bias + z / (1.0 - acceleration * z));
     const auto index = static_cast<std::size_t>(std::clamp(adjusted * kResamples, 0.0, kResamples - 1.0));
     return resampled[index];
   };
@@ -107,8 +104,7 @@ double paired_p_value(std::span<const double> all) {
   for (const double v : values) squares += (v - mean) * (v - mean);
   if (squares == 0.0) return mean == 0.0 ? 1.0 : 0.0;
   const double t = mean / std::sqrt(squares / (n - 1.0) / n);
-  const boost::math::students_t distribution(n - 1.0);
-  return 2.0 * boost::math::cdf(boost::math::complement(distribution, std::fabs(t)));
+  return student_two_sided(t, n - 1.0);
 }
 
 std::vector<double> holm_adjusted(std::span<const double> p_values) {
@@ -169,7 +165,7 @@ double rank_p_value(std::span<const double> a, std::span<const double> b) {
   const double variance = n * m / 12.0 * (all + 1.0 - ties / (all * (all - 1.0)));
   if (!(variance > 0)) return 1.0;
   const double z = std::max(0.0, std::fabs(u - 0.5 * n * m) - 0.5) / std::sqrt(variance);
-  return 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), z));
+  return normal_two_sided(z);
 }
 
 double median(std::span<const double> all) {

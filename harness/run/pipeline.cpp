@@ -9,10 +9,10 @@
 #include <span>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 
 #include "core/error.hpp"
 #include "core/geometry/angles.hpp"
+#include "core/geometry/symmetric_matrix.hpp"
 #include "core/modules.hpp"
 #include "harness/foreign/arithmetic.hpp"
 #include "harness/foreign/fault.hpp"
@@ -80,8 +80,7 @@ std::string covariance_fault(const Eigen::Matrix<double, n, n>& covariance) {
   if (covariance.diagonal().minCoeff() < 0) return "a negative variance";
   if ((covariance - covariance.transpose()).norm() > kRounding * covariance.norm())
     return "a covariance that is not symmetric";
-  const Eigen::Matrix<double, n, 1> variances =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Matrix<double, n, 1> variances = symmetric_eigenvalues(covariance);
   if (variances.minCoeff() < -kRounding * variances.maxCoeff()) return "a covariance with a negative eigenvalue";
   return "";
 }

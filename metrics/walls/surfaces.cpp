@@ -4,16 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 #include <utility>
 #include <vector>
 
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/index/rtree.hpp>
-
 #include "core/geometry/interval.hpp"
+#include "core/geometry/segment_index.hpp"
 #include "core/index.hpp"
 
 namespace scanbench::metrics {
@@ -36,16 +32,11 @@ bool continues(const Segment& s, const Segment& t) {
   return extent.low <= base.length() + kCollinearOffset && extent.high >= -kCollinearOffset;
 }
 
-using Corner = boost::geometry::model::d2::point_xy<double>;
-using Box = boost::geometry::model::box<Corner>;
-
-/// A box about a wall that overlaps the boxes of all walls that continue it. Two such walls have points that are at
-/// most kCollinearOffset apart along the longer one. Across it they are apart by kCollinearOffset at the midpoint of
-/// the shorter one, and by the angle over half its length at its ends.
-Box reach(const Segment& s) {
-  const double margin = 2.0 * kCollinearOffset + s.length() * std::sin(kCollinearAngle);
-  return {{std::min(s.a.x(), s.b.x()) - margin, std::min(s.a.y(), s.b.y()) - margin},
-          {std::max(s.a.x(), s.b.x()) + margin, std::max(s.a.y(), s.b.y()) + margin}};
+/// The margin of a box about a wall that overlaps the boxes of all walls that continue it. Two such walls have points
+/// that are at most kCollinearOffset apart along the longer one. Across it they are apart by kCollinearOffset at the
+/// midpoint of the shorter one, and by the angle over half its length at its ends.
+double reach(const Segment& s) {
+  return 2.0 * kCollinearOffset + s.length() * std::sin(kCollinearAngle);
 }
 
 /// The longest segment between the ends of two collinear ones, with the direction of the first.
@@ -65,17 +56,15 @@ Surfaces join_walls(std::span<const Wall> walls) {
     while (root[i] != i) i = root[i] = root[root[i]];
     return i;
   };
-  using Entry = std::pair<Box, std::size_t>;
-  std::vector<Entry> entries;
-  entries.reserve(walls.size());
-  for (std::size_t i = 0; i < walls.size(); ++i) entries.emplace_back(reach(walls[i].segment), i);
-  const boost::geometry::index::rtree<Entry, boost::geometry::index::rstar<16>> index(entries);
-  std::vector<Entry> near;
-  for (const auto& [box, i] : entries) {
-    near.clear();
-    index.query(boost::geometry::index::intersects(box), std::back_inserter(near));
-    for (const Entry& entry : near) {
-      const std::size_t j = entry.second;
+  std::vector<Segment> segments;
+  std::vector<double> margins;
+  for (const Wall& wall : walls) {
+    segments.push_back(wall.segment);
+    margins.push_back(reach(wall.segment));
+  }
+  const SegmentIndex index(segments, margins);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    for (const std::size_t j : index.near({&segments[i], 1}, margins[i])) {
       if (j >= i || find(i) == find(j) || !continues(walls[i].segment, walls[j].segment)) continue;
       const auto [low, high] = std::minmax({find(i), find(j)});
       root[high] = low;

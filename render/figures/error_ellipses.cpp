@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 
 #include "core/geometry/pose_errors.hpp"
+#include "core/geometry/symmetric_matrix.hpp"
 #include "core/index.hpp"
 #include "core/registry.hpp"
 #include "render/figures/parts/style.hpp"
@@ -46,9 +46,9 @@ Eigen::Matrix2d moments_of(const std::vector<Vec2>& errors) {
 }
 
 Ellipse ellipse_of(const Eigen::Matrix2d& covariance, const Stroke& stroke) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solved(covariance);
-  const Vec2 axis = solved.eigenvectors().col(1);
-  const auto semi = [&](Eigen::Index k) { return std::sqrt(kChiSquare95 * std::max(solved.eigenvalues()[k], 0.0)); };
+  const SymmetricEigen<Eigen::Matrix2d> eigen = symmetric_eigen(covariance);
+  const Vec2 axis = eigen.vectors.col(1);
+  const auto semi = [&](Eigen::Index k) { return std::sqrt(kChiSquare95 * std::max(eigen.values[k], 0.0)); };
   return {.semi_axes = {semi(1), semi(0)}, .angle_rad = std::atan2(axis.y(), axis.x()), .stroke = stroke};
 }
 

@@ -65,6 +65,7 @@ const std::map<std::string, std::string> kOwned = {
     {"openssl/", "harness/files"},
     {"sqlite3", "harness/nightly"},
     {"Random123/", "core"},
+    {"boost/", "core"},
     {"thread", "sim"},  // .ci/tsan runs the tests of sim only
 };
 

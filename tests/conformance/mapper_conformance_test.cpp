@@ -15,10 +15,10 @@
 namespace scanbench {
 namespace {
 
-using testing::SegmentNear;
+using support::SegmentNear;
 
 const std::vector<Segment>& room() {
-  static const std::vector<Segment> walls = testing::box(-4, -3, 5, 3.5);
+  static const std::vector<Segment> walls = support::box(-4, -3, 5, 3.5);
   return walls;
 }
 
@@ -27,12 +27,12 @@ Pose2 stop(int k) {
   return {0.15 * k - 1.0, 0.05 * k, 0.08 * k};
 }
 
-testing::OwnedScan seen_from(const Pose2& pose, const std::vector<Segment>& walls, std::uint32_t frame) {
-  return testing::with_noise(testing::cast(testing::ring_sensor(361), walls, pose), 0.01, 5, frame);
+support::OwnedScan seen_from(const Pose2& pose, const std::vector<Segment>& walls, std::uint32_t frame) {
+  return support::with_noise(support::cast(support::ring_sensor(361), walls, pose), 0.01, 5, frame);
 }
 
-testing::ScanSeries drive(int scans) {
-  testing::ScanSeries series;
+support::ScanSeries drive(int scans) {
+  support::ScanSeries series;
   for (int k = 0; k < scans; ++k)
     series.add_extracted(seen_from(stop(k), room(), static_cast<std::uint32_t>(k)), "iepf");
   return series;
@@ -47,7 +47,7 @@ class MapperConformance : public ::testing::TestWithParam<std::string> {
  protected:
   static std::unique_ptr<Mapper> make() { return Registry<Mapper>::make(GetParam()); }
 
-  static Mapped map(const testing::ScanSeries& series, const std::vector<Pose2>& guesses) {
+  static Mapped map(const support::ScanSeries& series, const std::vector<Pose2>& guesses) {
     const auto mapper = make();
     Mapped result;
     Trace silent;
@@ -136,7 +136,7 @@ TEST_P(MapperConformance, MovingAllPosesMovesTheMap) {
 }
 
 TEST_P(MapperConformance, TheSameScanTwiceAddsNoWalls) {
-  testing::ScanSeries series;
+  support::ScanSeries series;
   for (int k = 0; k < 2; ++k) series.add_extracted(seen_from(stop(0), room(), 0), "iepf");
   const Mapped mapped = map(series, {stop(0), stop(0)});
   EXPECT_LE(mapped.maps[1].lines.size(), mapped.maps[0].lines.size());
@@ -146,9 +146,9 @@ TEST_P(MapperConformance, TheSameScanTwiceAddsNoWalls) {
 
 TEST_P(MapperConformance, AScanWithoutReturnsIsReportedAndLeavesTheMapAsItIs) {
   for (const double range : {kInf, kNaN, -kInf}) {
-    testing::ScanSeries series;
+    support::ScanSeries series;
     series.add_extracted(seen_from(stop(0), room(), 0), "iepf");
-    series.add_extracted(testing::constant_scan(testing::ring_sensor(361), range), "iepf");
+    series.add_extracted(support::constant_scan(support::ring_sensor(361), range), "iepf");
     series.add_extracted(seen_from(stop(1), room(), 1), "iepf");
     const Mapped mapped = map(series, guesses(3));
     EXPECT_EQ(mapped.steps[1].status, Status::no_match);
@@ -158,8 +158,8 @@ TEST_P(MapperConformance, AScanWithoutReturnsIsReportedAndLeavesTheMapAsItIs) {
 }
 
 TEST_P(MapperConformance, AnEmptyScanFirstIsNoMapAndTheNextOneIsTheMap) {
-  testing::ScanSeries series;
-  series.add_extracted(testing::constant_scan(testing::ring_sensor(361), kInf), "iepf");
+  support::ScanSeries series;
+  series.add_extracted(support::constant_scan(support::ring_sensor(361), kInf), "iepf");
   series.add_extracted(seen_from(stop(1), room(), 1), "iepf");
   const Mapped mapped = map(series, guesses(2));
   EXPECT_TRUE(mapped.maps[0].lines.empty());
@@ -182,10 +182,10 @@ TEST_P(MapperConformance, AJumpInPoseDoesNotSpoilTheMap) {
 }
 
 TEST_P(MapperConformance, AMapOfOneWallIsOneLineAndSaysThatAMotionIsOpen) {
-  testing::ScanSeries series;
+  support::ScanSeries series;
   const std::vector<Segment> wall{{{-30, -1}, {30, -1}}};
   for (int k = 0; k < 3; ++k)
-    series.add_extracted(testing::cast(testing::fan_sensor(181, radians(120)), wall, {0.1 * k, 0, -kPi / 2}), "iepf");
+    series.add_extracted(support::cast(support::fan_sensor(181, radians(120)), wall, {0.1 * k, 0, -kPi / 2}), "iepf");
   std::vector<Pose2> poses;
   for (int k = 0; k < 3; ++k) poses.emplace_back(0.1 * k, 0, -kPi / 2);
   const Mapped mapped = map(series, poses);
@@ -195,7 +195,7 @@ TEST_P(MapperConformance, AMapOfOneWallIsOneLineAndSaysThatAMotionIsOpen) {
 }
 
 TEST_P(MapperConformance, TimeThatRunsBackwardsIsAnswered) {
-  const testing::ScanSeries series = drive(3);
+  const support::ScanSeries series = drive(3);
   const auto mapper = make();
   Trace silent;
   const auto observations = series.observations();
@@ -207,7 +207,7 @@ TEST_P(MapperConformance, TimeThatRunsBackwardsIsAnswered) {
 }
 
 TEST_P(MapperConformance, LinesThatAreNotFiniteOrHaveNoLengthAreNotInTheMap) {
-  const testing::ScanSeries series = drive(1);
+  const support::ScanSeries series = drive(1);
   const Observation good = series.observations().front();
   ScanLines lines = good.lines;
   for (const double bad : {kNaN, kInf}) {
@@ -236,7 +236,7 @@ TEST_P(MapperConformance, LinesWithoutScansAreMapped) {
 }
 
 TEST_P(MapperConformance, WithoutOdometryASlowDriveIsMapped) {
-  const testing::ScanSeries series = drive(6);
+  const support::ScanSeries series = drive(6);
   const Mapped mapped = map(series, std::vector<Pose2>(6));  // a log without poses gives the identity
   EXPECT_LE(mapped.maps.back().lines.size(), 3 * room().size());
   const Pose2 moved = mapped.steps.back().world_from_sensor;

@@ -15,25 +15,25 @@
 namespace scanbench {
 namespace {
 
-using testing::AngleNear;
-using testing::cast;
-using testing::constant_scan;
-using testing::kInf;
-using testing::kNaN;
-using testing::OwnedScan;
-using testing::PointNear;
-using testing::ring_sensor;
-using testing::ScanSeries;
-using testing::with_noise;
+using support::AngleNear;
+using support::cast;
+using support::constant_scan;
+using support::kInf;
+using support::kNaN;
+using support::OwnedScan;
+using support::PointNear;
+using support::ring_sensor;
+using support::ScanSeries;
+using support::with_noise;
 
 // Matchers that do not find the exact pose of scans without noise from two places, and why.
 const std::map<std::string, std::string> kNotExact = {
     {"icp", "two scans of a wall have no points in common"},
 };
 
-std::vector<Segment> room() {
-  auto walls = testing::box(-3, -2, 4, 2.5);
-  for (const Segment& s : testing::polygon({{2, 1}, {2.6, 1.2}, {2.4, 1.8}, {1.8, 1.6}})) walls.push_back(s);
+std::vector<Segment> matcher_room() {
+  auto walls = support::box(-3, -2, 4, 2.5);
+  for (const Segment& s : support::polygon({{2, 1}, {2.6, 1.2}, {2.4, 1.8}, {1.8, 1.6}})) walls.push_back(s);
   return walls;
 }
 
@@ -92,7 +92,7 @@ TEST_P(MatcherConformance, TheChecksOfConformArePassed) {
 }
 
 TEST_P(MatcherConformance, AScanWithoutReturnsOrBeamsDoesNotMatch) {
-  const OwnedScan full = seen(room(), {});
+  const OwnedScan full = seen(matcher_room(), {});
   const Pose2 guess(0.1, 0.2, 0.3);
   for (const double nothing : {kInf, -kInf, kNaN, 0.0, -1.0}) {
     const OwnedScan empty = constant_scan(ring_sensor(360), nothing);
@@ -100,7 +100,7 @@ TEST_P(MatcherConformance, AScanWithoutReturnsOrBeamsDoesNotMatch) {
     EXPECT_EQ(match(full, empty, guess).status, Status::no_match);
     EXPECT_EQ(match(empty, full, guess).status, Status::no_match);
   }
-  const OwnedScan no_beams = constant_scan(testing::fan_sensor(0, 1.0), 1.0);
+  const OwnedScan no_beams = constant_scan(support::fan_sensor(0, 1.0), 1.0);
   EXPECT_EQ(match(no_beams, no_beams, guess).status, Status::no_match);
   EXPECT_EQ(match(full, no_beams, guess).status, Status::no_match);
 }
@@ -108,7 +108,7 @@ TEST_P(MatcherConformance, AScanWithoutReturnsOrBeamsDoesNotMatch) {
 TEST_P(MatcherConformance, FaultyReadingsAmongGoodOnesAreAnswered) {
   const Pose2 step(0.1, 0.05, 0.03);
   for (const double reading : {kNaN, kInf, -kInf, 0.0, -1.0, 1e300, 1e-300}) {
-    OwnedScan reference = seen(room(), {}), current = seen(room(), step);
+    OwnedScan reference = seen(matcher_room(), {}), current = seen(matcher_room(), step);
     for (std::size_t i = 0; i < 360; i += 3) reference.ranges[i] = current.ranges[i + 1] = reading;
     match(reference, current, {});
     match(reference, constant_scan(ring_sensor(360), reading), {});
@@ -116,7 +116,7 @@ TEST_P(MatcherConformance, FaultyReadingsAmongGoodOnesAreAnswered) {
 }
 
 TEST_P(MatcherConformance, FewReturnsAreAnswered) {
-  const OwnedScan full = seen(room(), {});
+  const OwnedScan full = seen(matcher_room(), {});
   for (int returns = 1; returns <= 5; ++returns) {
     OwnedScan few = constant_scan(ring_sensor(360), kInf);
     for (int i = 0; i < returns; ++i) few.ranges[static_cast<std::size_t>(60 + 3 * i)] = 2.0 + 0.1 * i;
@@ -127,16 +127,16 @@ TEST_P(MatcherConformance, FewReturnsAreAnswered) {
 }
 
 TEST_P(MatcherConformance, EqualPointsAreAnswered) {
-  const OwnedScan one_ray = constant_scan(testing::fan_sensor(50, 0.0), 2.0);
+  const OwnedScan one_ray = constant_scan(support::fan_sensor(50, 0.0), 2.0);
   const OwnedScan one_place = constant_scan(ring_sensor(360), 1e-12);
   match(one_ray, one_ray, {});
   match(one_place, one_place, {});
-  match(one_place, seen(room(), {}), {});
+  match(one_place, seen(matcher_room(), {}), {});
 }
 
 TEST_P(MatcherConformance, AScanMatchesItselfExactly) {
   for (const double sigma_m : {0.0, 0.03}) {
-    const OwnedScan full = seen(room(), {0, 0, 0.2}, sigma_m);
+    const OwnedScan full = seen(matcher_room(), {0, 0, 0.2}, sigma_m);
     const Match result = match(full, full, {});
     EXPECT_EQ(result.status, Status::converged);
     EXPECT_LT(off(result.reference_from_current, {}), 1e-9);
@@ -144,7 +144,7 @@ TEST_P(MatcherConformance, AScanMatchesItselfExactly) {
 }
 
 TEST_P(MatcherConformance, AScanMatchesItselfFromAWrongGuess) {
-  const OwnedScan full = seen(room(), {0, 0, 0.2});
+  const OwnedScan full = seen(matcher_room(), {0, 0, 0.2});
   const Match result = match(full, full, {0.03, -0.02, 0.02});
   EXPECT_EQ(result.status, Status::converged);
   EXPECT_LT(off(result.reference_from_current, {}), kNotExact.contains(GetParam()) ? 3e-2 : 1e-6);
@@ -153,7 +153,7 @@ TEST_P(MatcherConformance, AScanMatchesItselfFromAWrongGuess) {
 TEST_P(MatcherConformance, ARoomWithoutNoiseGivesThePose) {
   const std::vector<Pose2> steps{{0.15, 0.05, 0.1}, {-0.1, 0.2, -0.15}, {0.25, 0, 0.05}, {0, 0, 0.2}};
   for (const Pose2& step : steps) {
-    const Match result = match(seen(room(), {}), seen(room(), step), step * Pose2(0.03, -0.03, 0.02));
+    const Match result = match(seen(matcher_room(), {}), seen(matcher_room(), step), step * Pose2(0.03, -0.03, 0.02));
     EXPECT_NE(result.status, Status::degenerate);
     EXPECT_NE(result.status, Status::no_match);
     EXPECT_LT(off(result.reference_from_current, step), kNotExact.contains(GetParam()) ? 2e-2 : 1e-6);
@@ -190,22 +190,22 @@ TEST_P(MatcherConformance, ACorridorWithoutEndIsDegenerateAndTheCovarianceNamesI
       EXPECT_NEAR(std::sqrt(eigen.eigenvalues()(2)), kOpenMotionM, 0.01 * kOpenMotionM);
       EXPECT_LT(std::sqrt(eigen.eigenvalues()(1)), 0.1);
       const Vec2 open = eigen.eigenvectors().col(2).head<2>();
-      EXPECT_THAT(std::atan2(open.y(), open.x()), testing::DirectionNear(-pose.yaw(), radians(2.0)));
+      EXPECT_THAT(std::atan2(open.y(), open.x()), support::DirectionNear(-pose.yaw(), radians(2.0)));
     }
 }
 
 TEST_P(MatcherConformance, ScansOfDifferentPlacesDoNotMatch) {
-  const OwnedScan here = seen(testing::box(-2, -2, 2, 2), {}, 0.01);
-  const OwnedScan there = seen(testing::box(-9, -8, 10, 9), {}, 0.01, 1);
+  const OwnedScan here = seen(support::box(-2, -2, 2, 2), {}, 0.01);
+  const OwnedScan there = seen(support::box(-9, -8, 10, 9), {}, 0.01, 1);
   EXPECT_EQ(match(here, there, {}).status, Status::no_match);
 }
 
 TEST_P(MatcherConformance, TheMatchTurnsWithTheReferenceSensor) {
   const Pose2 step(0.1, 0.05, 0.06), error(0.03, -0.03, 0.02);
-  const OwnedScan current = seen(room(), step, 0.02, 1);
-  const Match before = match(seen(room(), {}, 0.02), current, step * error);
+  const OwnedScan current = seen(matcher_room(), step, 0.02, 1);
+  const Match before = match(seen(matcher_room(), {}, 0.02), current, step * error);
   // The same returns in a reference frame that is turned by -0.7.
-  const OwnedScan turned = testing::turned(seen(room(), {}, 0.02), -0.7);
+  const OwnedScan turned = support::turned(seen(matcher_room(), {}, 0.02), -0.7);
   const Pose2 turn(0, 0, -0.7);
   const Match after = match(turned, current, turn * step * error);
   EXPECT_EQ(before.status, after.status);
@@ -223,8 +223,8 @@ TEST_P(MatcherConformance, TheCovarianceHoldsTheErrorsOfARoom) {
   int count = 0;
   for (std::uint32_t k = 0; k < 40; ++k) {
     const Pose2 pose(-1.0 + 0.05 * k, -1.0 + 0.03 * k, 0.3 * k), step(0.1, 0.05, 0.05);
-    const Match result = match(seen(room(), pose, 0.02, 2 * k), seen(room(), pose * step, 0.02, 2 * k + 1),
-                               step * Pose2(0.03, -0.03, 0.02));
+    const Match result = match(seen(matcher_room(), pose, 0.02, 2 * k),
+                               seen(matcher_room(), pose * step, 0.02, 2 * k + 1), step * Pose2(0.03, -0.03, 0.02));
     if (result.status == Status::degenerate || result.status == Status::no_match) continue;
     const Vec2 shift = result.reference_from_current.translation() - step.translation();
     const Eigen::Vector3d e(shift.x(), shift.y(), wrap_angle(result.reference_from_current.yaw() - step.yaw()));
@@ -238,7 +238,7 @@ TEST_P(MatcherConformance, TheCovarianceHoldsTheErrorsOfARoom) {
 
 TEST_P(MatcherConformance, TheAnswerIsTheSameTwiceAndTheInputIsUntouched) {
   ScanSeries scans;
-  const OwnedScan a = seen(room(), {}, 0.02, 0), b = seen(room(), {0.1, 0.05, 0.03}, 0.02, 1);
+  const OwnedScan a = seen(matcher_room(), {}, 0.02, 0), b = seen(matcher_room(), {0.1, 0.05, 0.03}, 0.02, 1);
   scans.add_extracted(a, "optimal");
   scans.add_extracted(b, "optimal");
   const Match first = match(scans, {}), second = match(scans, {});
@@ -258,8 +258,8 @@ TEST_P(MatcherConformance, LinesWithoutCovarianceAndNoLinesAreAnswered) {
   const Pose2 step(0.1, 0.05, 0.03);
   ScanSeries extracted, none;
   for (const Pose2& pose : {Pose2(), step}) {
-    extracted.add_extracted(seen(room(), pose, 0.01), "iepf");
-    none.add(seen(room(), pose, 0.01), {.lines = {}, .labels = std::vector<int>(360, -1)});
+    extracted.add_extracted(seen(matcher_room(), pose, 0.01), "iepf");
+    none.add(seen(matcher_room(), pose, 0.01), {.lines = {}, .labels = std::vector<int>(360, -1)});
   }
   const Match by_lines = match(extracted, {});
   EXPECT_NE(by_lines.status, Status::no_match);

@@ -13,12 +13,13 @@ namespace scanbench {
 namespace {
 
 // Checks that a module does not pass by design, and why.
-const std::map<std::pair<std::string, std::string>, std::string> kByDesign = {};
+const std::map<std::pair<std::string, std::string>, std::string> kMergersByDesign = {};
 
 class MergerConformance : public ::testing::TestWithParam<std::string> {
  protected:
   void pass(const std::string& name) const {
-    if (const auto found = kByDesign.find({GetParam(), name}); found != kByDesign.end()) GTEST_SKIP() << found->second;
+    if (const auto found = kMergersByDesign.find({GetParam(), name}); found != kMergersByDesign.end())
+      GTEST_SKIP() << found->second;
     const auto& entry = *Registry<SegmentMerger>::find(GetParam());
     for (const auto& check : conform::merger_checks()) {
       if (check.name != name) continue;

@@ -16,8 +16,8 @@
 namespace scanbench {
 namespace {
 
-using testing::OwnedScan;
-using testing::ScanSeries;
+using support::OwnedScan;
+using support::ScanSeries;
 
 // Every return is in a line, as in the papers.
 const ParamSet kAllReturns{{"max_gap_m", 0.0}, {"min_points", std::int64_t{2}}};
@@ -37,13 +37,13 @@ struct Seen {
 };
 
 OwnedScan room(const Pose2& pose) {
-  auto walls = testing::box(-3, -2, 4, 2.5);
-  for (const Segment& s : testing::polygon({{2, 1}, {2.6, 1.2}, {2.4, 1.8}, {1.8, 1.6}})) walls.push_back(s);
-  return testing::cast(testing::ring_sensor(360), walls, pose);
+  auto walls = support::box(-3, -2, 4, 2.5);
+  for (const Segment& s : support::polygon({{2, 1}, {2.6, 1.2}, {2.4, 1.8}, {1.8, 1.6}})) walls.push_back(s);
+  return support::cast(support::ring_sensor(360), walls, pose);
 }
 
 OwnedScan nothing() {
-  return testing::constant_scan(testing::ring_sensor(360), kInf);
+  return support::constant_scan(support::ring_sensor(360), kInf);
 }
 
 bool finite(const Pose2& p) {
@@ -86,7 +86,7 @@ ScanSeries of_each(const std::vector<OwnedScan>& scans) {
 ScanSeries rooms(double sigma_m) {
   std::vector<OwnedScan> scans;
   for (std::size_t k = 0; k < kStops.size(); ++k)
-    scans.push_back(testing::with_noise(room(kStops[k]), sigma_m, 2, static_cast<std::uint32_t>(k)));
+    scans.push_back(support::with_noise(room(kStops[k]), sigma_m, 2, static_cast<std::uint32_t>(k)));
   return of_each(scans);
 }
 
@@ -112,7 +112,7 @@ TEST_P(AlignerConformance, ScansOfFaultyReadingsAreAnswered) {
     OwnedScan odd = room({0, 0, 0});
     for (std::size_t i = 0; i < odd.ranges.size(); i += 3) odd.ranges[i] = reading;
     align(of_each({odd, odd, odd, odd}), believed());
-    const OwnedScan all = testing::constant_scan(testing::ring_sensor(360), reading);
+    const OwnedScan all = support::constant_scan(support::ring_sensor(360), reading);
     align(of_each({all, all, odd, odd}), believed());
   }
 }
@@ -122,7 +122,7 @@ TEST_P(AlignerConformance, ScansWithoutLinesAndWithOneWallAreAnswered) {
   for (const Pose2& p : kStops) no_lines.add(room(p), {.lines = {}, .labels = std::vector<int>(360, -1)});
   align(no_lines, believed());
   std::vector<OwnedScan> walls;
-  for (const Pose2& p : kStops) walls.push_back(testing::cast(testing::ring_sensor(360), {{{-3, -2}, {3, -2}}}, p));
+  for (const Pose2& p : kStops) walls.push_back(support::cast(support::ring_sensor(360), {{{-3, -2}, {3, -2}}}, p));
   align(of_each(walls), believed());
   const OwnedScan full = room({0, 0, 0});
   align(of_each({full, full, full, full}), std::vector<Pose2>(4, Pose2(0.1, 0.2, 0.3)));
@@ -139,7 +139,7 @@ TEST_P(AlignerConformance, BringsScansOfARoomTogether) {
   for (std::size_t k = 0; k < kStops.size(); ++k) {
     const Pose2 off = (poses[0].inverse() * poses[k]).inverse() * (kStops[0].inverse() * kStops[k]);
     EXPECT_LT(off.translation().norm(), distance) << "scan " << k;
-    EXPECT_THAT(off.yaw(), testing::AngleNear(0.0, angle)) << "scan " << k;
+    EXPECT_THAT(off.yaw(), support::AngleNear(0.0, angle)) << "scan " << k;
   }
 }
 
@@ -152,8 +152,8 @@ TEST_P(AlignerConformance, MovesWithTheWorldFrame) {
   EXPECT_EQ(here.status, there.status);
   for (std::size_t k = 0; k < kStops.size(); ++k) {
     const Pose2 expected = elsewhere * here.world_from_sensor[k];
-    EXPECT_THAT(there.world_from_sensor[k].translation(), testing::PointNear(expected.translation(), 1e-6));
-    EXPECT_THAT(there.world_from_sensor[k].yaw(), testing::AngleNear(expected.yaw(), 1e-6));
+    EXPECT_THAT(there.world_from_sensor[k].translation(), support::PointNear(expected.translation(), 1e-6));
+    EXPECT_THAT(there.world_from_sensor[k].yaw(), support::AngleNear(expected.yaw(), 1e-6));
   }
 }
 

@@ -15,19 +15,19 @@
 namespace scanbench {
 namespace {
 
-using testing::TraceRecorder;
+using support::TraceRecorder;
 
 /// A stop of a sensor in a room, with noise and lines.
-struct Seen {
-  explicit Seen(int stop)
-      : scan(testing::with_noise(testing::cast(testing::ring_sensor(361), testing::random_room(3), pose(stop)), 0.01,
+struct TracedScan {
+  explicit TracedScan(int stop)
+      : scan(support::with_noise(support::cast(support::ring_sensor(361), support::random_room(3), pose(stop)), 0.01,
                                  static_cast<std::uint64_t>(stop))),
         view(scan.view()),
-        lines(testing::extract("iepf", scan)) {}
+        lines(support::extract("iepf", scan)) {}
   static Pose2 pose(int stop) { return {0.1 * stop, 0.05 * stop, 0.1 * stop}; }
   Observation observation() const { return {view, lines}; }
 
-  testing::OwnedScan scan;
+  support::OwnedScan scan;
   Scan view;
   ScanLines lines;
 };
@@ -35,7 +35,7 @@ struct Seen {
 /// Runs every module of every kind, and calls check(kind, name, frame, recorder) for each.
 template <class Check>
 void for_every_module(const Check& check) {
-  const Seen first(0), second(1);
+  const TracedScan first(0), second(1);
   for (const auto& name : Registry<LineExtractor>::names()) {
     TraceRecorder recorder("extract");
     Registry<LineExtractor>::make(name)->extract(first.view, recorder.trace);
@@ -49,13 +49,13 @@ void for_every_module(const Check& check) {
   for (const auto& name : Registry<Aligner>::names()) {
     TraceRecorder recorder("align");
     const std::vector<Observation> scans{first.observation(), second.observation()};
-    Registry<Aligner>::make(name)->align(scans, std::vector{Seen::pose(0), Seen::pose(1)}, recorder.trace);
+    Registry<Aligner>::make(name)->align(scans, std::vector{TracedScan::pose(0), TracedScan::pose(1)}, recorder.trace);
     check("align", name, -1, recorder);
   }
   for (const auto& name : Registry<Mapper>::names()) {
     TraceRecorder recorder("map");
     const auto mapper = Registry<Mapper>::make(name);
-    for (const Seen* seen : {&first, &second}) mapper->insert(seen->observation(), {}, recorder.trace);
+    for (const TracedScan* seen : {&first, &second}) mapper->insert(seen->observation(), {}, recorder.trace);
     check("map", name, 0, recorder);
   }
   std::vector<MapLine> lines;

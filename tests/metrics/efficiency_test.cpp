@@ -8,14 +8,12 @@
 #include "core/rng.hpp"
 #include "core/special_values.hpp"
 #include "made_up.hpp"
-#include "metrics/chi_square.hpp"
 #include "metrics/line_bound.hpp"
 #include "metrics/rows.hpp"
 
 namespace scanbench::test {
 namespace {
 
-using metrics::chi_square_quantile;
 using metrics::join_walls;
 using metrics::line_bound;
 
@@ -225,20 +223,6 @@ TEST(Nees, IsFiniteAndRightWhenTheLinePassesTheSensorOnTheOtherSide) {
   c << 1e-4, 0, 0, 1e-4;
   line.covariance = c;
   EXPECT_NEAR(row(evaluate("efficiency", run), "nees").value, 0.02 * 0.02 / 1e-4, 1e-9);
-}
-
-TEST(ChiSquare, QuantilesAreThoseOfPublishedTables) {
-  EXPECT_NEAR(chi_square_quantile(0.975, 1), -2 * std::log(0.025), 1e-12);
-  EXPECT_NEAR(chi_square_quantile(0.025, 1), -2 * std::log(0.975), 1e-13);
-  EXPECT_NEAR(chi_square_quantile(0.025, 10), 9.59078, 1e-5);
-  EXPECT_NEAR(chi_square_quantile(0.975, 10), 34.16961, 1e-5);
-  EXPECT_NEAR(chi_square_quantile(0.025, 50), 74.22193, 1e-5);
-  EXPECT_NEAR(chi_square_quantile(0.975, 50), 129.56120, 1e-5);
-  // For many degrees of freedom nu: nu (1 - 2 / (9 nu) + z sqrt(2 / (9 nu)))^3 (Wilson & Hilferty).
-  const double nu = 2e5;
-  const double z = 1.959963985;
-  EXPECT_NEAR(chi_square_quantile(0.975, 100000), nu * std::pow(1 - 2 / (9 * nu) + z * std::sqrt(2 / (9 * nu)), 3),
-              0.1);
 }
 
 TEST(Efficiency, NeedsTruthAndGivesAllRowsForAnEmptyRun) {

@@ -15,7 +15,7 @@ using metrics::join_walls;
 using metrics::pose_information;
 using metrics::PoseInformation;
 
-constexpr double kSigma = 0.02;
+constexpr double kBoundSigma = 0.02;
 
 std::vector<Wall> room() {
   const std::vector<Vec2> corners{{-3, -2}, {4, -2}, {4, 2.5}, {-3, 2.5}};
@@ -24,9 +24,9 @@ std::vector<Wall> room() {
   return walls;
 }
 
-MadeUpRun seen_from(const std::vector<Wall>& walls, const std::vector<Pose2>& poses, int beams = 180) {
+MadeUpRun pose_seen_from(const std::vector<Wall>& walls, const std::vector<Pose2>& poses, int beams = 180) {
   MadeUpRun run = make_run(ScanGeometry(-kPi, kTwoPi / beams, beams), walls);
-  run.observed.sensor.noise.sigma_m = kSigma;
+  run.observed.sensor.noise.sigma_m = kBoundSigma;
   for (const Pose2& pose : poses) cast_frame(run, pose);
   return run;
 }
@@ -37,12 +37,12 @@ PoseInformation information_of(const MadeUpRun& run) {
 
 TEST(PoseBound, OfAKnownMapIsTheInformationFromNumericalDerivatives) {
   const Pose2 first(0.3, -0.2, 0.4), step(0.2, 0.1, -0.3);
-  const Eigen::Matrix3d found = information_of(seen_from(room(), {first, first * step})).known_map;
+  const Eigen::Matrix3d found = information_of(pose_seen_from(room(), {first, first * step})).known_map;
 
   const double h = 1e-6;
   const auto ranges = [&](const Eigen::Vector3d& motion) {
     const Pose2 moved(step.x() + motion.x(), step.y() + motion.y(), step.yaw() + motion.z());
-    return seen_from(room(), {first * moved}).truth.ranges;
+    return pose_seen_from(room(), {first * moved}).truth.ranges;
   };
   std::vector<std::vector<double>> derivatives;
   for (int k = 0; k < 3; ++k) {
@@ -53,20 +53,20 @@ TEST(PoseBound, OfAKnownMapIsTheInformationFromNumericalDerivatives) {
   Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < derivatives[0].size(); ++i) {
     const Eigen::Vector3d g(derivatives[0][i], derivatives[1][i], derivatives[2][i]);
-    expected += g * g.transpose() / (kSigma * kSigma);
+    expected += g * g.transpose() / (kBoundSigma * kBoundSigma);
   }
   EXPECT_LT((found - expected).norm(), 1e-5 * expected.norm());
 }
 
 TEST(PoseBound, OfTwoEqualScansIsHalfTheInformationOfAKnownMap) {
-  const PoseInformation found = information_of(seen_from(room(), {{0.3, -0.2, 0.4}, {0.3, -0.2, 0.4}}));
+  const PoseInformation found = information_of(pose_seen_from(room(), {{0.3, -0.2, 0.4}, {0.3, -0.2, 0.4}}));
   EXPECT_LT((found.unknown_walls - 0.5 * found.known_map).norm(), 1e-9 * found.known_map.norm());
   EXPECT_EQ(found.surfaces, 4);
 }
 
 TEST(PoseBound, OfUnknownWallsNeverExceedsThatOfAKnownMap) {
   for (double turn = 0.0; turn < 3.0; turn += 0.7) {
-    const PoseInformation found = information_of(seen_from(room(), {{0, 0, turn}, {0.5, 0.3, 2 * turn}}));
+    const PoseInformation found = information_of(pose_seen_from(room(), {{0, 0, turn}, {0.5, 0.3, 2 * turn}}));
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(found.known_map - found.unknown_walls);
     EXPECT_GE(eigen.eigenvalues()(0), -1e-9 * found.known_map.norm());
   }
@@ -76,15 +76,15 @@ TEST(PoseBound, OfUnknownWallsDoesNotDependOnTheWorldFrame) {
   const Pose2 first(0.3, -0.2, 0.4), step(0.2, 0.1, -0.3), elsewhere(5, -9, 2.0);
   std::vector<Wall> moved = room();
   for (Wall& wall : moved) wall.segment = elsewhere * wall.segment;
-  const Eigen::Matrix3d here = information_of(seen_from(room(), {first, first * step})).unknown_walls;
+  const Eigen::Matrix3d here = information_of(pose_seen_from(room(), {first, first * step})).unknown_walls;
   const Eigen::Matrix3d there =
-      information_of(seen_from(moved, {elsewhere * first, elsewhere * first * step})).unknown_walls;
+      information_of(pose_seen_from(moved, {elsewhere * first, elsewhere * first * step})).unknown_walls;
   EXPECT_LT((here - there).norm(), 1e-6 * here.norm());
 }
 
 TEST(PoseBound, LeavesTheAxisOfACorridorOpen) {
   const std::vector<Wall> corridor{{"a", {{-50, -1}, {50, -1}}}, {"b", {{50, 1}, {-50, 1}}}};
-  const PoseInformation found = information_of(seen_from(corridor, {{0, 0, 0.5}, {0.2, 0.1, 0.6}}));
+  const PoseInformation found = information_of(pose_seen_from(corridor, {{0, 0, 0.5}, {0.2, 0.1, 0.6}}));
   EXPECT_TRUE(std::isinf(metrics::weakest_sigma_m(found.unknown_walls, 3.0)));
   const Vec2 axis = Pose2(0, 0, 0.5).inverse().rotate({1, 0});
   const Eigen::Vector3d along(axis.x(), axis.y(), 0.0);
@@ -93,7 +93,7 @@ TEST(PoseBound, LeavesTheAxisOfACorridorOpen) {
 
 TEST(PoseEfficiency, ComparesErrorsWithTheBoundAndWithTheCovariance) {
   const Pose2 first(0.3, -0.2, 0.4), step(0.2, 0.1, -0.3);
-  MadeUpRun run = seen_from(room(), {first, first * step});
+  MadeUpRun run = pose_seen_from(room(), {first, first * step});
   const Eigen::Matrix3d bound = information_of(run).unknown_walls.inverse();
   FrameMatch match{.frame = 1, .reference = 0, .match = {}};
   match.match.reference_from_current = {step.x() + 0.003, step.y() - 0.004, step.yaw() + 0.002};
@@ -110,7 +110,7 @@ TEST(PoseEfficiency, ComparesErrorsWithTheBoundAndWithTheCovariance) {
 }
 
 TEST(PoseEfficiency, NamesTheLargestErrorThatAMeanOverManyPairsHides) {
-  MadeUpRun run = seen_from(room(), {{}, {0.1, 0, 0}, {0.2, 0, 0}, {0.3, 0, 0}});
+  MadeUpRun run = pose_seen_from(room(), {{}, {0.1, 0, 0}, {0.2, 0, 0}, {0.3, 0, 0}});
   run.result.matches = {{1, 0, {Status::converged, {0.1, 0.001, 0}, Eigen::Matrix3d::Identity()}},
                         {2, 1, {Status::converged, {0.4, -0.4, 0}, Eigen::Matrix3d::Identity()}},
                         {3, 2, {Status::no_match, {9, 9, 0}, Eigen::Matrix3d::Zero()}}};
@@ -120,7 +120,7 @@ TEST(PoseEfficiency, NamesTheLargestErrorThatAMeanOverManyPairsHides) {
 }
 
 TEST(PoseEfficiency, CountsAMuteMatchAsUnmatchedAndNotAsAnError) {
-  MadeUpRun run = seen_from(room(), {{}, {0.1, 0, 0}, {0.2, 0, 0}});
+  MadeUpRun run = pose_seen_from(room(), {{}, {0.1, 0, 0}, {0.2, 0, 0}});
   run.result.matches = {{1, 0, {Status::converged, {0.1, 0, 0}, Eigen::Matrix3d::Identity()}},
                         {2, 1, {Status::degenerate, {9, 9, 1}, Eigen::Matrix3d::Identity()}}};
   const auto rows = evaluate("pose_efficiency", run);

@@ -21,8 +21,6 @@
 namespace scanbench::sim {
 namespace {
 
-using test::kInf;
-
 // The largest difference of ranges over 100 000 rays, a tenth of them aimed exactly at ends of walls, a tenth along
 // walls; also counts rays whose surface is not among those of the brute force.
 struct Comparison {
@@ -33,7 +31,7 @@ struct Comparison {
 };
 
 Comparison compare_with_brute_force(const World& world, std::uint64_t seed) {
-  Vec2 low = Vec2::Constant(kInf);
+  Vec2 low = Vec2::Constant(test::kInf);
   Vec2 high = -low;
   for (const Wall& wall : world.walls) {
     low = low.cwiseMin(wall.segment.a).cwiseMin(wall.segment.b);
@@ -58,9 +56,9 @@ Comparison compare_with_brute_force(const World& world, std::uint64_t seed) {
     }
     const RayHit hit = caster.cast(ray, 1e6);
     const double expected = test::brute_force(world, ray, &surfaces);
-    if ((hit.range_m == kInf) != (expected == kInf)) {
+    if ((hit.range_m == test::kInf) != (expected == test::kInf)) {
       ++result.disagreements;
-    } else if (expected != kInf) {
+    } else if (expected != test::kInf) {
       ++result.hits;
       result.largest = std::max(result.largest, std::fabs(hit.range_m - expected));
       if (std::ranges::find(surfaces, hit.surface) == surfaces.end()) ++result.wrong_surfaces;
@@ -130,11 +128,11 @@ TEST(RayCaster, ARayBesideTheEndOfAWallMissesIt) {
   test::add_wall(world, {2.0, -1.0}, {2.0, 1.0});
   const RayCaster caster(world);
   EXPECT_EQ(caster.cast({{0, 1.0}, {1, 0}, 0}, 30).range_m, 2.0);
-  EXPECT_EQ(caster.cast({{0, 1.0 + 1e-8}, {1, 0}, 0}, 30).range_m, kInf);
+  EXPECT_EQ(caster.cast({{0, 1.0 + 1e-8}, {1, 0}, 0}, 30).range_m, test::kInf);
   EXPECT_EQ(caster.cast({{0, 1.0 + 5e-5}, {1, 0}, 0}, 30).wall, -1);
   // Edge-on: the nearer end.
   EXPECT_EQ(caster.cast({{2.0, 4.0}, {0, -1}, 0}, 30).range_m, 3.0);
-  EXPECT_EQ(caster.cast({{2.0, 4.0}, {0, 1}, 0}, 30).range_m, kInf);
+  EXPECT_EQ(caster.cast({{2.0, 4.0}, {0, 1}, 0}, 30).range_m, test::kInf);
   EXPECT_EQ(caster.cast({{2.0, 0.5}, {0, 1}, 0}, 30).range_m, 0.0);
 }
 
@@ -153,9 +151,9 @@ TEST(RayCaster, TheNearerOfTwoWallsANanometreApartWinsAndOverlapsGoToTheLowerInd
 TEST(RayCaster, TheLargestRangeIsInclusiveAndSensorsMayBeFarOutside) {
   const RayCaster caster(test::box_world(4.0, 3.0));
   EXPECT_EQ(caster.cast({{1, 1}, {1, 0}, 0}, 3.0).range_m, 3.0);
-  EXPECT_EQ(caster.cast({{1, 1}, {1, 0}, 0}, 3.0 - 1e-9).range_m, kInf);
+  EXPECT_EQ(caster.cast({{1, 1}, {1, 0}, 0}, 3.0 - 1e-9).range_m, test::kInf);
   EXPECT_EQ(caster.cast({{-1e6, 1}, {1, 0}, 0}, 1e9).range_m, 1e6);
-  EXPECT_EQ(caster.cast({{-1e6, 1}, {-1, 0}, 0}, 1e9).range_m, kInf);
+  EXPECT_EQ(caster.cast({{-1e6, 1}, {-1, 0}, 0}, 1e9).range_m, test::kInf);
 }
 
 TEST(RayCaster, CirclesReturnTheirEntryPointAndTheAngleThere) {

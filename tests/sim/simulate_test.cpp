@@ -24,7 +24,6 @@
 namespace scanbench::sim {
 namespace {
 
-using test::kInf;
 using ::testing::HasSubstr;
 
 Trajectory drive(const std::vector<Pose2>& poses, double period_s = 0.1) {
@@ -53,7 +52,7 @@ TEST(Simulate, APaneReturnsNothingAndTheOtherWallsReadAsBefore) {
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t i = 0; i < n; ++i)
       EXPECT_EQ(glazed.observed.frames[k].ranges[i],
-                glazed.truth->wall_ids[k * n + i] == 1 ? kInf : plain.observed.frames[k].ranges[i]);
+                glazed.truth->wall_ids[k * n + i] == 1 ? test::kInf : plain.observed.frames[k].ranges[i]);
 }
 
 SimulationInput noisy_rooms(int scans) {
@@ -126,7 +125,7 @@ TEST(Simulate, TruthIsTheBruteForceRangeOfTheNominalBeamsAndObservationWithoutNo
       const std::size_t at = k * 361 + i;
       EXPECT_EQ(recording.observed.frames[k].ranges[i], truth.ranges[at]);
       if (expected > 8.0) {
-        EXPECT_EQ(truth.ranges[at], kInf);
+        EXPECT_EQ(truth.ranges[at], test::kInf);
         EXPECT_EQ(truth.wall_ids[at], -1);
         ++nothing;
       } else {
@@ -152,8 +151,8 @@ TEST(Simulate, RotatingSensorAndWorldTogetherLeavesTheRangesUnchanged) {
   const Recording after = simulate(input);
   int finite = 0;
   for (std::size_t i = 0; i < before.truth->ranges.size(); ++i) {
-    if (before.truth->ranges[i] == kInf) {
-      EXPECT_EQ(after.truth->ranges[i], kInf);
+    if (before.truth->ranges[i] == test::kInf) {
+      EXPECT_EQ(after.truth->ranges[i], test::kInf);
       continue;
     }
     ++finite;

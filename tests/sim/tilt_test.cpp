@@ -27,7 +27,6 @@ namespace {
 
 using Eigen::AngleAxisd;
 using Eigen::Vector3d;
-using test::kInf;
 
 constexpr double kWidth = 8.0;
 constexpr double kDepth = 6.0;
@@ -42,7 +41,7 @@ Vector3d direction_in_space(double yaw, const TiltAngles& tilt, double angle) {
 }
 
 struct Met {
-  double range = kInf;
+  double range = test::kInf;
   bool floor = false;
 };
 
@@ -102,10 +101,10 @@ Counts expect_readings_of_the_box(const SimulationInput& input) {
           met_in_box({pose.x(), pose.y(), input.tilt.height_m}, direction_in_space(pose.yaw(), tilt, angle));
       const double reading = recording.observed.frames[k].ranges[at];
       if (met.range > input.sensor.range_max_m) {
-        EXPECT_EQ(reading, kInf) << k << " " << i;
+        EXPECT_EQ(reading, test::kInf) << k << " " << i;
         if (met.floor)
           ++counts.floor_lost;
-        else if (recording.truth->ranges[k * recording.observed.frames[k].ranges.size() + at] < kInf)
+        else if (recording.truth->ranges[k * recording.observed.frames[k].ranges.size() + at] < test::kInf)
           ++counts.wall_lost;
       } else {
         EXPECT_NEAR(reading, met.range, 1e-9) << k << " " << i;
@@ -210,7 +209,7 @@ Mixtures expect_mixtures(const Tilt& tilt, double range_max_m) {
     const double share = (level.observed.frames[k].ranges[0] * edge - 3.0) / 6.0;
     const double panel = 3.0 / (edge * std::cos(pitch));
     const double wall = 9.0 / (edge * std::cos(pitch));
-    const double floor = pitch > 0 && tilt.height_m > 0 ? tilt.height_m / (edge * std::sin(pitch)) : kInf;
+    const double floor = pitch > 0 && tilt.height_m > 0 ? tilt.height_m / (edge * std::sin(pitch)) : test::kInf;
     const double behind = std::min(wall, floor);
     const double reading = tilted.observed.frames[k].ranges[0];
     if (floor < panel) {
@@ -257,7 +256,7 @@ TEST(Tilt, DropOutFollowsTheIncidenceInSpace) {
     const double probability = std::pow(1.0 - (floor ? std::sin(pitch) : std::cos(pitch)), 2);
     expected += probability;
     variance += probability * (1.0 - probability);
-    if (recording.observed.frames[k].ranges[0] == kInf) ++dropped;
+    if (recording.observed.frames[k].ranges[0] == test::kInf) ++dropped;
   }
   EXPECT_NEAR(dropped, expected, 5.0 * std::sqrt(variance));
 }
@@ -300,7 +299,7 @@ TEST(Tilt, EnablingOneAngleDoesNotChangeTheOther) {
   EXPECT_EQ(tilt_angles({0.1, 0.0, 0}, 3, 4).roll_rad, both.roll_rad);
 }
 
-bool same_bytes(const std::vector<double>& a, const std::vector<double>& b) {
+bool same_doubles(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
@@ -309,7 +308,7 @@ TEST(Tilt, ALevelSensorReadsTheSameBytesAtAnyHeight) {
   const Recording without = simulate(box_input(20, {}, 30.0, noise));
   const Recording level = simulate(box_input(20, {.height_m = 0.1}, 30.0, noise));
   for (std::size_t k = 0; k < 20; ++k)
-    EXPECT_TRUE(same_bytes(level.observed.frames[k].ranges, without.observed.frames[k].ranges)) << k;
+    EXPECT_TRUE(same_doubles(level.observed.frames[k].ranges, without.observed.frames[k].ranges)) << k;
 }
 
 TEST(Tilt, MovesReadingsAndNeitherTheTruthNorTheOdometry) {
@@ -318,11 +317,11 @@ TEST(Tilt, MovesReadingsAndNeitherTheTruthNorTheOdometry) {
   const Recording level = simulate(input);
   input.tilt = {0.05, 0.05, 1.0};
   const Recording tilted = simulate(input);
-  EXPECT_TRUE(same_bytes(tilted.truth->ranges, level.truth->ranges));
+  EXPECT_TRUE(same_doubles(tilted.truth->ranges, level.truth->ranges));
   EXPECT_EQ(tilted.truth->wall_ids, level.truth->wall_ids);
   for (std::size_t k = 0; k < 20; ++k) {
     EXPECT_EQ(tilted.observed.frames[k].odom_from_sensor, level.observed.frames[k].odom_from_sensor);
-    EXPECT_FALSE(same_bytes(tilted.observed.frames[k].ranges, level.observed.frames[k].ranges));
+    EXPECT_FALSE(same_doubles(tilted.observed.frames[k].ranges, level.observed.frames[k].ranges));
   }
 }
 

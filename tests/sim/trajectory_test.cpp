@@ -211,7 +211,7 @@ TEST(PoseDuringScan, FollowsTheArcOfConstantTwistAndGoesOnBeyondTheLastPose) {
   expect_pose(pose_during_scan(t, 0, 0.5), 2, 0, 90);
 }
 
-Trajectory drive(std::vector<Pose2> poses) {
+Trajectory driven(std::vector<Pose2> poses) {
   Trajectory t;
   for (const Pose2& p : poses) t.poses.push_back({static_cast<double>(t.poses.size()), p});
   return t;
@@ -221,23 +221,23 @@ TEST(CheckClear, NamesTheWallAndThePlaceThatAPathCrosses) {
   World world = test::box_world(10, 10);
   world.walls.push_back({"door", {{5, 4}, {5, 6}}});
   EXPECT_EQ(complaint([&] {
-              check_clear(world, drive({{1, 5, 0}, {9, 5.5, 0}}), kFarSight);
+              check_clear(world, driven({{1, 5, 0}, {9, 5.5, 0}}), kFarSight);
             }),
             "the path from (1, 5) m to (9, 5.5) m crosses wall 'door' at (5, 5.25) m; paths must keep clear of walls");
   EXPECT_THAT(complaint([&] {
-                check_clear(world, drive({{5, 1, 0}, {5, 9, 0}}), kFarSight);
+                check_clear(world, driven({{5, 1, 0}, {5, 9, 0}}), kFarSight);
               }),
               HasSubstr("'door' at (5, 4) m"));
   EXPECT_THAT(complaint([&] {
-                check_clear(world, drive({{1, 4, 0}, {9, 4, 0}}), kFarSight);
+                check_clear(world, driven({{1, 4, 0}, {9, 4, 0}}), kFarSight);
               }),
               HasSubstr("'door' at (5, 4) m"));
-  EXPECT_NO_THROW(check_clear(world, drive({{1, 3.9, 0}, {9, 3.9, 0}}), kFarSight));
+  EXPECT_NO_THROW(check_clear(world, driven({{1, 3.9, 0}, {9, 3.9, 0}}), kFarSight));
   // Placed sensors have no path; a known path takes precedence over the chords between the poses.
-  Trajectory placed = drive({{1, 5, 0}, {9, 5.5, 0}});
+  Trajectory placed = driven({{1, 5, 0}, {9, 5.5, 0}});
   placed.continuous = false;
   EXPECT_NO_THROW(check_clear(world, placed, kFarSight));
-  Trajectory around = drive({{4, 5, 0}, {6, 5, 0}});
+  Trajectory around = driven({{4, 5, 0}, {6, 5, 0}});
   around.path = {{4, 5}, {4, 3}, {6, 3}, {6, 5}};
   EXPECT_NO_THROW(check_clear(world, around, kFarSight));
   around.path = {{4, 5}, {-1, 5}};
@@ -261,7 +261,7 @@ TEST(CheckClear, FindsTheSameWallAsABruteForceSearch) {
   for (int k = 0; k < 500; ++k) {
     const Vec2 from = place(50.0);
     const Segment way{from, from + place(k % 10 == 0 ? 60.0 : 3.0)};
-    Trajectory trajectory = drive({Pose2(100, 100, 0)});
+    Trajectory trajectory = driven({Pose2(100, 100, 0)});
     trajectory.path = {way.a, way.b};
     const auto first = std::ranges::find_if(world.walls, [&](const Wall& w) { return crosses(way, w.segment); });
     const std::string said = complaint([&] { check_clear(world, trajectory, kFarSight); });
@@ -289,7 +289,7 @@ TEST(CheckClear, NamesTheNearestSurfaceAmongManyWalls) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Wall& wall : world.walls) nearest = std::min(nearest, distance(p, wall.segment));
     ASSERT_GT(nearest, 1e-3);
-    const Trajectory standing = drive({Pose2(p.x(), p.y(), 0)});
+    const Trajectory standing = driven({Pose2(p.x(), p.y(), 0)});
     EXPECT_EQ(complaint([&] { check_clear(world, standing, 1.001 * nearest); }), "no error");
     EXPECT_THAT(complaint([&] { check_clear(world, standing, 0.999 * nearest); }), HasSubstr("outside any free space"));
   }
@@ -300,28 +300,31 @@ TEST(CheckClear, NamesTheBodyThatAPathOrASensorIsIn) {
   world.circles.push_back({"pillar", {5, 5}, 0.5});
   world.moving.push_back({"person", 0.3, {{1, 8}, {9, 8}}, 1.0, false});
   EXPECT_THAT(complaint([&] {
-                check_clear(world, drive({{1, 5.4, 0}, {9, 5.4, 0}}), kFarSight);
+                check_clear(world, driven({{1, 5.4, 0}, {9, 5.4, 0}}), kFarSight);
               }),
               HasSubstr("runs through circle 'pillar', radius 0.5 m about (5, 5) m"));
-  EXPECT_NO_THROW(check_clear(world, drive({{1, 5.6, 0}, {9, 5.6, 0}}), kFarSight));
+  EXPECT_NO_THROW(check_clear(world, driven({{1, 5.6, 0}, {9, 5.6, 0}}), kFarSight));
   EXPECT_THAT(complaint([&] {
-                check_clear(world, drive({{5, 4.6, 0}}), kFarSight);
+                check_clear(world, driven({{5, 4.6, 0}}), kFarSight);
               }),
               HasSubstr("scan 0: the sensor at (5, 4.6) m is inside circle 'pillar'"));
   EXPECT_THAT(complaint([&] {
-                check_clear(world, drive({{2, 7.9, 0}, {2, 7.9, 1}}), kFarSight);
+                check_clear(world, driven({{2, 7.9, 0}, {2, 7.9, 1}}), kFarSight);
               }),
               HasSubstr("scan 1: the sensor at (2, 7.9) m is inside moving body 'person' at 1 s"));
 }
 
 TEST(CheckClear, RefusesSensorsOnWallsOrWhereNothingCanBeSeen) {
   const World world = test::borges_world();
-  EXPECT_NO_THROW(check_clear(world, drive({{-3, -3, 0}}), 30.0));  // free air is fine
-  EXPECT_THAT(complaint([&] { check_clear(world, drive({{1.5505, 1, 0}}), kFarSight); }), HasSubstr("is on wall 'w1'"));
-  EXPECT_NO_THROW(check_clear(world, drive({{1.552, 1, 0}}), kFarSight));
+  EXPECT_NO_THROW(check_clear(world, driven({{-3, -3, 0}}), 30.0));  // free air is fine
+  EXPECT_THAT(complaint([&] {
+                check_clear(world, driven({{1.5505, 1, 0}}), kFarSight);
+              }),
+              HasSubstr("is on wall 'w1'"));
+  EXPECT_NO_THROW(check_clear(world, driven({{1.552, 1, 0}}), kFarSight));
   EXPECT_THAT(
       complaint([&] {
-        check_clear(world, drive({{-10, 4, 0}}), 9.5);
+        check_clear(world, driven({{-10, 4, 0}}), 9.5);
       }),
       HasSubstr(
           "outside any free space: the nearest surface, wall 'w8', is 10 m away, and the sensor's range is 9.5 m"));

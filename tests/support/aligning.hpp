@@ -9,7 +9,7 @@
 #include "core/registry.hpp"
 #include "tests/support/scan_builder.hpp"
 
-namespace scanbench::testing {
+namespace scanbench::support {
 
 /// The lines of a scan without noise: one from the first to the last point of each run of beams that hit the same
 /// wall.
@@ -75,4 +75,4 @@ inline Alignment align(std::string_view module, const ScanSeries& scans, const s
   return Registry<Aligner>::make(module, params)->align(scans.observations(), initial, silent);
 }
 
-}  // namespace scanbench::testing
+}  // namespace scanbench::support

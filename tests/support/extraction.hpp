@@ -8,7 +8,7 @@
 #include "core/registry.hpp"
 #include "tests/support/scan_builder.hpp"
 
-namespace scanbench::testing {
+namespace scanbench::support {
 
 inline ScanLines extract(std::string_view module, const OwnedScan& scan, const ParamSet& params = {}) {
   Trace silent;
@@ -38,4 +38,4 @@ inline OwnedScan mirrored(const OwnedScan& scan) {
   return result;
 }
 
-}  // namespace scanbench::testing
+}  // namespace scanbench::support

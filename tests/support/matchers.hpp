@@ -7,7 +7,7 @@
 
 #include "core/geometry/geometry.hpp"
 
-namespace scanbench::testing {
+namespace scanbench::support {
 
 /// An angle within `tolerance` radians of `expected`, on the circle.
 MATCHER_P2(AngleNear, expected, tolerance, "") {
@@ -45,4 +45,4 @@ MATCHER_P2(SegmentNear, expected, tolerance, "") {
   return (same <= tolerance || swapped <= tolerance) && std::isfinite(same) && std::isfinite(swapped);
 }
 
-}  // namespace scanbench::testing
+}  // namespace scanbench::support

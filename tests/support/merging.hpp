@@ -8,7 +8,7 @@
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 
-namespace scanbench::testing {
+namespace scanbench::support {
 
 inline MergeResult merge(std::string_view module, const std::vector<MapLine>& lines, const ParamSet& params = {},
                          const std::vector<Vec2>& points = {}) {
@@ -27,4 +27,4 @@ inline double apart(const Segment& s, const Segment& t) {
   return std::min(same, swapped);
 }
 
-}  // namespace scanbench::testing
+}  // namespace scanbench::support

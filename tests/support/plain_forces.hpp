@@ -8,7 +8,7 @@
 
 #include "algorithms/align/ffs/force_field.hpp"
 
-namespace scanbench::testing {
+namespace scanbench::support {
 
 /// On point v.
 inline Vec2 plain_force_on(std::size_t v, const align::ffs::FieldPoints& points, double sigma, double soft = 0.0) {
@@ -43,4 +43,4 @@ inline double plain_potential(const align::ffs::FieldPoints& points, double sigm
   return sum;
 }
 
-}  // namespace scanbench::testing
+}  // namespace scanbench::support

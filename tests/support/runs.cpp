@@ -22,7 +22,7 @@
 #include "metrics/metric.hpp"
 #include "render/figure.hpp"
 
-namespace scanbench::harness::testing {
+namespace scanbench::harness::fixtures {
 namespace fs = std::filesystem;
 namespace {
 
@@ -272,17 +272,6 @@ const bool registered =
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (fs::temp_directory_path() / "scanbench-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 Recording random_recording(std::uint64_t seed, int frames, int beams, bool with_truth) {
   CounterRng rng(seed, RngStream::range);
   const double inf = std::numeric_limits<double>::infinity();
@@ -377,4 +366,4 @@ std::vector<std::string> listing(const fs::path& folder) {
   return {names.begin(), names.end()};
 }
 
-}  // namespace scanbench::harness::testing
+}  // namespace scanbench::harness::fixtures

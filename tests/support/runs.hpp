@@ -11,21 +11,9 @@
 #include "core/recording.hpp"
 #include "harness/run/run_options.hpp"
 #include "harness/run/runner.hpp"
+#include "tests/support/temporary_folder.hpp"
 
-namespace scanbench::harness::testing {
-
-/// A new folder, removed with its contents.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+namespace scanbench::harness::fixtures {
 
 /// Random scans with every kind of reading (+inf, -inf, NaN, -0.0), random poses, and random truth unless it is a log.
 Recording random_recording(std::uint64_t seed, int frames, int beams, bool with_truth);
@@ -51,4 +39,4 @@ const CellResult& cell_of(const RunResult& result, const std::string& key);
 /// Files and folders below a folder, temporary ones included.
 std::vector<std::string> listing(const std::filesystem::path& folder);
 
-}  // namespace scanbench::harness::testing
+}  // namespace scanbench::harness::fixtures

@@ -4,10 +4,10 @@
 #include "core/special_values.hpp"
 #include "harness/conform/scenes.hpp"
 
-namespace scanbench::testing {
+namespace scanbench::support {
 
 using namespace scanbench::conform;
 using scanbench::kInf;
 using scanbench::kNaN;
 
-}  // namespace scanbench::testing
+}  // namespace scanbench::support

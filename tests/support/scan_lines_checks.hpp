@@ -9,7 +9,7 @@
 #include "core/index.hpp"
 #include "core/modules.hpp"
 
-namespace scanbench::testing {
+namespace scanbench::support {
 
 /// Expects everything that core/scan.hpp promises about LineFeature and ScanLines.
 inline void expect_consistent(const Scan& scan, const ScanLines& result) {
@@ -72,4 +72,4 @@ inline void expect_identical(const ScanLines& a, const ScanLines& b) {
   }
 }
 
-}  // namespace scanbench::testing
+}  // namespace scanbench::support

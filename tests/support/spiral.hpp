@@ -8,7 +8,7 @@
 #include "core/geometry/pose2.hpp"
 #include "core/line_map.hpp"
 
-namespace scanbench::testing {
+namespace scanbench::support {
 
 inline constexpr std::array<std::array<double, 2>, 31> kSpiralVertices{{
     {0.4000, 0.0000},   {-0.2434, 0.6222},  {-0.8442, -0.1577}, {-0.2545, -0.9826}, {0.7667, -0.8579},
@@ -54,4 +54,4 @@ inline std::vector<MapLine> spiral() {
   return lines;
 }
 
-}  // namespace scanbench::testing
+}  // namespace scanbench::support

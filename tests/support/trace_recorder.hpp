@@ -8,7 +8,7 @@
 #include "core/trace/trace.hpp"
 #include "core/trace/trace_rows.hpp"
 
-namespace scanbench::testing {
+namespace scanbench::support {
 
 class TraceRecorder {
  public:
@@ -35,4 +35,4 @@ class TraceRecorder {
   std::string slot_;
 };
 
-}  // namespace scanbench::testing
+}  // namespace scanbench::support

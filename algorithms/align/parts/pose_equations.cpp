@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "core/geometry/symmetric_matrix.hpp"
 
 namespace scanbench::align {
 namespace {
@@ -41,11 +41,10 @@ ScanShape shape_of(const Observation& observation) {
 }
 
 Observable observable(const Eigen::Matrix3d& normal_matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(normal_matrix);
-  const Eigen::Vector3d& values = eigen.eigenvalues();  // ascending
+  const auto [values, vectors] = symmetric_eigen(normal_matrix);
   Eigen::Index rank = 0;
   while (rank < 3 && values(2 - rank) > 0 && values(2 - rank) >= kUnobservable * values(2)) ++rank;
-  return {eigen.eigenvectors().rightCols(rank), values.tail(rank)};
+  return {vectors.rightCols(rank), values.tail(rank)};
 }
 
 Move move_by(const Eigen::Vector3d& motion, double lever_m, Pose2& world_from_sensor) {

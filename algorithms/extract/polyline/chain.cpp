@@ -5,10 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include "core/geometry/angles.hpp"
+#include "core/geometry/symmetric_matrix.hpp"
 #include "core/index.hpp"
 #include "core/special_values.hpp"
 
@@ -82,11 +80,10 @@ Chain moved(Chain chain, const Eigen::VectorXd& step) {
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& information) {
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().unaryExpr([](double x) { return x > 0 ? x : 1.0; });
   const Eigen::MatrixXd scaled = scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-  const double least = 1e-10 * solver.eigenvalues().maxCoeff();
-  const Eigen::VectorXd inverse =
-      solver.eigenvalues().unaryExpr([least](double x) { return x > least ? 1.0 / x : 0.0; });
-  const Eigen::MatrixXd v = scale.cwiseInverse().asDiagonal() * solver.eigenvectors();
+  const SymmetricEigen<Eigen::MatrixXd> eigen = symmetric_eigen(scaled);
+  const double least = 1e-10 * eigen.values.maxCoeff();
+  const Eigen::VectorXd inverse = eigen.values.unaryExpr([least](double x) { return x > least ? 1.0 / x : 0.0; });
+  const Eigen::MatrixXd v = scale.cwiseInverse().asDiagonal() * eigen.vectors;
   return v * inverse.asDiagonal() * v.transpose();
 }
 
@@ -149,7 +146,7 @@ ChainFit fit_chain(const Chain& start, std::span<const BearingReading> readings)
     // A vertex that no reading sees does not move.
     for (Eigen::Index i = 0; i < damped.rows(); ++i)
       if (!(n.matrix(i, i) > 0)) damped(i, i) = 1.0;
-    const Eigen::VectorXd step = damped.ldlt().solve(n.rhs);
+    const Eigen::VectorXd step = solve_definite(damped, n.rhs);
     const Chain next = moved(fit.chain, step);
     const double squares = step.allFinite() && is_chain(next) ? half_squares(next, readings) : kInf;
     if (!(squares < fit.half_squares)) {

@@ -10,7 +10,7 @@
 
 #include "algorithms/map/dse/main_directions.hpp"
 #include "algorithms/map/dse/strokes.hpp"
-#include "algorithms/map/parts/segment_index.hpp"
+#include "core/geometry/segment_index.hpp"
 
 namespace scanbench::mapping::dse {
 

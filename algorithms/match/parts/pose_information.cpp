@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
+#include "core/geometry/symmetric_matrix.hpp"
 
 namespace scanbench::matching {
 namespace {
@@ -32,11 +32,11 @@ Determined::Determined(const PoseEquations& equations, double lever_m, double le
   const Eigen::Vector3d to_metres = scales(lever_m).cwiseInverse();
   const Eigen::Matrix3d matrix = to_metres.asDiagonal() * equations.matrix * to_metres.asDiagonal();
   const Eigen::Matrix3d by_chance = to_metres.asDiagonal() * equations.by_chance * to_metres.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix);
-  motions_ = eigen.eigenvectors();
-  const double largest = eigen.eigenvalues()(2);
+  const SymmetricEigen<Eigen::Matrix3d> eigen = symmetric_eigen(matrix);
+  motions_ = eigen.vectors;
+  const double largest = eigen.values(2);
   for (int k = 0; k < 3; ++k) {
-    const double value = eigen.eigenvalues()(k);
+    const double value = eigen.values(k);
     const double chance = motions_.col(k).dot(by_chance * motions_.col(k));
     if (!(value > kLeastEigenvalue * largest) || !(value > least_ratio * chance)) continue;
     inverse_(k) = 1.0 / value;

@@ -10,8 +10,9 @@
 #include <cmath>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+
+#include "core/geometry/symmetric_matrix.hpp"
 
 namespace scanbench::merge {
 namespace {
@@ -50,11 +51,10 @@ Float3 fast_step(const ShiftAndCovariance& s) {
   if (beyond_floor(0, 0) > 0 && minor > 0 && beyond_floor.determinant() > 0)  // every curvature above the floor
     return shortened(minus_hessian.inverse() * gradient);
 
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(minus_hessian);
-  Eigen::Vector3d along_axes = eigen.eigenvectors().transpose() * gradient;
-  for (int k = 0; k < 3; ++k) along_axes[k] /= std::max(std::abs(eigen.eigenvalues()[k]), kClimbCurvatureFloor);
-  return shortened(eigen.eigenvectors() * along_axes);
+  const SymmetricEigen<Eigen::Matrix3d> eigen = fast_symmetric_eigen(minus_hessian);
+  Eigen::Vector3d along_axes = eigen.vectors.transpose() * gradient;
+  for (int k = 0; k < 3; ++k) along_axes[k] /= std::max(std::abs(eigen.values[k]), kClimbCurvatureFloor);
+  return shortened(eigen.vectors * along_axes);
 }
 
 int anchor_near(const std::vector<Anchor>& anchors, const Float3& t) {

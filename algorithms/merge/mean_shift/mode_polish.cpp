@@ -1,7 +1,7 @@
 // Safeguarded Newton iteration to a mode of a Gaussian kernel density.
 #include "algorithms/merge/mean_shift/mode_polish.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "core/geometry/symmetric_matrix.hpp"
 
 namespace scanbench::merge {
 namespace {
@@ -50,11 +50,11 @@ Density density_at(const Vec3& t, double period, const std::vector<Vec3>& differ
 }
 
 /// Newton's step with the absolute values of the curvatures, at most kLongestStep long: uphill for any Hessian.
-Vec3 ascent_step(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& eigen, const Vec3& gradient) {
+Vec3 ascent_step(const SymmetricEigen<Eigen::Matrix3d>& eigen, const Vec3& gradient) {
   Vec3 step = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
-    const Vec3 axis = eigen.eigenvectors().col(k);
-    step += axis * (axis.dot(gradient) / std::max(std::abs(eigen.eigenvalues()[k]), kNewtonCurvatureFloor));
+    const Vec3 axis = eigen.vectors.col(k);
+    step += axis * (axis.dot(gradient) / std::max(std::abs(eigen.values[k]), kNewtonCurvatureFloor));
   }
   const double length = step.norm();
   return length > kLongestStep ? Vec3(step * (kLongestStep / length)) : step;
@@ -71,15 +71,15 @@ PolishedMode polish_mode(const Vec3& start, double period, const Neighbours& nei
   double curvature = 1.0;
   for (int step_count = 0; step_count < kMaxSteps; ++step_count) {
     const double gradient = here.shift.norm();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(here.minus_hessian);
-    curvature = eigen.eigenvalues()[0];
+    const SymmetricEigen<Eigen::Matrix3d> eigen = symmetric_eigen(here.minus_hessian);
+    curvature = eigen.values[0];
     const bool saddle = curvature < -kNewtonCurvatureFloor;
     if (gradient <= kPolishGradientGoal && !saddle) break;
 
     Vec3 step = ascent_step(eigen, here.shift);
     if (gradient <= kGradientFlat && saddle) {
       // Leaves the saddle along the direction in which the density is convex, which is uphill on both sides.
-      Vec3 axis = eigen.eigenvectors().col(0);
+      Vec3 axis = eigen.vectors.col(0);
       if (axis.dot(here.shift) < 0) axis = -axis;
       step = kSaddleStep * axis;
     }

@@ -14,14 +14,14 @@
 namespace scanbench {
 namespace {
 
-using testing::align;
-using testing::cast;
-using testing::OwnedScan;
-using testing::ring_sensor;
-using testing::ScanSeries;
+using support::align;
+using support::cast;
+using support::OwnedScan;
+using support::ring_sensor;
+using support::ScanSeries;
 
 std::vector<Segment> room() {
-  return testing::polygon({{-3, -2}, {4, -2.5}, {4.6, 1.2}, {2.2, 2.9}, {-2.6, 2.2}});
+  return support::polygon({{-3, -2}, {4, -2.5}, {4.6, 1.2}, {2.2, 2.9}, {-2.6, 2.2}});
 }
 
 std::vector<Pose2> path() {
@@ -42,7 +42,7 @@ ScanSeries scans_of(const std::vector<Segment>& walls, const std::vector<Pose2>&
 }
 
 OwnedScan nothing() {
-  return testing::constant_scan(ring_sensor(360), kInf);
+  return support::constant_scan(ring_sensor(360), kInf);
 }
 
 /// Largest relative error of positions [m] and headings [rad] against the truth, seen from the first scan.
@@ -81,7 +81,7 @@ TEST_P(AllToAll, KeepTheFirstPoseAndDoNotDependOnTheFrame) {
   const auto there = align(GetParam(), scans, moved).world_from_sensor;
   EXPECT_EQ(here[0], initial[0]);
   for (std::size_t k = 0; k < here.size(); ++k)
-    EXPECT_THAT(there[k].translation(), testing::PointNear((elsewhere * here[k]).translation(), 1e-6));
+    EXPECT_THAT(there[k].translation(), support::PointNear((elsewhere * here[k]).translation(), 1e-6));
 }
 
 TEST_P(AllToAll, ReportGroupsOfScansThatDoNotMeet) {
@@ -138,8 +138,8 @@ TEST_P(AllToAll, LeaveEqualScansWhereTheyAre) {
   const Alignment result = align(GetParam(), scans, poses);
   constexpr double kSettled = 1e-3 * 0.05;  // of sigma_end_m: below this movement a simulation ends
   for (const Pose2& p : result.world_from_sensor) {
-    EXPECT_THAT(p.translation(), testing::PointNear(Vec2(1, 2), kSettled));
-    EXPECT_THAT(p.yaw(), testing::AngleNear(0.5, kSettled));
+    EXPECT_THAT(p.translation(), support::PointNear(Vec2(1, 2), kSettled));
+    EXPECT_THAT(p.yaw(), support::AngleNear(0.5, kSettled));
   }
 }
 
@@ -181,7 +181,7 @@ TEST_P(AllToAll, NeverCallScansOfOneLongWallAligned) {
   std::vector<Pose2> poses;
   for (int k = 0; k < 4; ++k) {
     const Pose2 at(0.5 * k, 0, 0);
-    scans.add_exact(cast(testing::fan_sensor(181, radians(90)), {{{50, 2}, {-50, 2}}}, Pose2(at.x(), 0, kPi / 2)));
+    scans.add_exact(cast(support::fan_sensor(181, radians(90)), {{{50, 2}, {-50, 2}}}, Pose2(at.x(), 0, kPi / 2)));
     poses.emplace_back(at.x() + 0.2 * (k % 2), 0.05 * (k % 3), kPi / 2);
   }
   const Alignment result = align(GetParam(), scans, poses);
@@ -216,7 +216,7 @@ TEST(Ffs, ScheduleRefusesWhatDoesNotCool) {
 }
 
 TEST(Ffs, TracePotentialFallsAtOneRadiusAndStepNeverGrows) {
-  testing::TraceRecorder recorder("align");
+  support::TraceRecorder recorder("align");
   const ScanSeries scans = scans_of(room(), path());
   const auto module = Registry<Aligner>::make(
       "ffs", {{"sigma_start_m", 0.3}, {"sigma_end_m", 0.3}, {"step_start", 1.0}, {"step_end", 1.0}});

@@ -13,18 +13,18 @@
 namespace scanbench {
 namespace {
 
-using testing::AngleNear;
-using testing::box;
-using testing::cast;
-using testing::OwnedScan;
-using testing::PointNear;
-using testing::polygon;
-using testing::ring_sensor;
-using testing::ScanSeries;
-using testing::with_noise;
+using support::AngleNear;
+using support::box;
+using support::cast;
+using support::OwnedScan;
+using support::PointNear;
+using support::polygon;
+using support::ring_sensor;
+using support::ScanSeries;
+using support::with_noise;
 
 Alignment align(const ScanSeries& scans, const std::vector<Pose2>& initial, const ParamSet& params = {}) {
-  return testing::align("point_to_line", scans, initial, params);
+  return support::align("point_to_line", scans, initial, params);
 }
 
 void expect_poses(const std::vector<Pose2>& poses, const std::vector<Pose2>& expected, double tolerance) {
@@ -42,17 +42,17 @@ std::vector<Pose2> moved(const Pose2& by, const std::vector<Pose2>& poses) {
 }
 
 /// No two walls are parallel.
-std::vector<Segment> room() {
+std::vector<Segment> point_line_room() {
   return polygon({{-3, -2}, {4, -2.5}, {4.6, 1.2}, {2.2, 2.9}, {-2.6, 2.2}});
 }
 
-std::vector<Pose2> path() {
+std::vector<Pose2> point_line_path() {
   return {{0, 0, 0},        {0.7, -0.3, 0.4},  {1.6, 0.2, 1.2},   {2.1, 0.9, 2.5},
           {0.8, 1.1, -2.9}, {-0.9, 0.8, -2.0}, {-1.4, -0.5, -0.7}};
 }
 
 /// Each pose off by up to 12 cm in x and y and 4 degrees, none twice.
-std::vector<Pose2> perturbed(std::vector<Pose2> poses, std::uint64_t seed) {
+std::vector<Pose2> point_line_start(std::vector<Pose2> poses, std::uint64_t seed) {
   CounterRng rng(seed, RngStream::pose);
   const auto within = [&](double most) { return most * (2 * rng.uniform() - 1); };
   for (Pose2& p : poses) p = p * Pose2(within(0.12), within(0.12), within(radians(4)));
@@ -78,30 +78,30 @@ std::vector<Pose2> held_at_first(const std::vector<Pose2>& truth, const std::vec
 }
 
 TEST(PointToLine, RecoversThePosesOfScansWithoutNoise) {
-  const ScanSeries scans = exact_scans(room(), path());
+  const ScanSeries scans = exact_scans(point_line_room(), point_line_path());
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const std::vector<Pose2> initial = perturbed(path(), seed);
+    const std::vector<Pose2> initial = point_line_start(point_line_path(), seed);
     const Alignment result = align(scans, initial);
     EXPECT_EQ(result.status, Status::converged);
-    expect_poses(result.world_from_sensor, held_at_first(path(), initial), 1e-9);
+    expect_poses(result.world_from_sensor, held_at_first(point_line_path(), initial), 1e-9);
   }
 }
 
 TEST(PointToLine, LeavesExactPosesWhereTheyAre) {
-  const Alignment result = align(exact_scans(room(), path()), path());
+  const Alignment result = align(exact_scans(point_line_room(), point_line_path()), point_line_path());
   EXPECT_EQ(result.status, Status::converged);
-  expect_poses(result.world_from_sensor, path(), 1e-12);
+  expect_poses(result.world_from_sensor, point_line_path(), 1e-12);
 }
 
 TEST(PointToLine, DoesNotTakeTheTwoFacesOfAThinWallForOne) {
-  auto walls = room();
+  auto walls = point_line_room();
   for (const Segment& s : polygon({{-0.5, 0.02}, {-0.5, -0.02}, {2.5, -0.02}, {2.5, 0.02}}))
     walls.push_back({s.b, s.a});
   const std::vector<Pose2> poses{{0.5, 1.0, 0}, {1.2, 1.1, 0.5}, {0.5, -1.0, 0.2}, {1.2, -1.2, 1.0}, {-1.5, 0, 0.1}};
   const ScanSeries scans = exact_scans(walls, poses);
   expect_poses(align(scans, poses).world_from_sensor, poses, 1e-12);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const std::vector<Pose2> initial = perturbed(poses, seed);
+    const std::vector<Pose2> initial = point_line_start(poses, seed);
     expect_poses(align(scans, initial).world_from_sensor, held_at_first(poses, initial), 1e-9);
   }
 }
@@ -121,7 +121,7 @@ TEST(PointToLine, KeepsThePredictionAlongACorridorAndSaysSo) {
       if (scan.ranges[i] > 12) scan.ranges[i] = kInf, scan.ids[i] = -1;
     scans.add_exact(std::move(scan));
   }
-  const std::vector<Pose2> initial = perturbed(truth, 3);
+  const std::vector<Pose2> initial = point_line_start(truth, 3);
   const Alignment result = align(scans, initial);
   EXPECT_EQ(result.status, Status::degenerate);
   const std::vector<Pose2>& poses = result.world_from_sensor;
@@ -138,8 +138,8 @@ TEST(PointToLine, KeepsThePredictionAlongACorridorAndSaysSo) {
 }
 
 TEST(PointToLine, MovesWithTheWorldFrame) {
-  const ScanSeries scans = noisy_scans(room(), path(), 0.01);
-  const std::vector<Pose2> initial = perturbed(path(), 4);
+  const ScanSeries scans = noisy_scans(point_line_room(), point_line_path(), 0.01);
+  const std::vector<Pose2> initial = point_line_start(point_line_path(), 4);
   const Alignment here = align(scans, initial);
   for (const Pose2& elsewhere : {Pose2(0, 0, 2.0), Pose2(40, -25, -1.1), Pose2(-300, 700, 0.3)}) {
     const Alignment there = align(scans, moved(elsewhere, initial));
@@ -149,13 +149,13 @@ TEST(PointToLine, MovesWithTheWorldFrame) {
 }
 
 TEST(PointToLine, AlignsNoisyScansBetterThanOneReadingMeasures) {
-  const ScanSeries scans = noisy_scans(room(), path(), 0.02);
+  const ScanSeries scans = noisy_scans(point_line_room(), point_line_path(), 0.02);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const std::vector<Pose2> initial = perturbed(path(), seed);
+    const std::vector<Pose2> initial = point_line_start(point_line_path(), seed);
     const Alignment result = align(scans, initial);
     EXPECT_EQ(result.status, Status::converged);
     // Some 70 readings per wall: the mean of sigma = 2 cm has an error of 2.4 mm, and three times that is rare.
-    expect_poses(result.world_from_sensor, held_at_first(path(), initial), 0.008);
+    expect_poses(result.world_from_sensor, held_at_first(point_line_path(), initial), 0.008);
   }
 }
 
@@ -205,8 +205,8 @@ class Loss {
 };
 
 TEST(PointToLine, EndsAtAMinimumOfTheLossOverAllPairs) {
-  const ScanSeries scans = noisy_scans(room(), path(), 0.02);
-  const std::vector<Pose2> poses = align(scans, perturbed(path(), 6)).world_from_sensor;
+  const ScanSeries scans = noisy_scans(point_line_room(), point_line_path(), 0.02);
+  const std::vector<Pose2> poses = align(scans, point_line_start(point_line_path(), 6)).world_from_sensor;
   const Loss loss(scans, poses, 0.1, 0.2);
   ASSERT_GT(loss.pairs(), 10000u);
   const double least = loss.at(poses);
@@ -221,14 +221,14 @@ TEST(PointToLine, EndsAtAMinimumOfTheLossOverAllPairs) {
 }
 
 TEST(PointToLine, ComesToTheSamePosesWhicheverScanIsFirst) {
-  const ScanSeries forward = noisy_scans(room(), path(), 0.01);
-  const std::vector<Pose2> initial = perturbed(path(), 8);
+  const ScanSeries forward = noisy_scans(point_line_room(), point_line_path(), 0.01);
+  const std::vector<Pose2> initial = point_line_start(point_line_path(), 8);
   const std::vector<Pose2> result = align(forward, initial).world_from_sensor;
 
   ScanSeries backward;
-  for (std::size_t k = path().size(); k-- > 0;)
-    backward.add_extracted(
-        with_noise(cast(ring_sensor(360), room(), path()[k]), 0.01, 5, static_cast<std::uint32_t>(k)));
+  for (std::size_t k = point_line_path().size(); k-- > 0;)
+    backward.add_extracted(with_noise(cast(ring_sensor(360), point_line_room(), point_line_path()[k]), 0.01, 5,
+                                      static_cast<std::uint32_t>(k)));
   std::vector<Pose2> reversed = align(backward, {initial.rbegin(), initial.rend()}).world_from_sensor;
   std::reverse(reversed.begin(), reversed.end());
   expect_poses(moved(result[0] * reversed[0].inverse(), reversed), result, 5e-4);  // steps end at 1e-4 m
@@ -237,23 +237,23 @@ TEST(PointToLine, ComesToTheSamePosesWhicheverScanIsFirst) {
 TEST(PointToLine, NoScanAndOneAreConvergedWhereTheyAre) {
   EXPECT_EQ(align({}, {}).status, Status::converged);
   const std::vector<Pose2> one{{1, 2, 3}};
-  const Alignment result = align(exact_scans(room(), {{0, 0, 0}}), one);
+  const Alignment result = align(exact_scans(point_line_room(), {{0, 0, 0}}), one);
   EXPECT_EQ(result.status, Status::converged);
   EXPECT_EQ(result.world_from_sensor, one);
 }
 
 TEST(PointToLine, LeavesScansWithoutReturnsOrLinesWhereTheyWere) {
-  const std::vector<Pose2> initial = perturbed(path(), 9);
+  const std::vector<Pose2> initial = point_line_start(point_line_path(), 9);
   for (const double nothing : {kInf, -kInf, kNaN, 0.0}) {
     ScanSeries scans;
-    for (std::size_t k = 0; k < initial.size(); ++k) scans.add_exact(testing::constant_scan(ring_sensor(90), nothing));
+    for (std::size_t k = 0; k < initial.size(); ++k) scans.add_exact(support::constant_scan(ring_sensor(90), nothing));
     const Alignment result = align(scans, initial);
     EXPECT_EQ(result.status, Status::no_match);
     EXPECT_EQ(result.world_from_sensor, initial);
   }
   ScanSeries without_lines;
-  for (const Pose2& p : path()) {
-    const OwnedScan scan = cast(ring_sensor(90), room(), p);
+  for (const Pose2& p : point_line_path()) {
+    const OwnedScan scan = cast(ring_sensor(90), point_line_room(), p);
     without_lines.add(scan, {.lines = {}, .labels = std::vector<int>(90, -1)});
   }
   const Alignment result = align(without_lines, initial);
@@ -263,48 +263,49 @@ TEST(PointToLine, LeavesScansWithoutReturnsOrLinesWhereTheyWere) {
 
 TEST(PointToLine, AScanWithoutReturnsKeepsItsStepFromTheOneBefore) {
   ScanSeries scans;
-  for (std::size_t k = 0; k < path().size(); ++k)
-    scans.add_exact(k == 3 ? testing::constant_scan(ring_sensor(90), kNaN) : cast(ring_sensor(360), room(), path()[k]));
-  const std::vector<Pose2> initial = perturbed(path(), 10);
+  for (std::size_t k = 0; k < point_line_path().size(); ++k)
+    scans.add_exact(k == 3 ? support::constant_scan(ring_sensor(90), kNaN)
+                           : cast(ring_sensor(360), point_line_room(), point_line_path()[k]));
+  const std::vector<Pose2> initial = point_line_start(point_line_path(), 10);
   const Alignment result = align(scans, initial);
   EXPECT_EQ(result.status, Status::degenerate);
-  std::vector<Pose2> expected = held_at_first(path(), initial);
+  std::vector<Pose2> expected = held_at_first(point_line_path(), initial);
   expected[3] = expected[2] * (initial[2].inverse() * initial[3]);
   expect_poses(result.world_from_sensor, expected, 1e-9);
 }
 
 TEST(PointToLine, AScanWithoutLinesOfItsOwnIsRegisteredByItsPoints) {
   ScanSeries scans;
-  for (std::size_t k = 0; k < path().size(); ++k) {
+  for (std::size_t k = 0; k < point_line_path().size(); ++k) {
     // The beams are so dense that the last point of a wall is within the margin of the corner: without its own surface,
     // a point between the two would be assigned to the next wall.
-    const OwnedScan scan = cast(ring_sensor(1440), room(), path()[k]);
+    const OwnedScan scan = cast(ring_sensor(1440), point_line_room(), point_line_path()[k]);
     if (k == 3) {
       scans.add(scan, {.lines = {}, .labels = std::vector<int>(1440, -1)});
     } else {
       scans.add_exact(scan);
     }
   }
-  const std::vector<Pose2> initial = perturbed(path(), 11);
+  const std::vector<Pose2> initial = point_line_start(point_line_path(), 11);
   const Alignment result = align(scans, initial);
   EXPECT_EQ(result.status, Status::converged);
-  expect_poses(result.world_from_sensor, held_at_first(path(), initial), 1e-9);
+  expect_poses(result.world_from_sensor, held_at_first(point_line_path(), initial), 1e-9);
 }
 
 TEST(PointToLine, EqualScansAtOnePoseStay) {
   const std::vector<Pose2> poses(5, Pose2(0.3, -0.2, 0.5));
-  const Alignment result = align(exact_scans(room(), poses), poses);
+  const Alignment result = align(exact_scans(point_line_room(), poses), poses);
   EXPECT_EQ(result.status, Status::converged);
   expect_poses(result.world_from_sensor, poses, 1e-12);
 }
 
 TEST(PointToLine, FaultyReadingsAreAsIfThereWasNothingInRange) {
-  const std::vector<Pose2> initial = perturbed(path(), 12);
+  const std::vector<Pose2> initial = point_line_start(point_line_path(), 12);
   std::vector<Alignment> results;
   for (const double reading : {kInf, kNaN, -kInf, 0.0, -1.0}) {
     ScanSeries scans;
-    for (const Pose2& p : path()) {
-      OwnedScan scan = cast(ring_sensor(360), room(), p);
+    for (const Pose2& p : point_line_path()) {
+      OwnedScan scan = cast(ring_sensor(360), point_line_room(), p);
       for (std::size_t i = 0; i < 360; i += 7) scan.ranges[i] = reading;
       scans.add_extracted(std::move(scan), "iepf");
     }
@@ -314,8 +315,8 @@ TEST(PointToLine, FaultyReadingsAreAsIfThereWasNothingInRange) {
 }
 
 TEST(PointToLine, SaysWhenItWasStopped) {
-  const Alignment result =
-      align(noisy_scans(room(), path(), 0.02), perturbed(path(), 13), {{"max_rounds", std::int64_t{1}}});
+  const Alignment result = align(noisy_scans(point_line_room(), point_line_path(), 0.02),
+                                 point_line_start(point_line_path(), 13), {{"max_rounds", std::int64_t{1}}});
   EXPECT_EQ(result.status, Status::max_iterations);
 }
 
@@ -324,9 +325,10 @@ TEST(PointToLine, RefusesAFinalGateWiderThanTheFirst) {
 }
 
 TEST(PointToLine, WritesARowForEachRound) {
-  testing::TraceRecorder recorder("align");
+  support::TraceRecorder recorder("align");
   Registry<Aligner>::make("point_to_line")
-      ->align(noisy_scans(room(), path(), 0.02).observations(), perturbed(path(), 14), recorder.trace);
+      ->align(noisy_scans(point_line_room(), point_line_path(), 0.02).observations(),
+              point_line_start(point_line_path(), 14), recorder.trace);
   const auto& rows = recorder.all_rows.at("align.round");
   ASSERT_GE(rows.size(), 4u);
   constexpr double kFinalGate = 0.1;
@@ -367,8 +369,8 @@ TEST(PointToLine, NamesGroupsOfScansThatDoNotMeet) {
   ScanSeries scans;
   std::vector<Pose2> poses;
   for (const Pose2& shift : {Pose2(0, 0, 0), Pose2(60, 0, 0)})
-    for (const Pose2& p : path()) {
-      scans.add_exact(cast(ring_sensor(360), room(), p));
+    for (const Pose2& p : point_line_path()) {
+      scans.add_exact(cast(ring_sensor(360), point_line_room(), p));
       poses.push_back(shift * p);
     }
   const Alignment result = align(scans, poses);
@@ -382,7 +384,7 @@ TEST(PointToLine, NamesGroupsOfManyScansThatDoNotMeet) {
   std::vector<Pose2> poses;
   for (int k = 0; k < 210; ++k) {
     const Pose2 in_room(0.01 * (k % 105), 0.3, 0.02 * k);
-    scans.add_exact(cast(ring_sensor(36), room(), in_room));
+    scans.add_exact(cast(ring_sensor(36), point_line_room(), in_room));
     poses.push_back(Pose2(k < 105 ? 0 : 60, 0, 0) * in_room);
   }
   const Alignment result = align(scans, poses);
@@ -395,21 +397,21 @@ TEST(PointToLine, NamesGroupsOfManyScansThatDoNotMeet) {
 TEST(PointToLine, TheFirstGateIsTwoAndAHalfDeviationsOfTheStatedError) {
   // Two poses are wrong independently of each other; no error of the heading, so that no distance matters.
   for (const double sigma : {0.05, 0.1, 0.4}) {
-    testing::TraceRecorder recorder("align");
+    support::TraceRecorder recorder("align");
     Registry<Aligner>::make("point_to_line", {{"odometry_sigma_m", sigma}, {"odometry_sigma_deg", 0.0}})
-        ->align(exact_scans(room(), path()).observations(), path(), recorder.trace);
+        ->align(exact_scans(point_line_room(), point_line_path()).observations(), point_line_path(), recorder.trace);
     EXPECT_NEAR(recorder.all_rows.at("align.round").front().values[1], 2.5 * std::sqrt(2.0) * sigma, 1e-12);
   }
 }
 
 TEST(PointToLine, LooksAsFarAsTheStatedErrorOfTheGivenPosesAsks) {
-  const ScanSeries scans = exact_scans(room(), path());
-  std::vector<Pose2> initial = path();
+  const ScanSeries scans = exact_scans(point_line_room(), point_line_path());
+  std::vector<Pose2> initial = point_line_path();
   initial[3] = initial[3] * Pose2(0.7, -0.6, radians(5));
   expect_poses(align(scans, initial, {{"odometry_sigma_m", 0.5}, {"odometry_sigma_deg", 6.0}}).world_from_sensor,
-               held_at_first(path(), initial), 1e-6);
+               held_at_first(point_line_path(), initial), 1e-6);
   const Alignment near = align(scans, initial, {{"odometry_sigma_m", 0.01}, {"odometry_sigma_deg", 0.1}});
-  EXPECT_GT((near.world_from_sensor[3].translation() - path()[3].translation()).norm(), 0.1);
+  EXPECT_GT((near.world_from_sensor[3].translation() - point_line_path()[3].translation()).norm(), 0.1);
 }
 
 }  // namespace

@@ -15,10 +15,10 @@
 namespace scanbench {
 namespace {
 
-using testing::cast;
-using testing::OwnedScan;
-using testing::ring_sensor;
-using testing::with_noise;
+using support::cast;
+using support::OwnedScan;
+using support::ring_sensor;
+using support::with_noise;
 
 struct Answer {
   int fewest_returns;              ///< in a row on one wall that become a line
@@ -52,8 +52,8 @@ class DegenerateScan : public ::testing::TestWithParam<std::string> {
  protected:
   const Answer& expected() const { return kAnswers.at(GetParam()); }
   ScanLines extract(const OwnedScan& scan, const ParamSet& params = {}) const {
-    ScanLines result = testing::extract(GetParam(), scan, params);
-    testing::expect_consistent(scan.view(), result);
+    ScanLines result = support::extract(GetParam(), scan, params);
+    support::expect_consistent(scan.view(), result);
     return result;
   }
 };
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(All, DegenerateScan, ::testing::ValuesIn(Registry<LineE
 
 // Only the beams first .. first + count - 1 of a wall two metres ahead.
 OwnedScan returns_in_a_row(int count) {
-  OwnedScan scan = with_noise(cast(testing::fan_sensor(181, kPi), {{{2, -9}, {2, 9}}}), 0.005, 1);
+  OwnedScan scan = with_noise(cast(support::fan_sensor(181, kPi), {{{2, -9}, {2, 9}}}), 0.005, 1);
   for (int i = 0; i < 181; ++i)
     if (i < 80 || i >= 80 + count) scan.ranges[static_cast<std::size_t>(i)] = kInf;
   return scan;
@@ -70,7 +70,7 @@ OwnedScan returns_in_a_row(int count) {
 
 // A square room, the sensor in its middle; a full turn begins and ends on the wall x = -3.
 OwnedScan square_room(int beams, std::uint64_t seed) {
-  return with_noise(cast(ring_sensor(beams), testing::box(-3, -3, 3, 3)), 0.01, seed);
+  return with_noise(cast(ring_sensor(beams), support::box(-3, -3, 3, 3)), 0.01, seed);
 }
 
 // Lines that are the wall rho = 3, alpha, within 2 cm and one degree, with so many points at least.
@@ -98,11 +98,11 @@ TEST_P(DegenerateScan, ALoneReturnIsASegmentOfNoLengthWhereAsked) {
   EXPECT_EQ(result.lines[0].points, 1);
   EXPECT_EQ(result.lines[0].segment.length(), 0.0);
   const OwnedScan scan = returns_in_a_row(1);
-  EXPECT_THAT(result.lines[0].segment.a, testing::PointNear(scan.view().point(80), 1e-9));
+  EXPECT_THAT(result.lines[0].segment.a, support::PointNear(scan.view().point(80), 1e-9));
 }
 
 TEST_P(DegenerateScan, EqualPointsAreNoLine) {
-  EXPECT_TRUE(extract(testing::constant_scan(testing::fan_sensor(50, 0.0), 2.0)).lines.empty());
+  EXPECT_TRUE(extract(support::constant_scan(support::fan_sensor(50, 0.0), 2.0)).lines.empty());
 }
 
 TEST_P(DegenerateScan, WhyABeamHasNoReturnDoesNotMatter) {
@@ -113,7 +113,7 @@ TEST_P(DegenerateScan, WhyABeamHasNoReturnDoesNotMatter) {
     return extract(scan);
   };
   const ScanLines lost = lose(kInf);
-  for (const double value : {-kInf, kNaN, 0.0, -0.0, -1.0}) testing::expect_identical(lost, lose(value));
+  for (const double value : {-kInf, kNaN, 0.0, -0.0, -1.0}) support::expect_identical(lost, lose(value));
 }
 
 TEST_P(DegenerateScan, TenBeamsOfARoomAreLinesOnlyWhereTwoOrThreePointsMayBeOne) {

@@ -10,9 +10,9 @@
 namespace scanbench {
 namespace {
 
-using testing::beam_runs;
-using testing::OwnedScan;
-using testing::random_scan;
+using support::beam_runs;
+using support::OwnedScan;
+using support::random_scan;
 
 const ParamValue kOne = std::int64_t{1};
 
@@ -52,7 +52,7 @@ std::vector<std::pair<int, int>> groups_by_hand(const OwnedScan& scan, double t)
 // Breaks as beams, from the module: every beam has a return in these scans.
 std::vector<int> breaks(const OwnedScan& scan, double t) {
   const ScanLines lines =
-      testing::extract("iepf", scan, {{"threshold_m", t}, {"min_points", kOne}, {"max_gap_m", 0.0}});
+      support::extract("iepf", scan, {{"threshold_m", t}, {"min_points", kOne}, {"max_gap_m", 0.0}});
   std::vector<int> result;
   for (const auto& line : lines.lines)
     if (line.first_beam > 0) result.push_back(line.first_beam);
@@ -65,7 +65,7 @@ TEST(Iepf, GroupsAreThoseOfTheTextbookRecursion) {
     for (const double t : {0.0, 0.02, 0.1, 0.4}) {
       const auto expected = groups_by_hand(scan, t);
       const ScanLines lines =
-          testing::extract("iepf", scan, {{"threshold_m", t}, {"min_points", kOne}, {"max_gap_m", 0.0}});
+          support::extract("iepf", scan, {{"threshold_m", t}, {"min_points", kOne}, {"max_gap_m", 0.0}});
       ASSERT_EQ(lines.lines.size(), expected.size());
       for (std::size_t k = 0; k < expected.size(); ++k) {
         EXPECT_EQ(lines.lines[k].first_beam, expected[k].first);
@@ -104,7 +104,7 @@ TEST(Iepf, BreaksForALargerThresholdAreAmongThoseForASmallerOne) {
 TEST(Iepf, BreaksDoNotDependOnTheSenseOfRotation) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     const OwnedScan scan = random_scan(seed);
-    std::vector<int> back = breaks(testing::mirrored(scan), 0.1);
+    std::vector<int> back = breaks(support::mirrored(scan), 0.1);
     for (int& b : back) b = scan.view().beams() - 1 - b;
     std::ranges::reverse(back);
     EXPECT_EQ(breaks(scan, 0.1), back);
@@ -114,16 +114,16 @@ TEST(Iepf, BreaksDoNotDependOnTheSenseOfRotation) {
 TEST(Iepf, ThresholdZeroGivesAllPairsAndAHugeOneASingleGroup) {
   const OwnedScan scan = random_scan(3);
   EXPECT_EQ(
-      testing::extract("iepf", scan, {{"threshold_m", 0.0}, {"min_points", kOne}, {"max_gap_m", 0.0}}).lines.size(),
+      support::extract("iepf", scan, {{"threshold_m", 0.0}, {"min_points", kOne}, {"max_gap_m", 0.0}}).lines.size(),
       360u);
-  EXPECT_EQ(testing::extract("iepf", scan, {{"threshold_m", 1e9}, {"max_gap_m", 0.0}}).lines.size(), 1u);
+  EXPECT_EQ(support::extract("iepf", scan, {{"threshold_m", 1e9}, {"max_gap_m", 0.0}}).lines.size(), 1u);
 }
 
 TEST(Iepf, AnIdealPolygonBreaksAtItsVerticesForAnyThresholdBelowTheSmallestDeviation) {
   // Beams exactly at the vertices of a square room seen from its middle: 45, 135, 225, 315 degrees.
   SensorModel sensor;
   sensor.geometry = ScanGeometry(0.0, radians(1), 360);
-  OwnedScan scan = testing::cast(sensor, testing::box(-2, -2, 2, 2));
+  OwnedScan scan = support::cast(sensor, support::box(-2, -2, 2, 2));
   for (const int corner : {45, 135, 225, 315}) scan.ranges[static_cast<std::size_t>(corner)] = std::sqrt(8.0);
   for (const double t : {0.001, 0.05, 0.3}) EXPECT_EQ(breaks(scan, t), (std::vector<int>{45, 135, 225, 315})) << t;
 }
@@ -131,50 +131,50 @@ TEST(Iepf, AnIdealPolygonBreaksAtItsVerticesForAnyThresholdBelowTheSmallestDevia
 TEST(Iepf, LinesOfAnIdealRoomAreItsWallsAndReachTheBreakPoints) {
   SensorModel sensor;
   sensor.geometry = ScanGeometry(radians(-135), radians(0.5), 541);
-  const auto walls = testing::box(-2, -2, 2, 2);
-  const ScanLines lines = testing::extract("iepf", testing::cast(sensor, walls));
+  const auto walls = support::box(-2, -2, 2, 2);
+  const ScanLines lines = support::extract("iepf", support::cast(sensor, walls));
   ASSERT_EQ(lines.lines.size(), 3u);
-  EXPECT_THAT(lines.lines[0].line, testing::LineNear(PolarLine{2, -kPi / 2}, 2e-3, 2e-3));
-  EXPECT_THAT(lines.lines[1].line, testing::LineNear(PolarLine{2, 0}, 2e-3, 2e-3));
-  EXPECT_THAT(lines.lines[2].line, testing::LineNear(PolarLine{2, kPi / 2}, 2e-3, 2e-3));
-  EXPECT_THAT(lines.lines[0].segment.b, testing::PointNear(Vec2(2, -2), 0.02));
-  EXPECT_THAT(lines.lines[1].segment.a, testing::PointNear(Vec2(2, -2), 0.02));
+  EXPECT_THAT(lines.lines[0].line, support::LineNear(PolarLine{2, -kPi / 2}, 2e-3, 2e-3));
+  EXPECT_THAT(lines.lines[1].line, support::LineNear(PolarLine{2, 0}, 2e-3, 2e-3));
+  EXPECT_THAT(lines.lines[2].line, support::LineNear(PolarLine{2, kPi / 2}, 2e-3, 2e-3));
+  EXPECT_THAT(lines.lines[0].segment.b, support::PointNear(Vec2(2, -2), 0.02));
+  EXPECT_THAT(lines.lines[1].segment.a, support::PointNear(Vec2(2, -2), 0.02));
 }
 
 // A wall 2 m ahead with 17 beams that return nothing: an opening of 0.6 m.
 TEST(Iepf, DoesNotBridgeAnOpeningUnlessRequested) {
-  OwnedScan scan = testing::cast(testing::fan_sensor(41, radians(40)), {{{2, -9}, {2, 9}}});
+  OwnedScan scan = support::cast(support::fan_sensor(41, radians(40)), {{{2, -9}, {2, 9}}});
   for (std::size_t i = 12; i < 29; ++i) scan.ranges[i] = kInf;
-  EXPECT_EQ(testing::extract("iepf", scan).lines.size(), 2u);
-  EXPECT_EQ(testing::extract("iepf", scan, {{"max_gap_m", 0.0}}).lines.size(), 1u);
+  EXPECT_EQ(support::extract("iepf", scan).lines.size(), 2u);
+  EXPECT_EQ(support::extract("iepf", scan, {{"max_gap_m", 0.0}}).lines.size(), 1u);
 }
 
 TEST(Iepf, ThreeStrayReturnsAreNoLineUnlessRequested) {
-  OwnedScan scan = testing::cast(testing::fan_sensor(41, radians(40)), {{{2, -9}, {2, 9}}});
+  OwnedScan scan = support::cast(support::fan_sensor(41, radians(40)), {{{2, -9}, {2, 9}}});
   for (std::size_t i = 0; i < 41; ++i)
     if (i < 18 || i > 20) scan.ranges[i] = kInf;
-  EXPECT_TRUE(testing::extract("iepf", scan).lines.empty());
-  EXPECT_EQ(testing::extract("iepf", scan, {{"min_points", std::int64_t{2}}}).lines.size(), 1u);
+  EXPECT_TRUE(support::extract("iepf", scan).lines.empty());
+  EXPECT_EQ(support::extract("iepf", scan, {{"min_points", std::int64_t{2}}}).lines.size(), 1u);
 }
 
 TEST(Iepf, UnsharedBreaksAreFittedByTheSecondLineOnly) {
   const OwnedScan scan = random_scan(5);
-  const ScanLines shared = testing::extract("iepf", scan);
-  const ScanLines unshared = testing::extract("iepf", scan, {{"share_breaks", false}});
+  const ScanLines shared = support::extract("iepf", scan);
+  const ScanLines unshared = support::extract("iepf", scan, {{"share_breaks", false}});
   EXPECT_EQ(shared.labels, unshared.labels);
   const Scan view = scan.view();
   for (const LineFeature& f : unshared.lines) {
     std::vector<Vec2> own;
     for (int i = f.first_beam; i <= f.last_beam; ++i) own.push_back(view.point(i));
-    EXPECT_THAT(f.line, testing::LineNear(fit_line(own).polar(), 1e-9, 1e-9));
+    EXPECT_THAT(f.line, support::LineNear(fit_line(own).polar(), 1e-9, 1e-9));
   }
 }
 
 TEST(Iepf, TheLinearThresholdIsTakenAtTheFarthestPoint) {
   // A tent of height 0.15 at range about 5: T(r) = 0.05 + c r.
-  OwnedScan scan = testing::cast(testing::fan_sensor(41, radians(40)), {{{5, -2}, {5.15, 0}}, {{5.15, 0}, {5, 2}}});
+  OwnedScan scan = support::cast(support::fan_sensor(41, radians(40)), {{{5, -2}, {5.15, 0}}, {{5.15, 0}, {5, 2}}});
   const auto count = [&](double c) {
-    return testing::extract("iepf", scan,
+    return support::extract("iepf", scan,
                             {{"threshold", std::string("linear")}, {"threshold_m", 0.05}, {"threshold_per_m", c}})
         .lines.size();
   };
@@ -191,10 +191,10 @@ TEST(Iepf, BreaksANoisyWallMoreOftenThanLineTracking) {
   const int runs = 200;
   for (int run = 0; run < runs; ++run) {
     const OwnedScan scan =
-        testing::with_noise(testing::cast(testing::fan_sensor(101, radians(60)), {{{2, -9}, {2, 9}}}), 0.05, 11,
+        support::with_noise(support::cast(support::fan_sensor(101, radians(60)), {{{2, -9}, {2, 9}}}), 0.05, 11,
                             static_cast<std::uint32_t>(run));
-    iepf += static_cast<double>(testing::extract("iepf", scan, {{"min_points", kOne}}).lines.size()) / runs;
-    lt += static_cast<double>(testing::extract("line_tracking", scan, {{"min_points", kOne}}).lines.size()) / runs;
+    iepf += static_cast<double>(support::extract("iepf", scan, {{"min_points", kOne}}).lines.size()) / runs;
+    lt += static_cast<double>(support::extract("line_tracking", scan, {{"min_points", kOne}}).lines.size()) / runs;
   }
   EXPECT_NEAR(iepf, 16.0, 2.0);
   EXPECT_NEAR(lt, 6.7, 1.0);

@@ -7,11 +7,11 @@
 namespace scanbench {
 namespace {
 
-using testing::beam_runs;
-using testing::OwnedScan;
-using testing::random_scan;
+using support::beam_runs;
+using support::OwnedScan;
+using support::random_scan;
 
-const ParamValue kOne = std::int64_t{1};
+const ParamValue kWeightOne = std::int64_t{1};
 
 // Total least squares as printed in textbooks, with the angle.
 double distance_to_fit(const std::vector<Vec2>& p, int first, int last, const Vec2& q) {
@@ -51,11 +51,13 @@ TEST(LineTracking, GroupsAreThoseOfARefitAtEveryStep) {
     const OwnedScan scan = random_scan(seed);
     const auto points = valid_points(scan.view()).points;
     for (const double t : {0.02, 0.1, 0.4}) {
-      EXPECT_EQ(beam_runs(testing::extract("line_tracking", scan, {{"threshold_m", t}, {"min_points", kOne}})),
+      EXPECT_EQ(beam_runs(support::extract("line_tracking", scan, {{"threshold_m", t}, {"min_points", kWeightOne}})),
                 groups_by_hand(points, [t](const Vec2&) { return t; }));
-      const ParamSet linear = {
-          {"threshold", std::string("linear")}, {"threshold_m", t}, {"threshold_per_m", 0.02}, {"min_points", kOne}};
-      EXPECT_EQ(beam_runs(testing::extract("line_tracking", scan, linear)),
+      const ParamSet linear = {{"threshold", std::string("linear")},
+                               {"threshold_m", t},
+                               {"threshold_per_m", 0.02},
+                               {"min_points", kWeightOne}};
+      EXPECT_EQ(beam_runs(support::extract("line_tracking", scan, linear)),
                 groups_by_hand(points, [t](const Vec2& p) { return t + 0.02 * p.norm(); }));
     }
   }
@@ -64,7 +66,7 @@ TEST(LineTracking, GroupsAreThoseOfARefitAtEveryStep) {
 TEST(LineTracking, EveryGroupButTheLastHasTwoPointsOrMore) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const ScanLines lines =
-        testing::extract("line_tracking", random_scan(seed), {{"threshold_m", 0.001}, {"min_points", kOne}});
+        support::extract("line_tracking", random_scan(seed), {{"threshold_m", 0.001}, {"min_points", kWeightOne}});
     for (std::size_t k = 0; k + 1 < lines.lines.size(); ++k) EXPECT_GE(lines.lines[k].points, 2);
   }
 }
@@ -72,7 +74,7 @@ TEST(LineTracking, EveryGroupButTheLastHasTwoPointsOrMore) {
 TEST(LineTracking, EveryRejectedPointIsFartherThanTheThresholdFromTheLineBeforeIt) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const OwnedScan scan = random_scan(seed);
-    const ScanLines lines = testing::extract("line_tracking", scan, {{"min_points", kOne}});
+    const ScanLines lines = support::extract("line_tracking", scan, {{"min_points", kWeightOne}});
     for (std::size_t k = 0; k + 1 < lines.lines.size(); ++k) {
       const Vec2 rejected = scan.view().point(lines.lines[k + 1].first_beam);
       if (lines.lines[k].points > 2 || lines.lines[k].rms_m < 1e-12) {
@@ -86,7 +88,7 @@ TEST(LineTracking, ResidualsInsideALineMayExceedTheThresholdBecauseTheLineTurnsA
   bool exceeded = false;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const OwnedScan scan = random_scan(seed);
-    for (const LineFeature& f : testing::extract("line_tracking", scan).lines)
+    for (const LineFeature& f : support::extract("line_tracking", scan).lines)
       for (int i = f.first_beam; i <= f.last_beam; ++i)
         exceeded = exceeded || std::fabs(f.line.signed_distance(scan.view().point(i))) > 0.1 + 1e-9;
   }
@@ -94,9 +96,9 @@ TEST(LineTracking, ResidualsInsideALineMayExceedTheThresholdBecauseTheLineTurnsA
 }
 
 TEST(LineTracking, AnIdealRoomHasOneLinePerWallWithBreaksWithinAPointOfTheCorners) {
-  const OwnedScan scan = testing::cast(testing::fan_sensor(541, radians(270)), testing::box(-2.5, -2, 3, 1.7));
+  const OwnedScan scan = support::cast(support::fan_sensor(541, radians(270)), support::box(-2.5, -2, 3, 1.7));
   const ScanLines lines =
-      testing::extract("line_tracking", scan, {{"threshold_m", 0.005}, {"min_points", std::int64_t{3}}});
+      support::extract("line_tracking", scan, {{"threshold_m", 0.005}, {"min_points", std::int64_t{3}}});
   std::vector<int> corners;
   for (int i = 1; i < scan.view().beams(); ++i)
     if (scan.ids[static_cast<std::size_t>(i)] != scan.ids[static_cast<std::size_t>(i - 1)]) corners.push_back(i);
@@ -107,9 +109,9 @@ TEST(LineTracking, AnIdealRoomHasOneLinePerWallWithBreaksWithinAPointOfTheCorner
 TEST(LineTracking, PointsAndThresholdScaleTogether) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     OwnedScan scan = random_scan(seed);
-    const auto before = beam_runs(testing::extract("line_tracking", scan, {{"threshold_m", 0.1}}));
+    const auto before = beam_runs(support::extract("line_tracking", scan, {{"threshold_m", 0.1}}));
     for (double& r : scan.ranges) r *= 4.0;  // a power of two: exact
-    EXPECT_EQ(before, beam_runs(testing::extract("line_tracking", scan, {{"threshold_m", 0.4}})));
+    EXPECT_EQ(before, beam_runs(support::extract("line_tracking", scan, {{"threshold_m", 0.4}})));
   }
 }
 

@@ -18,11 +18,11 @@
 namespace scanbench::extract {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNothing = std::numeric_limits<double>::infinity();
 
 // Range from the origin to a closed polygon around it.
 double range_to(const std::vector<Vec2>& polygon, const Vec2& d) {
-  double best = kInfinity;
+  double best = kNothing;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 a = polygon[i], along = polygon[(i + 1) % polygon.size()] - a;
     const double det = cross(d, along);
@@ -66,7 +66,7 @@ std::vector<SegmentationPoint> few_points(std::uint32_t seed, int n) {
                       .weight = 100 + 2000 * rng.uniform(),
                       .line_cost = -rng.uniform(),
                       .clutter_cost = 4 * rng.uniform(),
-                      .gap_cost = rng.uniform() < 0.15 ? (rng.uniform() < 0.5 ? 1.0 : kInfinity) : 0.0});
+                      .gap_cost = rng.uniform() < 0.15 ? (rng.uniform() < 0.5 ? 1.0 : kNothing) : 0.0});
   return points;
 }
 
@@ -102,14 +102,14 @@ double wall_cost(const std::vector<SegmentationPoint>& points, int i, double u, 
 double rest(const std::vector<SegmentationPoint>& points, const VertexChoices& choices, int i, int left, double charge,
             double u, bool open, bool may_end) {
   const int n = static_cast<int>(points.size());
-  double best = kInfinity;
+  double best = kNothing;
   if (open) {
     if (may_end) best = rest(points, choices, i + 1, left, charge, 0, false, false);
     if (left > 0)
       for (int j = i + 1; j < n; ++j)
         for (const double v : choices[static_cast<std::size_t>(j)]) {
           const double wall = wall_cost(points, i, u, j, v);
-          if (wall < kInfinity)
+          if (wall < kNothing)
             best = std::min(best, wall + charge + rest(points, choices, j, left - 1, charge, v, true, true));
         }
     return best;
@@ -170,7 +170,7 @@ TEST(PolylineSearch, TheClosedChainIsTheBestOfAllWithItsVertex) {
     turned.push_back(turned.front());
     turned.back().weight = 0.0;
     turned.back().line_cost = 0.0;
-    double best = kInfinity;
+    double best = kNothing;
     for (int i = 1; i < 6; ++i)
       for (int j = i + 1; j < 6; ++j)
         for (int k = j + 1; k < 6; ++k) {
@@ -254,7 +254,7 @@ TEST(PolylineModule, RecoversAPolygonWithoutNoise) {
     const ScanLines out = polyline(s, scan_of(kPentagon, s, 1), 5);
     ASSERT_EQ(out.lines.size(), 5u) << sign;
     for (const LineFeature& line : out.lines) {
-      double nearest_a = kInfinity, nearest_b = kInfinity;
+      double nearest_a = kNothing, nearest_b = kNothing;
       for (const Vec2& v : kPentagon) {
         nearest_a = std::min(nearest_a, (line.segment.a - v).norm());
         nearest_b = std::min(nearest_b, (line.segment.b - v).norm());

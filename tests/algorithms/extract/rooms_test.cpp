@@ -13,7 +13,7 @@
 namespace scanbench {
 namespace {
 
-using testing::OwnedScan;
+using support::OwnedScan;
 
 class Rooms : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, Rooms,
@@ -23,8 +23,8 @@ INSTANTIATE_TEST_SUITE_P(All, Rooms,
 
 // An L-shaped room with a box, all walls well seen from the origin; the seam of the scan in the middle of a wall.
 std::vector<Segment> l_room() {
-  auto walls = testing::polygon({{-2.5, -2}, {4, -2}, {4, 1.5}, {1.5, 1.5}, {1.5, 3.5}, {-2.5, 3.5}});
-  for (const Segment& s : testing::polygon({{1.8, -1.2}, {2.6, -1.2}, {2.6, -0.6}, {1.8, -0.6}})) walls.push_back(s);
+  auto walls = support::polygon({{-2.5, -2}, {4, -2}, {4, 1.5}, {1.5, 1.5}, {1.5, 3.5}, {-2.5, 3.5}});
+  for (const Segment& s : support::polygon({{1.8, -1.2}, {2.6, -1.2}, {2.6, -0.6}, {1.8, -0.6}})) walls.push_back(s);
   return walls;
 }
 
@@ -56,7 +56,7 @@ void expect_walls(const OwnedScan& scan, const std::vector<Segment>& walls, cons
     int points = 0;
     for (const std::size_t k : it->second) {
       points += lines.lines[k].points;
-      EXPECT_THAT(lines.lines[k].line, testing::LineNear(line_through(walls[w].a, walls[w].b), offset_m, angle_rad));
+      EXPECT_THAT(lines.lines[k].line, support::LineNear(line_through(walls[w].a, walls[w].b), offset_m, angle_rad));
     }
     EXPECT_GE(points, 0.9 * static_cast<double>(seen));
   }
@@ -64,44 +64,44 @@ void expect_walls(const OwnedScan& scan, const std::vector<Segment>& walls, cons
 
 TEST_P(Rooms, ANoiseFreeRoomGivesItsWalls) {
   const auto walls = l_room();
-  const OwnedScan scan = testing::cast(testing::ring_sensor(720), walls);
-  const ScanLines lines = testing::extract(GetParam(), scan);
+  const OwnedScan scan = support::cast(support::ring_sensor(720), walls);
+  const ScanLines lines = support::extract(GetParam(), scan);
   expect_walls(scan, walls, lines, 0.02, radians(1));
 }
 
 TEST_P(Rooms, ANoisyRoomGivesItsWalls) {
   const auto walls = l_room();
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const OwnedScan scan = testing::with_noise(testing::cast(testing::ring_sensor(720), walls), 0.01, seed);
-    expect_walls(scan, walls, testing::extract(GetParam(), scan), 0.06, radians(3));
+    const OwnedScan scan = support::with_noise(support::cast(support::ring_sensor(720), walls), 0.01, seed);
+    expect_walls(scan, walls, support::extract(GetParam(), scan), 0.06, radians(3));
   }
 }
 
 TEST(Seam, IsClosedByThoseThatMergeOnAFullTurn) {
   const auto walls = l_room();
-  const OwnedScan scan = testing::with_noise(testing::cast(testing::ring_sensor(720), walls), 0.005, 3);
+  const OwnedScan scan = support::with_noise(support::cast(support::ring_sensor(720), walls), 0.005, 3);
   for (const std::string module : {"incremental", "split_and_merge", "line_regression", "ransac", "hough", "em"}) {
-    const ScanLines lines = testing::extract(module, scan);
+    const ScanLines lines = support::extract(module, scan);
     EXPECT_EQ(lines.labels.front(), lines.labels.back()) << module;
     EXPECT_GE(lines.labels.front(), 0) << module;
   }
 }
 
 TEST(Ransac, DependsOnItsSeedAlone) {
-  const OwnedScan scan = testing::random_scan(4);
+  const OwnedScan scan = support::random_scan(4);
   // One trial per line: with more trials the refinement gives nearly the same lines for every seed.
   const auto with = [&](std::int64_t seed) {
-    return testing::extract("ransac", scan, {{"seed", ParamValue(seed)}, {"trials", ParamValue(std::int64_t{1})}});
+    return support::extract("ransac", scan, {{"seed", ParamValue(seed)}, {"trials", ParamValue(std::int64_t{1})}});
   };
-  testing::expect_identical(with(5), with(5));
+  support::expect_identical(with(5), with(5));
   EXPECT_NE(with(5).labels, with(6).labels);
 }
 
 TEST(Kovesi, PiecesLieWithinToleranceOfTheirChordsAndWereTheLongestOnOffer) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const OwnedScan scan = testing::random_scan(seed);
+    const OwnedScan scan = support::random_scan(seed);
     // One contour: lambda so small that nothing breaks at these ranges.
-    const ScanLines lines = testing::extract(
+    const ScanLines lines = support::extract(
         "kovesi", scan, {{"lambda_rad", 0.02}, {"min_points", ParamValue(std::int64_t{1})}, {"min_length_m", 0.0}});
     const ScanPoints points = valid_points(scan.view());
     // lineseg, transcribed: pull the end in until the chord fits.

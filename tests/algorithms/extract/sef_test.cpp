@@ -12,15 +12,15 @@
 namespace scanbench {
 namespace {
 
-using testing::beam_runs;
-using testing::OwnedScan;
-using testing::random_scan;
+using support::beam_runs;
+using support::OwnedScan;
+using support::random_scan;
 
-const ParamValue kOne = std::int64_t{1};
+const ParamValue kSigmaOne = std::int64_t{1};
 
 std::vector<std::pair<int, int>> runs_of(const OwnedScan& scan, const std::string& variant, double threshold) {
   return beam_runs(
-      testing::extract("sef", scan, {{"variant", variant}, {"threshold_m", threshold}, {"min_points", kOne}}));
+      support::extract("sef", scan, {{"variant", variant}, {"threshold_m", threshold}, {"min_points", kSigmaOne}}));
 }
 
 // By definition: a run ends where the difference exceeds T.
@@ -77,41 +77,43 @@ TEST(Sef, RangesRoundedToFiveCentimetresMakeSixAndNineTheSameThreshold) {
 OwnedScan grazing_plane() {
   SensorModel sensor;
   sensor.geometry = ScanGeometry(0.0, radians(0.5), 157);
-  return testing::cast(sensor, {{{1, -1}, {1, 100}}});
+  return support::cast(sensor, {{{1, -1}, {1, 100}}});
 }
 
 TEST(Sef, AConstantThresholdCutsAGrazingPlaneAndTheIncidenceAwareOneDoesNot) {
   const OwnedScan scan = grazing_plane();
   EXPECT_GT(runs_of(scan, "ranges", 0.05).size(), 1u);
   for (const double degrees : {10.0, 11.0}) {
-    const ScanLines whole = testing::extract(
+    const ScanLines whole = support::extract(
         "sef", scan,
         {{"threshold", std::string("incidence")}, {"threshold_m", 1e-9}, {"beta_min_rad", radians(degrees)}});
     EXPECT_EQ(whole.lines.size(), 1u) << degrees;
   }
-  const ScanLines cut = testing::extract("sef", scan,
+  const ScanLines cut = support::extract("sef", scan,
                                          {{"threshold", std::string("incidence")},
                                           {"threshold_m", 1e-9},
                                           {"beta_min_rad", radians(30)},
-                                          {"min_points", kOne}});
+                                          {"min_points", kSigmaOne}});
   EXPECT_GT(cut.lines.size(), 1u);
 }
 
 TEST(Sef, TheLinearThresholdGrowsWithTheSmallerRange) {
   // Jumps of 0.1 at 1 m and at 10 m; T(r) = 0.05 + 0.01 r is 0.06 and 0.15.
-  OwnedScan scan = testing::constant_scan(testing::fan_sensor(6, 0.1), 1.0);
+  OwnedScan scan = support::constant_scan(support::fan_sensor(6, 0.1), 1.0);
   scan.ranges = {1.0, 1.1, 1.1, 10.0, 10.1, 10.1};
-  const ScanLines lines = testing::extract(
-      "sef", scan,
-      {{"threshold", std::string("linear")}, {"threshold_m", 0.05}, {"threshold_per_m", 0.01}, {"min_points", kOne}});
+  const ScanLines lines = support::extract("sef", scan,
+                                           {{"threshold", std::string("linear")},
+                                            {"threshold_m", 0.05},
+                                            {"threshold_per_m", 0.01},
+                                            {"min_points", kSigmaOne}});
   EXPECT_EQ(beam_runs(lines), (std::vector<std::pair<int, int>>{{0, 0}, {1, 2}, {3, 5}}));
 }
 
 TEST(Sef, SinglePointsAreDroppedUnlessRequested) {
-  OwnedScan scan = testing::constant_scan(testing::fan_sensor(5, 0.1), 1.0);
+  OwnedScan scan = support::constant_scan(support::fan_sensor(5, 0.1), 1.0);
   scan.ranges = {1.0, 1.0, 3.0, 1.0, 1.0};
-  EXPECT_EQ(testing::extract("sef", scan).labels, (std::vector<int>{0, 0, -1, 1, 1}));
-  EXPECT_EQ(testing::extract("sef", scan, {{"min_points", kOne}}).labels, (std::vector<int>{0, 0, 1, 2, 2}));
+  EXPECT_EQ(support::extract("sef", scan).labels, (std::vector<int>{0, 0, -1, 1, 1}));
+  EXPECT_EQ(support::extract("sef", scan, {{"min_points", kSigmaOne}}).labels, (std::vector<int>{0, 0, 1, 2, 2}));
 }
 
 TEST(AdaptiveBreakpoint, DistanceIsTheFormulaOfBorgesAndAldon2004) {
@@ -136,12 +138,12 @@ TEST(AdaptiveBreakpoint, APlaneMetAtMoreThanLambdaStaysWholeAtAnyRange) {
 }
 
 TEST(Gaps, EndLinesByDistanceAndByMissingBeams) {
-  OwnedScan scan = testing::cast(testing::fan_sensor(41, radians(40)), {{{2, -9}, {2, 9}}});
+  OwnedScan scan = support::cast(support::fan_sensor(41, radians(40)), {{{2, -9}, {2, 9}}});
   scan.ranges[10] = kInf;
   scan.ranges[20] = scan.ranges[21] = kNaN;
   for (const std::string module : {"sef", "line_tracking", "iepf"}) {
     SCOPED_TRACE(module);
-    const auto count = [&](const ParamSet& params) { return testing::extract(module, scan, params).lines.size(); };
+    const auto count = [&](const ParamSet& params) { return support::extract(module, scan, params).lines.size(); };
     EXPECT_EQ(count({}), 1u);
     EXPECT_EQ(count({{"max_missing_beams", std::int64_t{2}}}), 1u);
     EXPECT_EQ(count({{"max_missing_beams", std::int64_t{1}}}), 2u);
@@ -156,7 +158,7 @@ TEST(Gaps, EndLinesByDistanceAndByMissingBeams) {
 TEST(Stages, ArePreSegmentPostForTheThreeOfSiadat) {
   const OwnedScan scan = random_scan(1);
   for (const std::string module : {"sef", "line_tracking", "iepf"}) {
-    testing::TraceRecorder recorder("extract");
+    support::TraceRecorder recorder("extract");
     Registry<LineExtractor>::make(module)->extract(scan.view(), recorder.trace);
     EXPECT_EQ(recorder.stages, (std::vector{Stage::pre, Stage::segment, Stage::post})) << module;
   }

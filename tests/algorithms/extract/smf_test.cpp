@@ -18,17 +18,17 @@
 namespace scanbench::extract {
 namespace {
 
-using Points = std::vector<Vec2>;
+using SmfPoints = std::vector<Vec2>;
 
-Trace silent;
+Trace smf_silent;
 
-std::vector<SmfLine> smf(const Points& points, const SmfOptions& options = {}) {
-  return smf_merge(points, smf_split(points, options, silent), options, silent);
+std::vector<SmfLine> smf(const SmfPoints& points, const SmfOptions& options = {}) {
+  return smf_merge(points, smf_split(points, options, smf_silent), options, smf_silent);
 }
 
-Points clutter(std::uint32_t seed, int n) {
+SmfPoints clutter(std::uint32_t seed, int n) {
   CounterRng rng(seed, RngStream::pose);
-  Points points;
+  SmfPoints points;
   Vec2 p(3, 0);
   double heading = 1.5;
   for (int i = 0; i < n; ++i) {
@@ -40,7 +40,7 @@ Points clutter(std::uint32_t seed, int n) {
   return points;
 }
 
-std::vector<int> every_index(const Points& points) {
+std::vector<int> every_index(const SmfPoints& points) {
   std::vector<int> all(points.size());
   std::iota(all.begin(), all.end(), 0);
   return all;
@@ -54,12 +54,12 @@ void expect_partition(const std::vector<SmfLine>& lines, std::size_t n) {
     all.insert(all.end(), line.support.begin(), line.support.end());
   }
   std::sort(all.begin(), all.end());
-  EXPECT_EQ(all, every_index(Points(n)));
+  EXPECT_EQ(all, every_index(SmfPoints(n)));
 }
 
 // Root mean square distance of the support to its least-squares line, from the points and by eigenvalues of the
 // scatter matrix.
-double dispersion(const Points& points, const std::vector<int>& support) {
+double dispersion(const SmfPoints& points, const std::vector<int>& support) {
   Vec2 centre = Vec2::Zero();
   for (const int j : support) centre += points[static_cast<std::size_t>(j)];
   centre /= static_cast<double>(support.size());
@@ -86,14 +86,14 @@ INSTANTIATE_TEST_SUITE_P(Smf, EveryInitialisation,
 
 TEST_P(EveryInitialisation, KeepsAPartitionWithinTheThresholdInBothPhases) {
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
-    const Points points = clutter(seed, 150);
+    const SmfPoints points = clutter(seed, 150);
     for (const double sigma_max : {0.02, 0.05, 0.2}) {
       const SmfOptions options{.sigma_max_m = sigma_max, .initialisation = GetParam()};
-      const auto after_split = smf_split(points, options, silent);
+      const auto after_split = smf_split(points, options, smf_silent);
       expect_partition(after_split, points.size());
       for (const SmfLine& line : after_split)
         EXPECT_TRUE(line.support.size() <= 2 || dispersion(points, line.support) <= sigma_max * (1 + 1e-9));
-      const auto after_merge = smf_merge(points, after_split, options, silent);
+      const auto after_merge = smf_merge(points, after_split, options, smf_silent);
       expect_partition(after_merge, points.size());
       EXPECT_LE(after_merge.size(), after_split.size());
       for (const SmfLine& line : after_merge)
@@ -104,7 +104,7 @@ TEST_P(EveryInitialisation, KeepsAPartitionWithinTheThresholdInBothPhases) {
 
 TEST_P(EveryInitialisation, LeavesNoLineThatCouldBeFusedWithOneOfItsTwoNearest) {
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
-    const Points points = clutter(seed, 150);
+    const SmfPoints points = clutter(seed, 150);
     const SmfOptions options{.initialisation = GetParam()};
     const auto lines = smf(points, options);
     for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -134,7 +134,7 @@ TEST_P(EveryInitialisation, CutsANoiseFreeCornerIntoItsTwoLegs) {
     const double turn = radians(45 + 90 * rng.uniform());  // inner angle between the legs
     const double heading = kTwoPi * rng.uniform();
     const Vec2 corner(2 * rng.normal(), 2 * rng.normal());
-    Points points;
+    SmfPoints points;
     const Vec2 u(std::cos(heading), std::sin(heading));
     const Vec2 v(std::cos(heading + turn), std::sin(heading + turn));
     for (double t = first; t > 0; t -= 0.05) points.push_back(corner + t * u);
@@ -153,7 +153,7 @@ TEST(Smf, SeesARectangularRoomAsAboutOneLinePerWall) {
     CounterRng rng(seed, RngStream::pose);
     const double w = 3 + 7 * rng.uniform(), h = 3 + 7 * rng.uniform();
     const Vec2 sensor((0.2 + 0.6 * rng.uniform()) * w, (0.2 + 0.6 * rng.uniform()) * h);
-    Points points;
+    SmfPoints points;
     for (int i = 0; i < 360; ++i) {
       const Vec2 d(std::cos(radians(i)), std::sin(radians(i)));
       double r = std::numeric_limits<double>::infinity();
@@ -175,7 +175,7 @@ TEST(Smf, SeesOneWallAsOneLine) {
   CounterRng rng(4, RngStream::range);
   for (int trial = 0; trial < 200; ++trial) {
     const int n = 10 + static_cast<int>(rng.bits() % 190);
-    Points points;
+    SmfPoints points;
     for (int i = 0; i < n; ++i) points.emplace_back(2.0 + 0.05 / 1.5 * rng.normal(), -1.0 + 0.02 * i);
     EXPECT_TRUE(dispersion(points, every_index(points)) > 0.05 || smf(points).size() == 1);
   }
@@ -183,9 +183,9 @@ TEST(Smf, SeesOneWallAsOneLine) {
 
 TEST(Smf, PartitionDoesNotDependOnTheFrameOrTheUnit) {
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
-    const Points points = clutter(seed, 120);
+    const SmfPoints points = clutter(seed, 120);
     const Pose2 motion(-4.0, 2.5, 0.7 + seed);
-    Points moved, scaled;
+    SmfPoints moved, scaled;
     for (const Vec2& p : points) {
       moved.push_back(motion * p);
       scaled.push_back(4.0 * p);
@@ -199,7 +199,7 @@ TEST(Smf, PartitionDoesNotDependOnTheFrameOrTheUnit) {
 }
 
 TEST(Smf, PenaltyInTheDispersionShattersAWall) {
-  Points points;
+  SmfPoints points;
   for (int i = 0; i < 40; ++i) points.emplace_back(2.0, -1.0 + 0.05 * i);
   EXPECT_EQ(smf(points).size(), 1u);
   EXPECT_GT(smf(points, {.penalty_in_dispersion = true}).size(), 5u);
@@ -207,7 +207,7 @@ TEST(Smf, PenaltyInTheDispersionShattersAWall) {
 
 TEST(Smf, FusesAcrossAnOpeningUnlessMaxGapForbidsIt) {
   // Two coplanar walls and a deep box between them, which forces the split.
-  Points points;
+  SmfPoints points;
   for (int i = 0; i < 20; ++i) points.emplace_back(2.0, 0.05 * i);
   for (int i = 0; i < 20; ++i) points.emplace_back(3.0, 1.0 + 0.05 * i);
   for (int i = 0; i < 20; ++i) points.emplace_back(2.0, 2.0 + 0.05 * i);
@@ -217,15 +217,15 @@ TEST(Smf, FusesAcrossAnOpeningUnlessMaxGapForbidsIt) {
 }
 
 TEST(Smf, LinesOfOneOrTwoPointsAreNeverSplit) {
-  const Points far_apart = {{0, 0}, {10, 3}};
-  EXPECT_EQ(smf_split(far_apart, {}, silent).size(), 1u);
-  EXPECT_EQ(smf_split(Points{{1, 1}}, {}, silent).size(), 1u);
-  EXPECT_TRUE(smf_split(Points{}, {}, silent).empty());
+  const SmfPoints far_apart = {{0, 0}, {10, 3}};
+  EXPECT_EQ(smf_split(far_apart, {}, smf_silent).size(), 1u);
+  EXPECT_EQ(smf_split(SmfPoints{{1, 1}}, {}, smf_silent).size(), 1u);
+  EXPECT_TRUE(smf_split(SmfPoints{}, {}, smf_silent).empty());
 }
 
 TEST(Smf, EndsOnPointsInOnePlaceAndOnAnIsotropicCloud) {
-  EXPECT_EQ(smf(Points(50, Vec2(1, 1))).size(), 1u);
-  const Points square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  EXPECT_EQ(smf(SmfPoints(50, Vec2(1, 1))).size(), 1u);
+  const SmfPoints square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   expect_partition(smf(square), 4);
 }
 
@@ -250,7 +250,7 @@ TEST(SmfModule, GivesLinesInScanOrderWithLabelsAndEndPointsOfTheirSupport) {
     if (r < 6) ranges[static_cast<std::size_t>(i)] = r;
   }
   const auto module = Registry<LineExtractor>::make("smf");
-  const ScanLines out = module->extract({s, ranges}, silent);
+  const ScanLines out = module->extract({s, ranges}, smf_silent);
   ASSERT_EQ(out.labels.size(), ranges.size());
   ASSERT_EQ(out.lines.size(), 2u);
   EXPECT_LT(out.lines[0].first_beam, out.lines[1].first_beam);
@@ -275,12 +275,12 @@ TEST(SmfModule, FindsNothingWhereNothingReturned) {
   for (const double value : {inf, -inf, std::nan(""), 0.0, -1.0}) {
     const SensorModel s = sensor(20);
     const std::vector<double> ranges(20, value);
-    const ScanLines out = module->extract({s, ranges}, silent);
+    const ScanLines out = module->extract({s, ranges}, smf_silent);
     EXPECT_TRUE(out.lines.empty());
     EXPECT_EQ(out.labels, std::vector<int>(20, -1));
   }
   const SensorModel none = sensor(0);
-  EXPECT_TRUE(module->extract({none, {}}, silent).labels.empty());
+  EXPECT_TRUE(module->extract({none, {}}, smf_silent).labels.empty());
 }
 
 TEST(SmfModule, DropsLinesWithFewerPointsThanRequested) {
@@ -288,7 +288,7 @@ TEST(SmfModule, DropsLinesWithFewerPointsThanRequested) {
   std::vector<double> ranges(30, 2.0);
   for (std::size_t i = 12; i < 15; ++i) ranges[i] = 9.0;
   const auto out =
-      Registry<LineExtractor>::make("smf", {{"min_points", std::int64_t{5}}})->extract({s, ranges}, silent);
+      Registry<LineExtractor>::make("smf", {{"min_points", std::int64_t{5}}})->extract({s, ranges}, smf_silent);
   for (const LineFeature& line : out.lines) EXPECT_GE(line.points, 5);
   EXPECT_EQ(out.labels[13], -1);
   EXPECT_FALSE(out.lines.empty());

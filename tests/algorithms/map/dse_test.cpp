@@ -20,8 +20,8 @@ std::vector<std::size_t> lines_after_each_scan(const ParamSet& params, std::size
   scan_lines = 0;
   for (int k = 0; k < 3; ++k) {
     const Pose2 pose(0.3 * k, 0.1 * k, 0.2 * k);
-    testing::ScanSeries series;
-    series.add_exact(testing::cast(testing::ring_sensor(361, 0.0), testing::box(-3, -2, 4, 2), pose));
+    support::ScanSeries series;
+    series.add_exact(support::cast(support::ring_sensor(361, 0.0), support::box(-3, -2, 4, 2), pose));
     const Observation scan = series.observations().front();
     scan_lines += scan.lines.lines.size();
     mapper->insert(scan, pose, silent);

@@ -11,12 +11,12 @@
 namespace scanbench::matching {
 namespace {
 
-using testing::box;
-using testing::cast;
-using testing::fan_sensor;
-using testing::OwnedScan;
-using testing::polygon;
-using testing::with_noise;
+using support::box;
+using support::cast;
+using support::fan_sensor;
+using support::OwnedScan;
+using support::polygon;
+using support::with_noise;
 
 /// A room of 17 m by 10 m with boxes that stand 1.6 m apart and are turned at random: from box to box the walls look
 /// alike.

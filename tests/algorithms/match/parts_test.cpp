@@ -17,11 +17,11 @@
 namespace scanbench::matching {
 namespace {
 
-using testing::cast;
-using testing::fan_sensor;
-using testing::OwnedScan;
-using testing::ring_sensor;
-using testing::with_noise;
+using support::cast;
+using support::fan_sensor;
+using support::OwnedScan;
+using support::ring_sensor;
+using support::with_noise;
 
 void expect_nearest_by_brute_force(const OwnedScan& owned) {
   const Scan scan = owned.view();
@@ -49,7 +49,7 @@ void expect_nearest_by_brute_force(const OwnedScan& owned) {
 
 TEST(NearestReturn, IsThatOfBruteForce) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const auto room = testing::random_room(seed);
+    const auto room = support::random_room(seed);
     expect_nearest_by_brute_force(with_noise(cast(ring_sensor(360), room), 0.05, seed));
     expect_nearest_by_brute_force(with_noise(cast(fan_sensor(451, radians(270)), room), 0.05, seed));
     expect_nearest_by_brute_force(with_noise(cast(fan_sensor(181, kPi), room), 0.3, seed));
@@ -59,13 +59,13 @@ TEST(NearestReturn, IsThatOfBruteForce) {
     expect_nearest_by_brute_force(with_noise(cast(sensor, room), 0.05, seed));
     OwnedScan holes = with_noise(cast(ring_sensor(360), room), 0.02, seed);
     for (std::size_t i = 0; i < holes.ranges.size(); ++i)
-      if (i % 7 == 0 || (i > 100 && i < 200)) holes.ranges[i] = testing::kInf;
+      if (i % 7 == 0 || (i > 100 && i < 200)) holes.ranges[i] = support::kInf;
     expect_nearest_by_brute_force(holes);
   }
 }
 
 TEST(NearestReturn, FollowsAPointThatMovesAsBruteForceDoes) {
-  const OwnedScan owned = with_noise(cast(ring_sensor(360), testing::random_room(4)), 0.05, 4);
+  const OwnedScan owned = with_noise(cast(ring_sensor(360), support::random_room(4)), 0.05, 4);
   const Scan scan = owned.view();
   const ReturnedPoints points = returned_points(scan);
   NearestReturn nearest(points);

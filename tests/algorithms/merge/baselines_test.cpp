@@ -11,9 +11,9 @@
 namespace scanbench {
 namespace {
 
-using testing::apart;
-using testing::line;
-using testing::merge;
+using support::apart;
+using support::line;
+using support::merge;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -61,7 +61,7 @@ TEST_P(MergeBaseline, FindsMatchesOfVeryLongSegmentsAnywhereAlongThem) {
 }
 
 TEST_P(MergeBaseline, DependsNeitherOnTheOrderNorOnTheSenseOfTheSegments) {
-  const auto lines = testing::spiral();
+  const auto lines = support::spiral();
   const MergeResult plain = merge(GetParam(), lines);
   CounterRng rng(2, RngStream::pose);
   std::vector<std::size_t> order(lines.size());
@@ -92,7 +92,7 @@ TEST_P(MergeBaseline, AnswersBadInputWithAStatus) {
 // apart.
 TEST(AmigoniChain, OverMergesTheSpiralAtTheToleranceAtWhichMeanShiftDoesNot) {
   const auto lines_at = [](const char* name, double angle_deg) {
-    return merge(name, testing::spiral(), {{"max_angle_deg", angle_deg}}).map.lines.size();
+    return merge(name, support::spiral(), {{"max_angle_deg", angle_deg}}).map.lines.size();
   };
   EXPECT_EQ(lines_at("amigoni_chain", 10), 30U);
   EXPECT_LT(lines_at("amigoni_chain", 20), 25U);

@@ -55,7 +55,7 @@ double relative_gradient(const std::vector<Vec3>& points, const Vec3& at, const 
 struct Climbs {
   Climbs() {
     Registry<SegmentMerger>::make("mean_shift", {{"sigma_m", kSigma}, {"cutoff", 6.0}})
-        ->merge({testing::spiral(), {}}, recorder.trace);
+        ->merge({support::spiral(), {}}, recorder.trace);
     for (const auto& row : recorder.rows<mean_shift::JointSpaceRow>())
       points.emplace_back(row.x_m, row.y_m, row.alpha_rad);
   }
@@ -66,7 +66,7 @@ struct Climbs {
       result[static_cast<std::size_t>(row.piece)].emplace_back(row.x_m, row.y_m, row.alpha_rad);
     return result;
   }
-  testing::TraceRecorder recorder{"merge"};
+  support::TraceRecorder recorder{"merge"};
   std::vector<Vec3> points;
 };
 

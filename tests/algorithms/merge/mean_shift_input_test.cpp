@@ -16,15 +16,15 @@
 namespace scanbench {
 namespace {
 
-using testing::apart;
-using testing::line;
+using support::apart;
+using support::line;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 MergeResult merge(const std::vector<MapLine>& lines, const ParamSet& params = {},
                   const std::vector<Vec2>& points = {}) {
-  return testing::merge("mean_shift", lines, params, points);
+  return support::merge("mean_shift", lines, params, points);
 }
 
 const ParamSet kStrict{{"labelling", std::string("strict")}, {"split_length_sigma", 1000.0}};
@@ -38,20 +38,20 @@ TEST(MeanShift, AnswersBadInputWithAStatusAndDropsWhatItCannotUse) {
   EXPECT_EQ(nothing.status, Status::converged);
   EXPECT_TRUE(nothing.map.lines.empty());
 
-  const MergeResult useless = merge({line(1, 1, 1, 1), line(kNan, 0, 1, 0), line(0, 0, kInfinity, 0),
+  const MergeResult useless = merge({line(1, 1, 1, 1), line(kNotANumber, 0, 1, 0), line(0, 0, kInfinity, 0),
                                      line(0, 0, 1e300, 0), line(-1e308, 0, 1e308, 0)},
                                     {{"split_length_sigma", 1e300}});
   EXPECT_EQ(useless.status, Status::degenerate);
   EXPECT_TRUE(useless.map.lines.empty());
   EXPECT_EQ(useless.labels, std::vector<int>(5, -1));
 
-  const MergeResult mixed = merge({line(1, 1, 1, 1), line(0, 0, 1, 0), line(0, kNan, 1, 0)});
+  const MergeResult mixed = merge({line(1, 1, 1, 1), line(0, 0, 1, 0), line(0, kNotANumber, 1, 0)});
   EXPECT_EQ(mixed.status, Status::converged);
   ASSERT_EQ(mixed.map.lines.size(), 1U);
   EXPECT_EQ(mixed.labels, (std::vector<int>{-1, 0, -1}));
 
   MapLine strange = line(0, 0, 1, 0);
-  strange.covariance.setConstant(kNan);
+  strange.covariance.setConstant(kNotANumber);
   EXPECT_EQ(merge({strange, strange, line(0, 0, 1, 0)}).map.lines.size(), 1U);
 }
 
@@ -83,7 +83,7 @@ TEST(MeanShift, RefusesASigmaThatIsNotPositiveOrCutsTheInputToDust) {
 
 TEST(MeanShift, ErasesOnlyShortLinesThatPointsDoNotSupport) {
   const std::vector<MapLine> lines{line(0, 0, 2, 0), line(0, 5, 0.4, 5), line(0, 9, 0.4, 9)};
-  std::vector<Vec2> points{{kNan, 0}, {kInfinity, 1e300}};
+  std::vector<Vec2> points{{kNotANumber, 0}, {kInfinity, 1e300}};
   for (int k = 0; k < 12; ++k) points.emplace_back(0.4 * (k + 0.5) / 12, 5.01);  // 30 per metre
   for (int k = 0; k < 9; ++k) points.emplace_back(0.4 * (k + 0.5) / 9, 9.01);    // 22.5 per metre
   for (int k = 0; k < 9; ++k) points.emplace_back(0.4 * (k + 0.5) / 9, 9.06);    // too far away
@@ -131,8 +131,8 @@ TEST(MeanShift, TrimsShortOvershootsAtIntersections) {
 }
 
 TEST(MeanShift, LeavesATraceThatFiguresCanBeDrawnFrom) {
-  const auto lines = testing::spiral();
-  testing::TraceRecorder recorder("merge");
+  const auto lines = support::spiral();
+  support::TraceRecorder recorder("merge");
   const auto merger = Registry<SegmentMerger>::make("mean_shift", {{"split_length_sigma", 10.0}});
   const MergeResult traced = merger->merge({lines, {}}, recorder.trace);
   Trace silent;

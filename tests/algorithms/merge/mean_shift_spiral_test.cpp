@@ -17,11 +17,11 @@ std::size_t merged_count(const std::vector<MapLine>& lines, const ParamSet& para
 
 TEST(MeanShiftSpiral, MergesThreeHundredSegmentsToThirtyForASigmaOf15To30Centimetres) {
   for (const double sigma : {0.15, 0.20, 0.25, 0.30}) {
-    EXPECT_EQ(merged_count(testing::spiral(), {{"sigma_m", sigma}}), 30U) << sigma;
-    EXPECT_EQ(merged_count(testing::spiral(), {{"sigma_m", sigma}, {"kernel2_factor", 2.0}}), 30U) << sigma;
-    EXPECT_EQ(merged_count(testing::spiral(), {{"sigma_m", sigma}, {"h_deg_per_m", 50.0}}), 30U) << sigma;
+    EXPECT_EQ(merged_count(support::spiral(), {{"sigma_m", sigma}}), 30U) << sigma;
+    EXPECT_EQ(merged_count(support::spiral(), {{"sigma_m", sigma}, {"kernel2_factor", 2.0}}), 30U) << sigma;
+    EXPECT_EQ(merged_count(support::spiral(), {{"sigma_m", sigma}, {"h_deg_per_m", 50.0}}), 30U) << sigma;
     // The paper's own setting: 300 points for 300 segments, clusters are modes.
-    EXPECT_EQ(merged_count(testing::spiral(),
+    EXPECT_EQ(merged_count(support::spiral(),
                            {{"sigma_m", sigma}, {"split_length_sigma", 100.0}, {"labelling", std::string("strict")}}),
               30U)
         << sigma;
@@ -31,7 +31,7 @@ TEST(MeanShiftSpiral, MergesThreeHundredSegmentsToThirtyForASigmaOf15To30Centime
 // The matrix of eqs 5 and 6 as printed is long along the mirrored direction, so it tears clusters apart.
 TEST(MeanShiftSpiral, FallsApartUnderTheKernelAsPrinted) {
   const ParamSet printed{{"kernel2", std::string("printed")}, {"kernel2_factor", 2.0}, {"join", false}};
-  EXPECT_GT(merged_count(testing::spiral(), printed), 30U);
+  EXPECT_GT(merged_count(support::spiral(), printed), 30U);
 }
 
 // Rotations of 1 degree and shifts of 2 cm (standard deviations). The outermost vertices are 3 m from the origin, so a
@@ -45,7 +45,7 @@ TEST(MeanShiftSpiral, MergesRandomCopiesToThirtyInMostDraws) {
       const double rotation = rng.normal();
       const double x = 0.02 * rng.normal();
       const double y = 0.02 * rng.normal();
-      const auto part = testing::spiral_copy(Pose2(x, y, radians(rotation)));
+      const auto part = support::spiral_copy(Pose2(x, y, radians(rotation)));
       lines.insert(lines.end(), part.begin(), part.end());
     }
     const std::size_t merged = merged_count(lines, {});

@@ -139,14 +139,14 @@ class PublishedFile : public ::testing::Test {
  protected:
   Scenario scenario_with_published(const std::string& csv) {
     write_file_atomically(folder_.path() / "paper.csv", csv);
-    Scenario scenario = testing::scenario_with(
-        "rooms", {testing::extract_with("lt", "test_line"), testing::extract_with("other", "test_line")});
+    Scenario scenario = fixtures::scenario_with(
+        "rooms", {fixtures::extract_with("lt", "test_line"), fixtures::extract_with("other", "test_line")});
     scenario.seeds = {4, 9};
     scenario.pipelines[0].published = "LT T=6cm";
     scenario.published_file = folder_.path() / "paper.csv";
     return scenario;
   }
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(PublishedFile, IsPairedWithOursByMetricSubjectMethodAndSeed) {
@@ -186,7 +186,7 @@ TEST_F(PublishedFile, WithAWordForANumberIsRefusedWithItsLine) {
 }
 
 TEST(ComparedScenario, WithoutPublishedValuesHasNone) {
-  EXPECT_THAT(compare_with_paper(testing::scenario_with("rooms", {testing::extract_with("lt", "test_line")}), {}),
+  EXPECT_THAT(compare_with_paper(fixtures::scenario_with("rooms", {fixtures::extract_with("lt", "test_line")}), {}),
               IsEmpty());
 }
 

@@ -16,15 +16,14 @@ namespace scanbench::harness {
 namespace {
 
 namespace fs = std::filesystem;
+using fixtures::extract_with;
+using fixtures::f1_run;
+using fixtures::made_up_run;
+using fixtures::run_here;
+using fixtures::scenario_with;
 using ::testing::ElementsAre;
-using testing::extract_with;
-using testing::f1_run;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::made_up_run;
-using testing::run_here;
-using testing::scenario_with;
-using testing::TemporaryFolder;
 
 const GateSpec kF1{{{"f1", 0.01}}};
 
@@ -286,9 +285,9 @@ TEST(Comparison, OfTwoRunsWithTheSameSelectionIsComplete) {
 TEST(Comparison, SaysWhenTheRecordingsDiffer) {
   const TemporaryFolder folder;
   const fs::path a = run_with_skip(folder.path() / "a", 0);
-  RunServices other = testing::services();
+  RunServices other = fixtures::services();
   other.recording = [](const Scenario&, std::uint64_t seed, int) {
-    return testing::random_recording(seed + 100, 5, 16, true);
+    return fixtures::random_recording(seed + 100, 5, 16, true);
   };
   const fs::path b = folder.path() / "b";
   run_with({scenario_with("s", {extract_with("a", "test_line"), extract_with("b", "test_line")}, {1, 2})}, {.out = b},

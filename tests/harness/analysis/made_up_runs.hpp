@@ -9,7 +9,7 @@
 #include "core/rng.hpp"
 #include "harness/analysis/run_results.hpp"
 
-namespace scanbench::harness::testing {
+namespace scanbench::harness::fixtures {
 
 /// The value of a metric in one cell.
 using ValueOf = std::function<double(const std::string& pipeline, const std::string& metric, std::uint64_t seed)>;
@@ -42,4 +42,4 @@ inline RunResults f1_run(const std::vector<double>& values) {
                      [&](const auto&, const auto&, std::uint64_t seed) { return values[seed - 1]; });
 }
 
-}  // namespace scanbench::harness::testing
+}  // namespace scanbench::harness::fixtures

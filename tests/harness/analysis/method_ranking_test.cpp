@@ -12,9 +12,9 @@
 namespace scanbench::harness {
 namespace {
 
+using fixtures::made_up_run;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-using testing::made_up_run;
 
 /// b is 0.1 better than a on every seed, c is equal to a.
 RunResults three_pipelines(std::size_t seeds) {

@@ -27,7 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
 
 constexpr int kScans = 60;
 constexpr int kBeams = 16;

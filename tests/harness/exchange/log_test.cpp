@@ -18,7 +18,7 @@ namespace scanbench::harness {
 namespace {
 
 using testing::HasSubstr;
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kNoReturn = std::numeric_limits<double>::infinity();
 
 SensorModel sensor() {
   return sim::make_sensor("custom", {});
@@ -93,10 +93,10 @@ TEST(CarmenLog, ReadingsBecomeWhatRep117Says) {
   const Recording r = carmen(text + " 0 0 0 0 0 0 1 h 1\n", {{"no_return_m", 50.0}, {"range_min_m", 0.02}});
   const auto& ranges = r.observed.frames[0].ranges;
   EXPECT_TRUE(std::isnan(ranges[0]));
-  EXPECT_EQ(ranges[1], -kInf);
+  EXPECT_EQ(ranges[1], -kNoReturn);
   EXPECT_EQ(ranges[2], 49.5);
-  EXPECT_EQ(ranges[3], kInf);
-  EXPECT_EQ(ranges[4], kInf);
+  EXPECT_EQ(ranges[3], kNoReturn);
+  EXPECT_EQ(ranges[4], kNoReturn);
   EXPECT_TRUE(std::isnan(ranges[5]));
   EXPECT_EQ(r.observed.sensor.range_max_m, 50.0);
 }
@@ -177,8 +177,8 @@ TEST(CsvLog, ColumnsSayWhatTheFieldsAre) {
 TEST(CsvLog, InfinitiesAndNanAreAllowedAmongTheRanges) {
   const Recording r = csv("inf -inf nan 2\n", {{"beams", std::int64_t{4}}});
   const auto& ranges = r.observed.frames[0].ranges;
-  EXPECT_EQ(ranges[0], kInf);
-  EXPECT_EQ(ranges[1], -kInf);
+  EXPECT_EQ(ranges[0], kNoReturn);
+  EXPECT_EQ(ranges[1], -kNoReturn);
   EXPECT_TRUE(std::isnan(ranges[2]));
 }
 

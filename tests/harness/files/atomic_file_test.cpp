@@ -29,11 +29,11 @@ TEST(Sha256, AgreesWithTheExamplesOfFips180) {
 }
 
 TEST(AtomicFile, ReplacesTheWholeFileAndLeavesNothingElse) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   write_file_atomically(folder.path() / "f", "long content");
   write_file_atomically(folder.path() / "f", "new");
   EXPECT_EQ(read_file(folder.path() / "f"), "new");
-  EXPECT_THAT(testing::listing(folder.path()), ElementsAre("f"));
+  EXPECT_THAT(fixtures::listing(folder.path()), ElementsAre("f"));
 }
 
 TEST(AtomicFile, ReadsFilesWhoseSizeTheSystemDoesNotSay) {
@@ -43,7 +43,7 @@ TEST(AtomicFile, ReadsFilesWhoseSizeTheSystemDoesNotSay) {
 }
 
 TEST(AtomicFile, WithoutRoomTheOldFileStaysAndTheReasonIsNamed) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path() / "f";
   write_file_atomically(file, "old");
   WorkerPool pool;  // a child, so that the limit does not affect the other tests
@@ -63,7 +63,7 @@ TEST(AtomicFile, WithoutRoomTheOldFileStaysAndTheReasonIsNamed) {
   ASSERT_EQ(finished.size(), 1u);
   EXPECT_EQ(finished[0].outcome.message, "cannot write " + file.string() + ": File too large");
   EXPECT_EQ(read_file(file), "old");
-  EXPECT_THAT(testing::listing(folder.path()), ElementsAre("f"));
+  EXPECT_THAT(fixtures::listing(folder.path()), ElementsAre("f"));
 }
 
 TEST(AtomicFile, NamesAFullDiskAndAMissingFolder) {
@@ -80,7 +80,7 @@ TEST(AtomicFile, NamesAFullDiskAndAMissingFolder) {
 }
 
 TEST(AtomicFile, AKilledWriterLeavesTheOldOrTheNewFileWhole) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path() / "f";
   const std::string a(1 << 20, 'a');
   const std::string b(1 << 20, 'b');
@@ -99,32 +99,33 @@ TEST(AtomicFile, AKilledWriterLeavesTheOldOrTheNewFileWhole) {
     const std::string found = read_file(file);
     EXPECT_TRUE(found == a || found == b) << found.size();
   }
-  for (const auto& name : testing::listing(folder.path())) EXPECT_TRUE(name == "f" || is_temporary_name(name)) << name;
+  for (const auto& name : fixtures::listing(folder.path())) EXPECT_TRUE(name == "f" || is_temporary_name(name)) << name;
 }
 
 TEST(StagedFolder, AppearsAsAWholeOrNotAtAll) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path target = folder.path() / "deep" / "cell";
   {
     StagedFolder staged(target);
     write_staged_file(staged.path() / "x", "1");
     EXPECT_FALSE(fs::exists(target));
   }
-  EXPECT_THAT(testing::listing(folder.path()), ElementsAre("deep"));
+  EXPECT_THAT(fixtures::listing(folder.path()), ElementsAre("deep"));
   for (const char* content : {"1", "2"}) {
     StagedFolder staged(target);
     write_staged_file(staged.path() / content, content);
     staged.commit();
-    EXPECT_THAT(testing::listing(folder.path()), ElementsAre("deep", "deep/cell", "deep/cell/" + std::string(content)));
+    EXPECT_THAT(fixtures::listing(folder.path()),
+                ElementsAre("deep", "deep/cell", "deep/cell/" + std::string(content)));
   }
 }
 
 TEST(ExchangeFolders, SwapsTwoFolders) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   make_folders(folder.path() / "a" / "in a");
   make_folders(folder.path() / "b" / "in b");
   exchange_folders(folder.path() / "a", folder.path() / "b");
-  EXPECT_THAT(testing::listing(folder.path()), ElementsAre("a", "a/in b", "b", "b/in a"));
+  EXPECT_THAT(fixtures::listing(folder.path()), ElementsAre("a", "a/in b", "b", "b/in a"));
 }
 
 }  // namespace

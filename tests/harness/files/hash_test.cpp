@@ -11,8 +11,6 @@
 namespace scanbench::harness {
 namespace {
 
-using testing::TemporaryFolder;
-
 TEST(Hash, WithoutATextDependsOnAllOtherBytes) {
   const TemporaryFolder folder;
   const auto hash = [&](const std::string& bytes, const std::string& text) {

@@ -41,7 +41,7 @@ TEST(Npy, GivesBackEveryBitOfEveryDouble) {
       -0.0, std::numeric_limits<double>::quiet_NaN(), 5e-324, std::numeric_limits<double>::infinity(), 0.1, -1e308};
   const auto array = parse_npy_float64(npy_bytes(values, 3, 2), "f");
   EXPECT_EQ(array.rows, 3u);
-  EXPECT_EQ(testing::bits(array.values), testing::bits(values));
+  EXPECT_EQ(fixtures::bits(array.values), fixtures::bits(values));
   EXPECT_EQ(parse_npy_float64(npy_bytes(std::span<const double>{}, 0, 7), "f").columns, 7u);
 }
 

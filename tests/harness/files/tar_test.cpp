@@ -43,7 +43,7 @@ std::string archive_of(const std::vector<File>& all) {
 }
 
 TEST(Tar, TheProgramTarUnpacksEveryFile) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   write_file_atomically(folder.path() / "a.tar", archive_of(files()) + tar_end());
   fs::create_directory(folder.path() / "out");
   const std::string command =
@@ -53,7 +53,7 @@ TEST(Tar, TheProgramTarUnpacksEveryFile) {
 }
 
 TEST(Tar, ReadsWhatTheProgramTarWrites) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   fs::create_directories(folder.path() / "in");
   write_file_atomically(folder.path() / "in/one", "first");
   write_file_atomically(folder.path() / "in/two", std::string(2000, 'y'));

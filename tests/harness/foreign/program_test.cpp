@@ -25,7 +25,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-namespace scans = scanbench::testing;
+namespace scans = scanbench::support;
 using scans::OwnedScan;
 
 bool has_python() {
@@ -108,7 +108,7 @@ class Programs : public ::testing::Test {
   }
 
   const OwnedScan scan_ = scans::cast(scans::fan_sensor(91, radians(90)), {{{2, -9}, {2, 9}}});
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   int count_ = 0;
 };
 

@@ -16,9 +16,8 @@
 namespace scanbench::harness {
 namespace {
 
-using testing::f1_run;
+using fixtures::f1_run;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
 
 Gates f1_gate() {
   return Gates(GateSpec{{{"f1", 0.01}}});

@@ -13,11 +13,11 @@
 namespace scanbench::harness {
 namespace {
 
-using testing::f1_run;
+using fixtures::f1_run;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Gates f1_gate() {
+Gates gate_of_f1() {
   return Gates(GateSpec{{{"f1", 0.01}}});
 }
 
@@ -26,7 +26,7 @@ Comparison worse_and_broken() {
   now.cells[2].status = "crashed";
   now.cells[2].message = "</testcase><script>alert(1)</script> | \x1b[31m";
   now.cells[2].rows.clear();
-  return compare(f1_run({0.9, 0.8, 0.7}), now, f1_gate());
+  return compare(f1_run({0.9, 0.8, 0.7}), now, gate_of_f1());
 }
 
 TEST(ComparisonFiles, JsonHasEveryPair) {
@@ -37,7 +37,8 @@ TEST(ComparisonFiles, JsonHasEveryPair) {
   EXPECT_EQ(change.at("metric"), "f1");
   EXPECT_EQ(change.at("pairs").size(), 2U);
   EXPECT_EQ(change.at("pairs").at(1).at("after"), 0.41);
-  const auto lost = nlohmann::json::parse(comparison_json(compare(f1_run({0.9, 0.8}), f1_run({0.9, kNaN}), f1_gate())));
+  const auto lost =
+      nlohmann::json::parse(comparison_json(compare(f1_run({0.9, 0.8}), f1_run({0.9, kNaN}), gate_of_f1())));
   EXPECT_TRUE(lost.at("changes").at(0).at("pairs").at(1).at("after").is_null());
 }
 
@@ -45,9 +46,9 @@ TEST(ComparisonFiles, JunitCountsAFailurePerGateAndCell) {
   const std::string xml = comparison_junit(worse_and_broken());
   EXPECT_THAT(xml, HasSubstr("<testsuite name=\"scanbench\" tests=\"2\" failures=\"2\" errors=\"0\">"));
   EXPECT_THAT(xml, HasSubstr("classname=\"room.iepf\" name=\"f1\"><failure message=\"f1 of iepf in room fell"));
-  const std::string good = comparison_junit(compare(f1_run({0.9}), f1_run({0.9}), f1_gate()));
+  const std::string good = comparison_junit(compare(f1_run({0.9}), f1_run({0.9}), gate_of_f1()));
   EXPECT_THAT(good, HasSubstr("tests=\"1\" failures=\"0\" errors=\"0\""));
-  const std::string missing = comparison_junit(compare(f1_run({0.9, 0.8}), f1_run({0.9}), f1_gate()));
+  const std::string missing = comparison_junit(compare(f1_run({0.9, 0.8}), f1_run({0.9}), gate_of_f1()));
   EXPECT_THAT(missing, HasSubstr("errors=\"1\""));
   EXPECT_THAT(missing, HasSubstr("<error message=\"the cell is missing\"/>"));
 }
@@ -55,7 +56,7 @@ TEST(ComparisonFiles, JunitCountsAFailurePerGateAndCell) {
 TEST(ComparisonTables, CountNewCellsAndListTheFirst) {
   const auto zero = [](const auto&, const auto&, std::uint64_t) { return 0.5; };
   const std::vector<std::string> many{"iepf", "b", "c", "d", "e", "f", "g", "h"};
-  const Comparison c = compare(f1_run({0.5, 0.5}), testing::made_up_run(many, {"f1"}, 4, zero), f1_gate());
+  const Comparison c = compare(f1_run({0.5, 0.5}), fixtures::made_up_run(many, {"f1"}, 4, zero), gate_of_f1());
   ASSERT_EQ(c.added.size(), 2U + 7U * 4U);
   const auto table = completeness_table(c);
   ASSERT_TRUE(table.has_value());

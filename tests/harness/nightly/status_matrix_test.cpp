@@ -21,10 +21,10 @@ RunResults three_scenarios(double value_of_b) {
   const auto value = [&](const std::string& pipeline, const std::string&, std::uint64_t seed) {
     return (pipeline == "b" ? value_of_b : 0.9) + 1e-4 * static_cast<double>(seed * seed);
   };
-  RunResults all = testing::made_up_run({"a", "b"}, {"f1"}, 5, value);
+  RunResults all = fixtures::made_up_run({"a", "b"}, {"f1"}, 5, value);
   for (const auto& [scenario, pipelines] :
        {std::pair{"hall", std::vector<std::string>{"a", "b"}}, std::pair{"maze", std::vector<std::string>{"c"}}})
-    for (auto& cell : testing::made_up_run(pipelines, {"f1"}, 5, value).cells) {
+    for (auto& cell : fixtures::made_up_run(pipelines, {"f1"}, 5, value).cells) {
       cell.key.scenario = scenario;
       all.cells.push_back(cell);
     }

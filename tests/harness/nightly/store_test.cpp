@@ -21,10 +21,9 @@
 namespace scanbench::harness {
 namespace {
 
+using fixtures::f1_run;
 using ::testing::ElementsAre;
-using testing::f1_run;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
 
 RunResults night_of(const std::string& start, const std::vector<double>& f1) {
   RunResults run = f1_run(f1);
@@ -68,7 +67,7 @@ TEST(Store, GivesBackWhatItWasGiven) {
       EXPECT_EQ(is.rows[r].subject, was.rows[r].subject);
       EXPECT_EQ(is.rows[r].unit, was.rows[r].unit);
       EXPECT_EQ(is.rows[r].count, was.rows[r].count);
-      EXPECT_EQ(testing::bits({is.rows[r].value}), testing::bits({was.rows[r].value}));
+      EXPECT_EQ(fixtures::bits({is.rows[r].value}), fixtures::bits({was.rows[r].value}));
     }
   }
   EXPECT_THROW(store.load(id + 1), ConfigError);

@@ -43,11 +43,11 @@ std::vector<int> decoded(const std::string& text) {
 class PlayedRun : public ::testing::Test {
  protected:
   void SetUp() override {
-    scenarios_ = {testing::scenario_with("s", {testing::extract_with("a", "test_line")}, {4, 2})};
-    testing::run_here(scenarios_, {.out = out_});
+    scenarios_ = {fixtures::scenario_with("s", {fixtures::extract_with("a", "test_line")}, {4, 2})};
+    fixtures::run_here(scenarios_, {.out = out_});
     scenarios_[0].input = RecordedInput{};  // these random scans have no world
   }
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   std::filesystem::path out_ = folder_.path() / "r";
   std::vector<Scenario> scenarios_;
 };

@@ -18,11 +18,11 @@
 namespace scanbench::harness {
 namespace {
 
+using fixtures::extract_with;
 using metrics::Direction;
 using metrics::MetricDescription;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
-using testing::extract_with;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;

@@ -28,15 +28,15 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 PipelineSpec full_pipeline(bool covariance) {
-  PipelineSpec pipeline = testing::extract_with("p", "test_line", {{"covariance", covariance}});
+  PipelineSpec pipeline = fixtures::extract_with("p", "test_line", {{"covariance", covariance}});
   pipeline.slots.push_back({"align", "test_shift", {}});
   pipeline.slots.push_back({"merge", "test_merge", {}});
   return pipeline;
 }
 
 TEST(CellFiles, GiveBackAResult) {
-  const testing::TemporaryFolder folder;
-  const Recording recording = testing::random_recording(2, 5, 16, true);
+  const TemporaryFolder folder;
+  const Recording recording = fixtures::random_recording(2, 5, 16, true);
   for (const bool covariance : {false, true}) {
     const PipelineSpec pipeline = full_pipeline(covariance);
     PipelineResult saved = run_pipeline(pipeline, recording.observed).result;
@@ -85,9 +85,9 @@ TEST(CellFiles, GiveBackAResult) {
 }
 
 TEST(CellFiles, GiveBackMatchesOfPoses) {
-  const testing::TemporaryFolder folder;
-  const Recording recording = testing::random_recording(2, 5, 16, true);
-  PipelineSpec pipeline = testing::extract_with("p", "test_line");
+  const TemporaryFolder folder;
+  const Recording recording = fixtures::random_recording(2, 5, 16, true);
+  PipelineSpec pipeline = fixtures::extract_with("p", "test_line");
   pipeline.slots.push_back({"match", "test_ahead", {}});
   PipelineResult saved = run_pipeline(pipeline, recording.observed).result;
   ASSERT_EQ(saved.matches.size(), 4u);
@@ -112,8 +112,8 @@ TEST(CellFiles, GiveBackMatchesOfPoses) {
 }
 
 TEST(CellFiles, WithLabelsOfLinesThatAreNotThereAreRefused) {
-  const testing::TemporaryFolder folder;
-  const Recording recording = testing::random_recording(2, 5, 16, true);
+  const TemporaryFolder folder;
+  const Recording recording = fixtures::random_recording(2, 5, 16, true);
   write_result(folder.path(), full_pipeline(false), run_pipeline(full_pipeline(false), recording.observed).result);
   const std::string header = "frame,line,cluster1,cluster2,map_line\n";
   const auto refusal = [&](const std::string& row) {
@@ -133,14 +133,14 @@ TEST(CellFiles, WithLabelsOfLinesThatAreNotThereAreRefused) {
 }
 
 TEST(CellFiles, HaveTheNamesAndColumnsOfTheContract) {
-  const testing::TemporaryFolder folder;
-  const Recording recording = testing::random_recording(2, 5, 16, true);
+  const TemporaryFolder folder;
+  const Recording recording = fixtures::random_recording(2, 5, 16, true);
   write_result(folder.path(), full_pipeline(false), run_pipeline(full_pipeline(false), recording.observed).result);
   const auto header = [&](const char* name) {
     const std::string text = read_file(folder.path() / name);
     return text.substr(0, text.find('\n'));
   };
-  EXPECT_THAT(testing::listing(folder.path()),
+  EXPECT_THAT(fixtures::listing(folder.path()),
               ElementsAre("labels.npy", "lines.csv", "map.csv", "merge_labels.csv", "poses.csv", "timing.csv"));
   EXPECT_EQ(header("lines.csv"), "frame,line,x1_m,y1_m,x2_m,y2_m,rho_m,alpha_rad,first_beam,last_beam,points,rms_m");
   EXPECT_EQ(header("map.csv"), "line,x1_m,y1_m,x2_m,y2_m,members,points");
@@ -148,15 +148,15 @@ TEST(CellFiles, HaveTheNamesAndColumnsOfTheContract) {
   EXPECT_EQ(header("merge_labels.csv"), "frame,line,cluster1,cluster2,map_line");
   EXPECT_EQ(header("timing.csv"), "stage,frame,seconds");
 
-  const testing::TemporaryFolder alone;
-  const PipelineSpec extract = testing::extract_with("p", "test_line");
+  const TemporaryFolder alone;
+  const PipelineSpec extract = fixtures::extract_with("p", "test_line");
   write_result(alone.path(), extract, run_pipeline(extract, recording.observed).result);
-  EXPECT_THAT(testing::listing(alone.path()), ElementsAre("labels.npy", "lines.csv", "timing.csv"));
+  EXPECT_THAT(fixtures::listing(alone.path()), ElementsAre("labels.npy", "lines.csv", "timing.csv"));
   EXPECT_FALSE(load_result(alone.path()).has_map);
 }
 
 TEST(CellFiles, DistinguishAnEmptyMapFromNone) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   PipelineResult nothing_merged;
   nothing_merged.has_map = true;
   write_result(folder.path(), full_pipeline(false), nothing_merged);
@@ -166,7 +166,7 @@ TEST(CellFiles, DistinguishAnEmptyMapFromNone) {
 }
 
 TEST(CellFiles, KeepStatusAndMetrics) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   CellRecord record;
   record.outcome.status = CellStatus::timeout;
   record.outcome.message = "quote \" and bad bytes \xff\n";
@@ -202,9 +202,9 @@ TEST(CellFiles, KeepStatusAndMetrics) {
 }
 
 TEST(CellFiles, ThatDoNotFitEachOtherAreRefused) {
-  const testing::TemporaryFolder folder;
-  const Recording recording = testing::random_recording(2, 5, 16, true);
-  const PipelineSpec extract = testing::extract_with("p", "test_line");
+  const TemporaryFolder folder;
+  const Recording recording = fixtures::random_recording(2, 5, 16, true);
+  const PipelineSpec extract = fixtures::extract_with("p", "test_line");
   write_result(folder.path(), extract, run_pipeline(extract, recording.observed).result);
   const std::string lines = read_file(folder.path() / "lines.csv");
   write_file_atomically(folder.path() / "lines.csv", lines.substr(0, lines.find('\n') + 1));
@@ -214,7 +214,7 @@ TEST(CellFiles, ThatDoNotFitEachOtherAreRefused) {
 }
 
 TEST(CellAddress, ChangesWithEverythingThatTheResultDependsOn) {
-  const Scenario base = testing::scenario_with("s", {testing::extract_with("p", "test_line", {{"skip", 1.0}})});
+  const Scenario base = fixtures::scenario_with("s", {fixtures::extract_with("p", "test_line", {{"skip", 1.0}})});
   const auto address = [](const Scenario& s, std::uint64_t seed = 1) {
     return cell_address(input_address(s), work_address(s.metrics, s.pipelines[0]), seed, {});
   };
@@ -235,7 +235,7 @@ TEST(CellAddress, ChangesWithEverythingThatTheResultDependsOn) {
 }
 
 TEST(CellAddress, ChangesWithTheCopiesOfLinesAndTheirTruth) {
-  Scenario base = testing::scenario_with("s", {});
+  Scenario base = fixtures::scenario_with("s", {});
   LinesInput input;
   input.world.emplace().walls = {{"a", {{0, 0}, {1, 0}}}};
   input.params = {{"copies", std::int64_t{3}}};
@@ -252,9 +252,9 @@ TEST(CellAddress, ChangesWithTheCopiesOfLinesAndTheirTruth) {
 }
 
 TEST(CellAddress, FollowsTheBytesOfALineFileAndNotItsPath) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto address = [&](const std::string& name, const std::string& bytes) {
-    Scenario scenario = testing::scenario_with("s", {});
+    Scenario scenario = fixtures::scenario_with("s", {});
     LinesInput input;
     input.file = folder.path() / name;
     scenario.input = input;
@@ -266,7 +266,7 @@ TEST(CellAddress, FollowsTheBytesOfALineFileAndNotItsPath) {
 }
 
 TEST(CellAddress, OfAScenarioWithAWorldFileIsThatOfItsEffectiveScenario) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path world = places::source_dir() / "scenarios/worlds/borges15.yaml";
   write_file_atomically(folder.path() / "s.yaml",
                         "schema: 1\nworld: {file: " + world.string() +
@@ -282,8 +282,8 @@ TEST(CellAddress, OfAScenarioWithAWorldFileIsThatOfItsEffectiveScenario) {
 }
 
 TEST(CellAddress, FollowsTheBytesOfALog) {
-  const testing::TemporaryFolder folder;
-  Scenario scenario = testing::scenario_with("s", {});
+  const TemporaryFolder folder;
+  Scenario scenario = fixtures::scenario_with("s", {});
   RecordedInput input;
   input.log = folder.path() / "log";
   for (const auto& spec : recorded_sensor_specs()) input.sensor_params[spec.name] = 0.0;

@@ -48,7 +48,7 @@ TEST(Forecast, CellsAndRaysAreExactAndBytesAreNearThoseOfTheRun) {
   EXPECT_GT(room.seconds, 0);
   EXPECT_FALSE(fs::exists("unused"));
 
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   ASSERT_EQ(run(scenarios, {.out = folder.path() / "run"}).exit_code(), 0);
   const double bytes = bytes_of(folder.path() / "run/recordings") + bytes_of(folder.path() / "run/cells");
   EXPECT_NEAR(room.bytes, bytes, 0.1 * bytes);  // the number of lines per scan varies on the way

@@ -26,7 +26,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 const Recording& recording() {
-  static const Recording made = testing::random_recording(5, 6, 24, false);
+  static const Recording made = fixtures::random_recording(5, 6, 24, false);
   return made;
 }
 
@@ -109,10 +109,9 @@ SCANBENCH_REGISTER(LineExtractor, FaultyLine,
                    {.name = "test_faulty_line", .summary = "of the tests", .reference = "none"});
 
 TEST(Pipeline, RefusesALineThatBreaksTheContract) {
-  ASSERT_TRUE(registered);
   for (const std::int64_t fault : {0, 1, 2, 3, 4, 5, 6, 7, 8, 10, 11, 12, 13, 14}) {
     SCOPED_TRACE(fault);
-    const PipelineSpec pipeline = testing::extract_with("p", "test_faulty_line", {{"fault", fault}});
+    const PipelineSpec pipeline = fixtures::extract_with("p", "test_faulty_line", {{"fault", fault}});
     if (fault == 0) {
       EXPECT_NO_THROW(run_pipeline(pipeline, recording().observed));
     } else {
@@ -148,7 +147,7 @@ class FaultyMatch final : public ScanMatcher {
 
 TEST(Pipeline, RefusesAMatchThatBreaksTheContract) {
   const auto fault_of = [](std::int64_t fault) -> std::string {
-    PipelineSpec pipeline = testing::extract_with("p", "test_line", {});
+    PipelineSpec pipeline = fixtures::extract_with("p", "test_line", {});
     pipeline.slots.push_back({"match", "test_faulty_match", {{"fault", fault}}});
     try {
       run_pipeline(pipeline, recording().observed);
@@ -169,7 +168,7 @@ TEST(Pipeline, RefusesAMatchThatBreaksTheContract) {
 }
 
 TEST(Pipeline, TakesALineWithoutLength) {  // Siadat et al. 1997 count a single returned point as a segment
-  const PipelineSpec pipeline = testing::extract_with("p", "test_faulty_line", {{"fault", std::int64_t{9}}});
+  const PipelineSpec pipeline = fixtures::extract_with("p", "test_faulty_line", {{"fault", std::int64_t{9}}});
   EXPECT_NO_THROW(run_pipeline(pipeline, recording().observed));
 }
 

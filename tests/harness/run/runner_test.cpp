@@ -30,12 +30,12 @@ namespace {
 
 namespace fs = std::filesystem;
 const RunFile kFigures("figures/*.png");  // its writer, the report, is not in this program
-using testing::cell_of;
+using fixtures::cell_of;
+using fixtures::extract_with;
+using fixtures::run_here;
+using fixtures::scenario_with;
 using ::testing::ElementsAre;
-using testing::extract_with;
 using ::testing::HasSubstr;
-using testing::run_here;
-using testing::scenario_with;
 
 std::vector<Scenario> two_scenarios() {
   PipelineSpec merge = extract_with("merge", "test_line", {{"skip", std::int64_t{1}}});
@@ -45,22 +45,22 @@ std::vector<Scenario> two_scenarios() {
 }
 
 TEST(Runner, LeavesTheSameBytesForAnyNumberOfJobs) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto scenarios = two_scenarios();
   const RunResult one = run_here(scenarios, {.out = folder.path() / "1", .jobs = 1});
   EXPECT_EQ(one.exit_code(), 3);
   EXPECT_EQ(one.cells.size(), 8u);
-  const auto expected = testing::artefacts(folder.path() / "1");
+  const auto expected = fixtures::artefacts(folder.path() / "1");
   EXPECT_GT(expected.size(), 8u * 3u);
   for (const int jobs : {2, 5}) {
     const fs::path out = folder.path() / std::to_string(jobs);
     run_here(scenarios, {.out = out, .jobs = jobs});
-    EXPECT_EQ(testing::artefacts(out), expected);
+    EXPECT_EQ(fixtures::artefacts(out), expected);
   }
 }
 
 TEST(Runner, WritesSummaryRowsInTheOrderOfTheScenarioFiles) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   run_here(two_scenarios(), {.out = folder.path() / "r", .jobs = 2});
   const CsvTable table(read_file(folder.path() / "r" / "summary.csv"), "summary.csv");
   EXPECT_THAT(table.columns(),
@@ -74,7 +74,7 @@ TEST(Runner, WritesSummaryRowsInTheOrderOfTheScenarioFiles) {
 }
 
 TEST(Runner, ResumesAfterAnInterruptToTheSameBytes) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto scenarios = two_scenarios();
   run_here(scenarios, {.out = folder.path() / "whole"});
   for (const std::size_t after : {0u, 1u, 4u}) {
@@ -88,7 +88,7 @@ TEST(Runner, ResumesAfterAnInterruptToTheSameBytes) {
     if (after < 4) {  // later cells may be put in place together with the fourth
       EXPECT_LT(std::ranges::count(broken.cells, true, &CellResult::done), 8);
     }
-    for (const auto& name : testing::listing(out)) EXPECT_FALSE(is_temporary_name(fs::path(name).filename().string()));
+    for (const auto& name : fixtures::listing(out)) EXPECT_FALSE(is_temporary_name(fs::path(name).filename().string()));
 
     const RunResult resumed = run_here(scenarios, {.out = out, .jobs = 1, .resume = true});
     EXPECT_EQ(resumed.exit_code(), 3);
@@ -100,12 +100,12 @@ TEST(Runner, ResumesAfterAnInterruptToTheSameBytes) {
         EXPECT_EQ(again.record.outcome.wall_seconds, cell.record.outcome.wall_seconds);
       }
     }
-    EXPECT_EQ(testing::artefacts(out), testing::artefacts(folder.path() / "whole"));
+    EXPECT_EQ(fixtures::artefacts(out), fixtures::artefacts(folder.path() / "whole"));
   }
 }
 
 TEST(Runner, ResumeRunsAgainWhatHasChangedOrIsDamagedAndNothingElse) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
   std::vector<Scenario> scenarios{scenario_with("s", {extract_with("a", "test_line"), extract_with("b", "test_line")})};
   run_here(scenarios, {.out = out});
@@ -124,7 +124,7 @@ TEST(Runner, ResumeRunsAgainWhatHasChangedOrIsDamagedAndNothingElse) {
   result = run_here(scenarios, {.out = out, .resume = true});
   EXPECT_TRUE(fs::exists(out / "recordings/s/1/scan.json"));
   run_here(scenarios, {.out = folder.path() / "fresh"});
-  EXPECT_EQ(testing::artefacts(out), testing::artefacts(folder.path() / "fresh"));
+  EXPECT_EQ(fixtures::artefacts(out), fixtures::artefacts(folder.path() / "fresh"));
 }
 
 /// The manifest of a killed run, which has no list of files.
@@ -137,13 +137,13 @@ void forget_artefacts(const fs::path& run) {
 }
 
 TEST(Runner, ResumeRunsAgainACellWithADamagedFile) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   PipelineSpec merging = extract_with("merging", "test_line");
   merging.slots.push_back({"merge", "test_merge", {}});
   const std::vector<Scenario> scenarios{scenario_with("s", {merging, extract_with("other", "test_line")})};
   const fs::path out = folder.path() / "r";
   run_here(scenarios, {.out = out, .journal = true});
-  const auto whole = testing::artefacts(out);
+  const auto whole = fixtures::artefacts(out);
   const fs::path cell = out / "cells/s/merging/1";
 
   const auto remove = [](const fs::path& file) { fs::remove(file); };
@@ -160,7 +160,7 @@ TEST(Runner, ResumeRunsAgainACellWithADamagedFile) {
       {"map.csv", {remove, cut, change}},   {"merge_labels.csv", {remove, cut, change}},
       {"poses.csv", {remove, cut, change}}, {"timing.csv", {remove, cut, change}},
       {"trace.csv", {remove, cut, change}}, {"metrics.csv", {remove, cut, change}}};
-  ASSERT_EQ(cases.size() + 1, testing::listing(cell).size());  // and status.json
+  ASSERT_EQ(cases.size() + 1, fixtures::listing(cell).size());  // and status.json
   for (const auto& [name, damages] : cases)
     for (std::size_t i = 0; i < damages.size(); ++i)
       for (const bool killed : {false, true}) {
@@ -171,7 +171,7 @@ TEST(Runner, ResumeRunsAgainACellWithADamagedFile) {
         const RunResult result = run_here(scenarios, {.out = out, .resume = true, .journal = true});
         EXPECT_FALSE(cell_of(result, "s/merging/1").reused);
         EXPECT_TRUE(cell_of(result, "s/other/1").reused);
-        EXPECT_EQ(testing::artefacts(out), whole);
+        EXPECT_EQ(fixtures::artefacts(out), whole);
       }
   forget_artefacts(out);
   const RunResult result = run_here(scenarios, {.out = out, .resume = true, .journal = true});
@@ -179,7 +179,7 @@ TEST(Runner, ResumeRunsAgainACellWithADamagedFile) {
 }
 
 TEST(Runner, TurnsEveryKindOfFailureIntoARow) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   Scenario scenario =
       scenario_with("s", {extract_with("ok", "test_line"), extract_with("failed", "test_throw"),
                           extract_with("crashed", "test_crash"), extract_with("left", "test_leave"),
@@ -200,7 +200,7 @@ TEST(Runner, TurnsEveryKindOfFailureIntoARow) {
     const fs::path path = cell_path(folder.path() / "r", cell.key);
     EXPECT_EQ(to_string(load_status(path).outcome.status), expected);
     if (expected != "ok") {
-      EXPECT_THAT(testing::listing(path), ElementsAre("status.json"));
+      EXPECT_THAT(fixtures::listing(path), ElementsAre("status.json"));
     }
   }
   EXPECT_THAT(cell_of(result, "s/crashed/1").record.outcome.message, HasSubstr("a last word before the fall"));
@@ -210,24 +210,24 @@ TEST(Runner, TurnsEveryKindOfFailureIntoARow) {
 }
 
 TEST(Runner, RefusesAFolderThatIsNotARunAndLeavesItAlone) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   write_file_atomically(folder.path() / "thesis.tex", "years of work");
   for (const bool resume : {false, true})
     EXPECT_THROW(run_here(two_scenarios(), {.out = folder.path(), .resume = resume}), ConfigError);
   EXPECT_THROW(run_here(two_scenarios(), {.out = folder.path() / "thesis.tex"}), ConfigError);
   write_file_atomically(folder.path() / "manifest.json", "{\"name\": \"a web page\"}");
   EXPECT_THROW(run_here(two_scenarios(), {.out = folder.path()}), ConfigError);
-  EXPECT_THAT(testing::listing(folder.path()), ElementsAre("manifest.json", "thesis.tex"));
+  EXPECT_THAT(fixtures::listing(folder.path()), ElementsAre("manifest.json", "thesis.tex"));
 }
 
 TEST(Runner, ReplacesAnOldRunOnlyWhenTheNewOneIsThere) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
   run_here({scenario_with("old", {extract_with("a", "test_line")})}, {.out = out});
   make_folders(out / "figures");
   write_file_atomically(out / "figures" / "environment.png", "of the old run");
   write_file_atomically(out / "notes.txt", "mine");
-  const auto before = testing::listing(folder.path());
+  const auto before = fixtures::listing(folder.path());
   const std::vector<Scenario> scenarios{scenario_with("new", {extract_with("a", "test_line")}, {1, 2})};
 
   RunOptions options{.out = out};
@@ -235,7 +235,7 @@ TEST(Runner, ReplacesAnOldRunOnlyWhenTheNewOneIsThere) {
     if (p.done == 1) ::raise(SIGINT);
   };
   EXPECT_EQ(run_here(scenarios, options).exit_code(), 130);
-  EXPECT_EQ(testing::listing(folder.path()), before);
+  EXPECT_EQ(fixtures::listing(folder.path()), before);
 
   EXPECT_EQ(run_here(scenarios, {.out = out}).exit_code(), 0);
   EXPECT_EQ(read_file(out / "notes.txt"), "mine");
@@ -248,8 +248,8 @@ TEST(Runner, ReplacesAnOldRunOnlyWhenTheNewOneIsThere) {
 }
 
 TEST(Runner, BadInputLeavesNothingBehind) {
-  const testing::TemporaryFolder folder;
-  RunServices bad = testing::services();
+  const TemporaryFolder folder;
+  RunServices bad = fixtures::services();
   bad.recording = [](const Scenario&, std::uint64_t, int) -> Recording {
     throw ConfigError("the path crosses wall w3");
   };
@@ -265,7 +265,7 @@ TEST(Runner, BadInputLeavesNothingBehind) {
   // One bad scenario among good ones loses only its own cells.
   bad.recording = [](const Scenario& s, std::uint64_t seed, int) -> Recording {
     if (s.name == "one") throw ConfigError("the path crosses wall w3");
-    return testing::random_recording(seed, 5, 16, true);
+    return fixtures::random_recording(seed, 5, 16, true);
   };
   const RunResult result = run_with(two_scenarios(), {.out = out}, bad);
   EXPECT_EQ(result.exit_code(), 3);
@@ -275,11 +275,11 @@ TEST(Runner, BadInputLeavesNothingBehind) {
 }
 
 TEST(Runner, ARecordingThatCrashesOrHangsSkipsItsCells) {
-  const testing::TemporaryFolder folder;
-  RunServices broken = testing::services();
+  const TemporaryFolder folder;
+  RunServices broken = fixtures::services();
   broken.recording = [](const Scenario& s, std::uint64_t seed, int) -> Recording {
     if (s.name == "one") ::raise(SIGKILL);
-    return testing::random_recording(seed, 5, 16, true);
+    return fixtures::random_recording(seed, 5, 16, true);
   };
   const RunResult result = run_with(two_scenarios(), {.out = folder.path() / "r", .jobs = 2}, broken);
   EXPECT_EQ(result.exit_code(), 3);
@@ -288,7 +288,7 @@ TEST(Runner, ARecordingThatCrashesOrHangsSkipsItsCells) {
 }
 
 TEST(Runner, SelectsByScenarioByPipelineAndByBoth) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto selection = [&](std::vector<std::string> only) {
     auto scenarios = two_scenarios();
     for (auto& scenario : scenarios) scenario.seeds = {9};
@@ -304,7 +304,7 @@ TEST(Runner, SelectsByScenarioByPipelineAndByBoth) {
 }
 
 TEST(Runner, ManifestNamesEveryFileWithItsHash) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
   run_here(two_scenarios(), {.out = out, .argv = {"scanbench", "run"}});
   const auto manifest = nlohmann::json::parse(read_file(out / "manifest.json"));
@@ -313,7 +313,7 @@ TEST(Runner, ManifestNamesEveryFileWithItsHash) {
     EXPECT_EQ(artefact["sha256"], sha256_of_file(out / artefact["path"]));
     listed.insert(artefact["path"]);
   }
-  for (const auto& name : testing::listing(out))
+  for (const auto& name : fixtures::listing(out))
     if (fs::is_regular_file(out / name) && name != "manifest.json") {
       EXPECT_TRUE(listed.contains(name)) << name;
     }
@@ -328,7 +328,7 @@ TEST(Runner, ManifestNamesEveryFileWithItsHash) {
 }
 
 TEST(Runner, OfOneScenarioWritesItsFileAtTheTop) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   run_here({scenario_with("s", {extract_with("a", "test_line")})}, {.out = folder.path() / "r", .journal = true});
   EXPECT_EQ(read_file(folder.path() / "r/scenario.yaml"), "about: s\n");
   EXPECT_TRUE(fs::exists(folder.path() / "r/effective.yaml"));
@@ -336,7 +336,7 @@ TEST(Runner, OfOneScenarioWritesItsFileAtTheTop) {
 }
 
 TEST(Runner, ACellThatCannotBeWrittenMakesTheRunIncomplete) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
   const std::vector<Scenario> scenarios{
       scenario_with("s", {extract_with("a", "test_line"), extract_with("b", "test_line")})};
@@ -350,11 +350,11 @@ TEST(Runner, ACellThatCannotBeWrittenMakesTheRunIncomplete) {
 }
 
 TEST(Runner, AnErrorOfTheSystemMakesACellMissingAndKeepsTheOldRun) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
   run_here({scenario_with("s", {extract_with("a", "test_line"), extract_with("b", "test_line")})}, {.out = out});
-  const auto before = testing::listing(folder.path());
-  const auto bytes = testing::artefacts(out);
+  const auto before = fixtures::listing(folder.path());
+  const auto bytes = fixtures::artefacts(out);
   const std::vector<Scenario> full{
       scenario_with("s", {extract_with("a", "test_line"), extract_with("b", "test_full_disk")})};
   int drawn = 0;
@@ -364,8 +364,8 @@ TEST(Runner, AnErrorOfTheSystemMakesACellMissingAndKeepsTheOldRun) {
   EXPECT_EQ(drawn, 0);
   EXPECT_FALSE(cell_of(result, "s/b/1").done);
   EXPECT_THAT(cell_of(result, "s/b/1").record.outcome.message, HasSubstr("File too large"));
-  EXPECT_EQ(testing::listing(folder.path()), before);
-  EXPECT_EQ(testing::artefacts(out), bytes);
+  EXPECT_EQ(fixtures::listing(folder.path()), before);
+  EXPECT_EQ(fixtures::artefacts(out), bytes);
 
   // Nothing is lost in a new folder: finished cells stay, and only the rest is run again.
   const RunResult fresh = run_here(full, {.out = folder.path() / "new"});
@@ -377,11 +377,11 @@ TEST(Runner, AnErrorOfTheSystemMakesACellMissingAndKeepsTheOldRun) {
 }
 
 TEST(Runner, ARecordingThatTheSystemRefusesMakesItsCellsMissing) {
-  const testing::TemporaryFolder folder;
-  RunServices broken = testing::services();
+  const TemporaryFolder folder;
+  RunServices broken = fixtures::services();
   broken.recording = [](const Scenario& s, std::uint64_t seed, int) -> Recording {
     if (s.name == "one") throw SystemError("the disk is full");
-    return testing::random_recording(seed, 5, 16, true);
+    return fixtures::random_recording(seed, 5, 16, true);
   };
   const RunResult result = run_with(two_scenarios(), {.out = folder.path() / "r"}, broken);
   EXPECT_EQ(result.exit_code(), 4);
@@ -391,27 +391,27 @@ TEST(Runner, ARecordingThatTheSystemRefusesMakesItsCellsMissing) {
 }
 
 TEST(Runner, ASelectionKeepsTheOtherCellsOfAnEarlierRun) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
   std::vector<Scenario> scenarios{scenario_with("s", {extract_with("a", "test_line"), extract_with("b", "test_line")})};
   run_here(scenarios, {.out = out});
-  const auto before = testing::artefacts(out);
+  const auto before = fixtures::artefacts(out);
   const RunResult result = run_here(scenarios, {.out = out, .only = {"a"}});
   ASSERT_EQ(result.cells.size(), 1u);
   EXPECT_FALSE(result.cells[0].reused);
-  EXPECT_EQ(testing::artefacts(out), before);
+  EXPECT_EQ(fixtures::artefacts(out), before);
 
   // Cells of other input can neither stay nor be dropped without a message.
   scenarios[0].pipelines[1].slots[0].params["skip"] = std::int64_t{2};
   EXPECT_THROW(run_here(scenarios, {.out = out, .only = {"a"}}), ConfigError);
   EXPECT_THROW(run_here({scenario_with("t", {extract_with("a", "test_line")})}, {.out = out, .only = {"a"}}),
                ConfigError);
-  EXPECT_EQ(testing::artefacts(out), before);
+  EXPECT_EQ(fixtures::artefacts(out), before);
   EXPECT_EQ(run_here(scenarios, {.out = out, .only = {"b"}}).exit_code(), 0);
 }
 
 TEST(Runner, WithoutABenchmarkRemovesThatOfAnEarlierRun) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
   run_here(two_scenarios(),
            {.out = out, .rules = {.benchmark = BenchmarkSpec{.about = "", .baseline = "one", .example = "one"}}});
@@ -421,7 +421,7 @@ TEST(Runner, WithoutABenchmarkRemovesThatOfAnEarlierRun) {
 }
 
 TEST(Runner, UsesAFolderThatHoldsNothingButTemporaryFilesOfAKilledRun) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
   make_folders(out);
   write_staged_file(out / ".manifest.json.tmp-1", "{");
@@ -430,7 +430,7 @@ TEST(Runner, UsesAFolderThatHoldsNothingButTemporaryFilesOfAKilledRun) {
 }
 
 TEST(Runner, RemovesWhatAKilledRunLeftBesideItWhoeverHasItsProcessNumberNow) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path stale = folder.path() / (".r.tmp-" + std::to_string(::getppid()));
   make_folders(stale);
   write_staged_file(stale / ".manifest.json.tmp-1", "{");
@@ -439,7 +439,7 @@ TEST(Runner, RemovesWhatAKilledRunLeftBesideItWhoeverHasItsProcessNumberNow) {
 }
 
 TEST(Runner, NamesOneFolderHoweverItsPathIsWritten) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   make_folders(folder.path() / "elsewhere/deep");
   fs::create_directory_symlink(folder.path() / "elsewhere/deep", folder.path() / "x");
   const RunResult result =
@@ -450,7 +450,7 @@ TEST(Runner, NamesOneFolderHoweverItsPathIsWritten) {
 }
 
 TEST(Runner, HoldsItsLockUntilReportsAreWritten) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
   const std::vector<Scenario> scenarios{scenario_with("s", {extract_with("a", "test_line")})};
   int refused = 0;
@@ -467,7 +467,7 @@ TEST(Runner, HoldsItsLockUntilReportsAreWritten) {
 }
 
 TEST(Runner, IsCompleteWhenItsReportsAreWrittenAndNotBefore) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
   const auto state = [&] { return nlohmann::json::parse(read_file(out / "manifest.json")).at("state"); };
   const std::vector<Scenario> scenarios{scenario_with("s", {extract_with("a", "test_line")})};
@@ -482,7 +482,7 @@ TEST(Runner, IsCompleteWhenItsReportsAreWrittenAndNotBefore) {
 }
 
 TEST(Runner, TwoRunsInOneFolderAtATimeAreRefused) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
   int refused = 0;
   RunOptions options{.out = out};
@@ -499,7 +499,7 @@ TEST(Runner, TwoRunsInOneFolderAtATimeAreRefused) {
 }
 
 TEST(Runner, RefusesNamesThatCannotBeFolders) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   for (const std::string name : {"", "..", "a/b", ".hidden"}) {
     EXPECT_THROW(run_here({scenario_with(name, {extract_with("a", "test_line")})}, {.out = folder.path() / "r"}),
                  ConfigError);
@@ -509,7 +509,7 @@ TEST(Runner, RefusesNamesThatCannotBeFolders) {
   const Scenario s = scenario_with("s", {extract_with("a", "test_line")});
   EXPECT_THROW(run_here({s, s}, {.out = folder.path() / "r"}), ConfigError);
   EXPECT_THROW(run_here({s}, {.out = folder.path() / "r", .jobs = 0}), ConfigError);
-  EXPECT_TRUE(testing::listing(folder.path()).empty());
+  EXPECT_TRUE(fixtures::listing(folder.path()).empty());
 }
 
 }  // namespace

@@ -21,11 +21,11 @@ using ::testing::Not;
 const std::vector<ModuleChoice> kFamilies{{"metrics", "test_needs_map", {}}, {"metrics", "test_metrics", {}}};
 
 TEST(Score, LeavesOutFamiliesThatDoNotApply) {
-  const PipelineSpec extract = testing::extract_with("p", "test_line");
+  const PipelineSpec extract = fixtures::extract_with("p", "test_line");
   PipelineSpec merge = extract;
   merge.slots.push_back({"merge", "test_merge", {}});
-  const Recording with_truth = testing::random_recording(1, 5, 16, true);
-  const Recording log = testing::random_recording(1, 5, 16, false);
+  const Recording with_truth = fixtures::random_recording(1, 5, 16, true);
+  const Recording log = fixtures::random_recording(1, 5, 16, false);
   const auto names = [](const std::vector<metrics::MetricRow>& rows) {
     std::string text;
     for (const auto& row : rows) text += row.metric + " ";
@@ -42,17 +42,17 @@ TEST(Score, LeavesOutFamiliesThatDoNotApply) {
 }
 
 TEST(Score, OfARunReadsFilesOnlyAndMayBeRepeatedWithOtherMetrics) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path run = folder.path() / "run";
-  Scenario scenario = testing::scenario_with(
-      "s", {testing::extract_with("good", "test_line"), testing::extract_with("bad", "test_throw")}, {1, 2});
-  testing::run_here({scenario}, {.out = run});
-  const auto before = testing::artefacts(run);
+  Scenario scenario = fixtures::scenario_with(
+      "s", {fixtures::extract_with("good", "test_line"), fixtures::extract_with("bad", "test_throw")}, {1, 2});
+  fixtures::run_here({scenario}, {.out = run});
+  const auto before = fixtures::artefacts(run);
   EXPECT_EQ(score_run(run, {scenario}), 2u);
-  EXPECT_EQ(testing::artefacts(run), before);
+  EXPECT_EQ(fixtures::artefacts(run), before);
 
   const auto stands = [&] {
-    const auto cells = testing::run_here({scenario}, {.out = run, .resume = true}).cells;
+    const auto cells = fixtures::run_here({scenario}, {.out = run, .resume = true}).cells;
     return std::ranges::count_if(cells, [](const CellResult& cell) { return cell.reused; });
   };
   EXPECT_EQ(stands(), 2);
@@ -74,11 +74,11 @@ TEST(Score, OfARunReadsFilesOnlyAndMayBeRepeatedWithOtherMetrics) {
 }
 
 TEST(Score, RemovesTablesOfAnEarlierScoreAndNothingElse) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path run = folder.path() / "run";
-  Scenario scenario = testing::scenario_with("s", {testing::extract_with("good", "test_line")});
+  Scenario scenario = fixtures::scenario_with("s", {fixtures::extract_with("good", "test_line")});
   scenario.metrics = {{"metrics", "test_metrics", {{"table", true}}}};
-  testing::run_here({scenario}, {.out = run});
+  fixtures::run_here({scenario}, {.out = run});
   const fs::path cell = cell_path(run, {"s", "good", 1});
   const std::string table = read_file(cell / "test_table.csv");
   EXPECT_EQ(table.substr(0, 6), "lines\n");
@@ -98,11 +98,11 @@ TEST(Score, RemovesTablesOfAnEarlierScoreAndNothingElse) {
 }
 
 TEST(Score, ThatIsStoppedLeavesTheRunAsItWas) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path run = folder.path() / "run";
-  Scenario scenario = testing::scenario_with("s", {testing::extract_with("good", "test_line")}, {1, 2, 3});
-  testing::run_here({scenario}, {.out = run});
-  const auto before = testing::artefacts(run);
+  Scenario scenario = fixtures::scenario_with("s", {fixtures::extract_with("good", "test_line")}, {1, 2, 3});
+  fixtures::run_here({scenario}, {.out = run});
+  const auto before = fixtures::artefacts(run);
   scenario.metrics = {};  // other rows than those in the run
   struct Stopped {};
   std::vector<std::string> told;
@@ -113,7 +113,7 @@ TEST(Score, ThatIsStoppedLeavesTheRunAsItWas) {
   };
   EXPECT_THROW(score_run(run, {scenario}, stop), Stopped);
   EXPECT_EQ(told, (std::vector<std::string>{"s/good/1", "s/good/2", "s/good/3"}));
-  EXPECT_EQ(testing::artefacts(run), before);
+  EXPECT_EQ(fixtures::artefacts(run), before);
 }
 
 }  // namespace

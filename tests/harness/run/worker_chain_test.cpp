@@ -131,15 +131,15 @@ TEST(WorkerChain, TheLastTaskCannotRaiseItsLimits) {
 }
 
 TEST(WorkerChain, ACellAloneWithItsRecordingHasTheBytesThatItHasBesideOthers) {
-  using testing::extract_with;
-  using testing::run_here;
-  using testing::scenario_with;
-  const testing::TemporaryFolder folder;
+  using fixtures::extract_with;
+  using fixtures::run_here;
+  using fixtures::scenario_with;
+  const TemporaryFolder folder;
   const PipelineSpec wanted = extract_with("a", "test_line");
   run_here({scenario_with("s", {wanted, extract_with("b", "test_throw")}, {1, 2})}, {.out = folder.path() / "both"});
   run_here({scenario_with("s", {wanted}, {1, 2})}, {.out = folder.path() / "alone"});
-  const auto alone = testing::artefacts(folder.path() / "alone");
-  const auto both = testing::artefacts(folder.path() / "both");
+  const auto alone = fixtures::artefacts(folder.path() / "alone");
+  const auto both = fixtures::artefacts(folder.path() / "both");
   std::size_t compared = 0;
   for (const auto& [path, bytes] : alone) {
     if (!path.starts_with("cells/") && !path.starts_with("recordings/")) continue;

@@ -65,7 +65,7 @@ class Fifo {
   }
 
  private:
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   std::string path_;
   int descriptor_ = -1;
 };
@@ -148,7 +148,7 @@ TEST(Worker, LeavesNothingRunningBehindATaskThatHasEnded) {
 }
 
 TEST(Worker, GivesATaskNoOpenFileOfTheParentAndAnEmptyInput) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const int lock = ::open(folder.path().c_str(), O_RDONLY | O_DIRECTORY);
   const int high = ::fcntl(lock, F_DUPFD, 200);
   const auto outcome = outcome_of([&]() -> std::string {

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 const FolderFiles kSmall{{"lines.csv", "frame\n0\n"}, {"labels.npy", std::string("\0\1\0", 3)}};
 
 TEST(CellArchive, FoldersAreReadBackByTheirPart) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   ArchiveWriter writer(folder.path() / "a.tar");
   const FolderFiles large{{"ranges.npy", std::string(100000, 'r')}};
   const ArchivePart first = writer.add("cells/room/iepf/1", kSmall);
@@ -38,7 +38,7 @@ TEST(CellArchive, FoldersAreReadBackByTheirPart) {
 }
 
 TEST(CellArchive, AFolderThatDoesNotFitTheDiskLeavesTheArchiveAsItWas) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   ArchiveWriter writer(folder.path() / "a.tar");
   const ArchivePart first = writer.add("cells/room/iepf/1", kSmall);
   rlimit before{};
@@ -56,7 +56,7 @@ TEST(CellArchive, AFolderThatDoesNotFitTheDiskLeavesTheArchiveAsItWas) {
 }
 
 TEST(CellArchive, PartsBeyondTheEndAreNotWhole) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   ArchiveWriter writer(folder.path() / "a.tar");
   ArchivePart part = writer.add("cells/room/iepf/1", kSmall);
   writer.finish();

@@ -29,8 +29,8 @@ std::vector<double> pose_numbers(const Pose2& p) {
 
 TEST(RecordingFolder, GivesBackEveryBitOfARecording) {
   for (const bool with_truth : {true, false}) {
-    const testing::TemporaryFolder folder;
-    const Recording saved = testing::random_recording(7, 40, 33, with_truth);
+    const TemporaryFolder folder;
+    const Recording saved = fixtures::random_recording(7, 40, 33, with_truth);
     save_recording(folder.path() / "r", saved);
     const Recording loaded = load_recording(folder.path() / "r");
     EXPECT_EQ(recording_files(loaded), recording_files(saved));
@@ -44,24 +44,24 @@ TEST(RecordingFolder, GivesBackEveryBitOfARecording) {
     for (std::size_t k = 0; k < 40; ++k) {
       const Frame& a = loaded.observed.frames[k];
       const Frame& b = saved.observed.frames[k];
-      EXPECT_EQ(testing::bits(a.ranges), testing::bits(b.ranges));
-      EXPECT_EQ(testing::bits(pose_numbers(a.odom_from_sensor)), testing::bits(pose_numbers(b.odom_from_sensor)));
+      EXPECT_EQ(fixtures::bits(a.ranges), fixtures::bits(b.ranges));
+      EXPECT_EQ(fixtures::bits(pose_numbers(a.odom_from_sensor)), fixtures::bits(pose_numbers(b.odom_from_sensor)));
     }
     ASSERT_EQ(loaded.truth.has_value(), with_truth);
     if (!with_truth) continue;
-    EXPECT_EQ(testing::bits(loaded.truth->ranges), testing::bits(saved.truth->ranges));
+    EXPECT_EQ(fixtures::bits(loaded.truth->ranges), fixtures::bits(saved.truth->ranges));
     EXPECT_EQ(loaded.truth->wall_ids, saved.truth->wall_ids);
     EXPECT_EQ(loaded.truth->walls[0].label, saved.truth->walls[0].label);
     EXPECT_EQ(loaded.truth->walls[0].segment, saved.truth->walls[0].segment);
     for (std::size_t k = 0; k < 40; ++k)
-      EXPECT_EQ(testing::bits(pose_numbers(loaded.truth->world_from_sensor[k])),
-                testing::bits(pose_numbers(saved.truth->world_from_sensor[k])));
+      EXPECT_EQ(fixtures::bits(pose_numbers(loaded.truth->world_from_sensor[k])),
+                fixtures::bits(pose_numbers(saved.truth->world_from_sensor[k])));
   }
 }
 
 TEST(RecordingFolder, GivesBackEveryBitOfThePosesToCompareWith) {
-  const testing::TemporaryFolder folder;
-  Recording saved = testing::random_recording(7, 3, 5, false);
+  const TemporaryFolder folder;
+  Recording saved = fixtures::random_recording(7, 3, 5, false);
   saved.reference = ReferencePoses{{{0.1, 0.2, 0.3}, {1.0 / 3, -2.0 / 7, 3.1}, {0, 0, -1.1}},
                                    {{2, 0, {1.0 / 7, 0.3, 2.2}}, {0, 1, {1, 1, -0.7}}}};
   save_recording(folder.path() / "r", saved);
@@ -80,11 +80,11 @@ TEST(RecordingFolder, GivesBackEveryBitOfThePosesToCompareWith) {
 }
 
 TEST(RecordingFolder, HasTheFilesAndColumnsOfTheContract) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path r = folder.path() / "r";
-  save_recording(r, testing::random_recording(1, 3, 4, true));
-  EXPECT_THAT(testing::listing(r), ElementsAre("frames.csv", "ranges.npy", "rotations.npy", "scan.json",
-                                               "true_ranges.npy", "wall_ids.npy", "walls.csv"));
+  save_recording(r, fixtures::random_recording(1, 3, 4, true));
+  EXPECT_THAT(fixtures::listing(r), ElementsAre("frames.csv", "ranges.npy", "rotations.npy", "scan.json",
+                                                "true_ranges.npy", "wall_ids.npy", "walls.csv"));
   EXPECT_THAT(
       CsvTable(read_file(r / "frames.csv"), "f").columns(),
       ElementsAre("frame", "t_s", "true_x_m", "true_y_m", "true_yaw_rad", "odom_x_m", "odom_y_m", "odom_yaw_rad"));
@@ -93,23 +93,23 @@ TEST(RecordingFolder, HasTheFilesAndColumnsOfTheContract) {
   EXPECT_EQ(parse_npy_float64(read_file(r / "ranges.npy"), "f").rows, 3u);
   EXPECT_EQ(parse_npy_int32(read_file(r / "wall_ids.npy"), "f").columns, 4u);
 
-  save_recording(r, testing::random_recording(1, 3, 4, false));
-  EXPECT_THAT(testing::listing(r), ElementsAre("frames.csv", "ranges.npy", "rotations.npy", "scan.json"));
+  save_recording(r, fixtures::random_recording(1, 3, 4, false));
+  EXPECT_THAT(fixtures::listing(r), ElementsAre("frames.csv", "ranges.npy", "rotations.npy", "scan.json"));
   const CsvTable frames(read_file(r / "frames.csv"), "f");
   EXPECT_EQ(frames.text(0, "true_x_m") + frames.text(0, "true_y_m") + frames.text(0, "true_yaw_rad"), "");
 }
 
 TEST(RecordingFolder, GivesBackLinesInsteadOfScans) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path r = folder.path() / "r";
   sim::World world;
   world.walls = {{"a", {{0, 0}, {1.1, 0}}}, {"b", {{0, 1}, {0.3, 1}}}};
   const Recording saved = sim::line_copies(world, {.copies = 3, .rotation_sigma_rad = 0.1, .shift_sigma_m = 0.2}, 4);
   save_recording(r, saved);
-  EXPECT_THAT(testing::listing(r), ElementsAre("frames.csv", "lines.csv", "ranges.npy", "rotations.npy", "scan.json",
-                                               "true_ranges.npy", "wall_ids.npy", "walls.csv"));
+  EXPECT_THAT(fixtures::listing(r), ElementsAre("frames.csv", "lines.csv", "ranges.npy", "rotations.npy", "scan.json",
+                                                "true_ranges.npy", "wall_ids.npy", "walls.csv"));
   // Otherwise a new run in the same folder would keep it beside scans, as a file that no run writes.
-  for (const auto& name : testing::listing(r)) EXPECT_TRUE(is_run_file(fs::path("recordings/s/1") / name)) << name;
+  for (const auto& name : fixtures::listing(r)) EXPECT_TRUE(is_run_file(fs::path("recordings/s/1") / name)) << name;
   const Recording loaded = load_recording(r);
   EXPECT_EQ(recording_files(loaded), recording_files(saved));
   ASSERT_EQ(loaded.observed.frames.size(), 3u);
@@ -121,8 +121,8 @@ TEST(RecordingFolder, GivesBackLinesInsteadOfScans) {
 }
 
 TEST(RecordingFolder, HashChangesWithEveryPartAndNotOtherwise) {
-  const Recording base = testing::random_recording(3, 2, 8, true);
-  EXPECT_EQ(recording_hash(base), recording_hash(testing::random_recording(3, 2, 8, true)));
+  const Recording base = fixtures::random_recording(3, 2, 8, true);
+  EXPECT_EQ(recording_hash(base), recording_hash(fixtures::random_recording(3, 2, 8, true)));
   std::vector<Recording> others(7, base);
   others[0].observed.frames[1].ranges[3] = std::nextafter(5.0, 6.0);
   others[1].observed.frames[1].stamp_s += 1e-9;
@@ -132,16 +132,16 @@ TEST(RecordingFolder, HashChangesWithEveryPartAndNotOtherwise) {
   others[5].truth.reset();
   others[6].observed.frames[0].odom_from_sensor = Pose2::from_unit({0, 0}, {1, 0});
   for (const auto& other : others) EXPECT_NE(recording_hash(other), recording_hash(base));
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   EXPECT_EQ(save_recording(folder.path() / "r", base), recording_hash(base));
   EXPECT_EQ(stated_recording_hash(folder.path() / "r"), recording_hash(base));
 }
 
 TEST(RecordingFolder, ReportsDamageByFile) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const fs::path r = folder.path() / "r";
   const auto message = [&](const std::string& name, const std::string& bytes) -> std::string {
-    save_recording(r, testing::random_recording(1, 3, 4, true));
+    save_recording(r, fixtures::random_recording(1, 3, 4, true));
     if (bytes.empty())
       fs::remove(r / name);
     else
@@ -154,7 +154,7 @@ TEST(RecordingFolder, ReportsDamageByFile) {
     return "accepted";
   };
   std::string ranges;
-  for (const auto& [name, bytes] : recording_files(testing::random_recording(1, 3, 4, true)))
+  for (const auto& [name, bytes] : recording_files(fixtures::random_recording(1, 3, 4, true)))
     if (name == "ranges.npy") ranges = bytes;
   ranges.back() = static_cast<char>(ranges.back() ^ 1);
   EXPECT_THAT(message("ranges.npy", ranges), HasSubstr("damaged"));
@@ -169,7 +169,7 @@ TEST(RecordingFolder, ReportsDamageByFile) {
 }
 
 TEST(RecordingFolder, ReadsARecordingMadeElsewhere) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   write_file_atomically(
       folder.path() / "scan.json",
       R"({"angle_min_rad": 0, "angle_step_rad": 1.5, "beams": 2, "range_min_m": 0, "range_max_m": 9})");

@@ -57,7 +57,7 @@ TEST(TraceChoice, WantsTheNamedRowsOfASlotAndDistinguishesChoices) {
 }
 
 TEST(Trace, ComesBackFromItsFileWithEveryBit) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const double inf = std::numeric_limits<double>::infinity();
   Journal journal;
   Trace merge = journal.begin("merge", -1);
@@ -80,7 +80,7 @@ TEST(Trace, ComesBackFromItsFileWithEveryBit) {
 }
 
 TEST(Trace, ADamagedFileIsRefusedWithItsLine) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   write_file_atomically(folder.path() / "trace.csv",
                         "slot,frame,stage,name,values\nmerge,-1,a,mode,1 2\nmerge,-1,a,mode,1 x2\n");
   try {
@@ -105,17 +105,17 @@ TEST(Journal, KeepsTheChosenRowsAndListensToNoOtherSlot) {
 }
 
 TEST(Runner, KeepsTheRowsThatTheFiguresDrawFromForTheFirstSeed) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto out = folder.path() / "r";
-  std::vector<Scenario> scenarios{testing::scenario_with("s", {testing::extract_with("a", "test_line")}, {4, 2})};
-  testing::run_here(scenarios, {.out = out});
+  std::vector<Scenario> scenarios{fixtures::scenario_with("s", {fixtures::extract_with("a", "test_line")}, {4, 2})};
+  fixtures::run_here(scenarios, {.out = out});
   EXPECT_FALSE(std::filesystem::exists(out / "cells/s/a/4/trace.csv"));
 
   scenarios[0].figures = {{"figure", "test_traced", {}}};
   EXPECT_EQ(traces_drawn(scenarios[0], "a").text(), "extract.line");
-  const RunResult result = testing::run_here(scenarios, {.out = out, .resume = true});
-  EXPECT_FALSE(testing::cell_of(result, "s/a/4").reused);  // it had no trace
-  EXPECT_TRUE(testing::cell_of(result, "s/a/2").reused);
+  const RunResult result = fixtures::run_here(scenarios, {.out = out, .resume = true});
+  EXPECT_FALSE(fixtures::cell_of(result, "s/a/4").reused);  // it had no trace
+  EXPECT_TRUE(fixtures::cell_of(result, "s/a/2").reused);
   EXPECT_FALSE(std::filesystem::exists(out / "cells/s/a/2/trace.csv"));
   const TraceRows rows = load_trace(out / "cells/s/a/4", {.all = true});
   ASSERT_EQ(rows.size(), 1u);

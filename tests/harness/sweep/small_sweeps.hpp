@@ -15,7 +15,7 @@
 #include "harness/sweep/sweep_plan.hpp"
 #include "tests/support/runs.hpp"
 
-namespace scanbench::harness::testing {
+namespace scanbench::harness::fixtures {
 
 /// A room with these pipelines; recordings are small.
 inline Scenario room(const std::string& name, const std::string& seeds, const std::string& pipelines) {
@@ -60,4 +60,4 @@ inline void cut(const std::filesystem::path& file) {
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
 }
 
-}  // namespace scanbench::harness::testing
+}  // namespace scanbench::harness::fixtures

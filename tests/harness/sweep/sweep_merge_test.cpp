@@ -31,15 +31,15 @@ namespace scanbench::harness {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::commits_of;
-using testing::cut;
-using testing::kLine;
-using testing::kSkip;
-using testing::plan_of;
-using testing::room;
-using testing::run_all;
-using testing::two_rooms;
-using testing::with_time_two;
+using fixtures::commits_of;
+using fixtures::cut;
+using fixtures::kLine;
+using fixtures::kSkip;
+using fixtures::plan_of;
+using fixtures::room;
+using fixtures::run_all;
+using fixtures::two_rooms;
+using fixtures::with_time_two;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -56,14 +56,14 @@ void run_as_second_attempt(const SweepPlan& plan, int shard) {
 }
 
 TEST(SweepMerge, TwoAttemptsAtOneShardMayBothCommit) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const SweepPlan plan = plan_of(two_rooms(), folder.path() / "s");
   run_all(plan);
   run_as_second_attempt(plan, 2);
   EXPECT_EQ(commits_of(plan, 2).size(), 2u);
   ASSERT_FALSE(merge_sweep(plan, {.out = folder.path() / "merged"}).missing);
   run(two_rooms(), {.out = folder.path() / "local"});
-  EXPECT_EQ(testing::artefacts(folder.path() / "merged"), testing::artefacts(folder.path() / "local"));
+  EXPECT_EQ(fixtures::artefacts(folder.path() / "merged"), fixtures::artefacts(folder.path() / "local"));
 }
 
 /// Commits the cells and recordings of a commit again after an edit, in place of it: another machine made those bytes.
@@ -92,7 +92,7 @@ fs::path commit_again(const SweepPlan& plan, const fs::path& folder, const std::
 
 TEST(SweepMerge, RefusesTwoCommitsOfACellWithDifferentBytes) {
   for (const CellForm form : {CellForm::files, CellForm::archives}) {
-    const testing::TemporaryFolder folder;
+    const TemporaryFolder folder;
     const SweepPlan plan = plan_of({room("one", "[1]", kLine)}, folder.path() / "s", 1);
     run_all(plan);
     run_as_second_attempt(plan, 1);
@@ -107,7 +107,7 @@ TEST(SweepMerge, RefusesTwoCommitsOfACellWithDifferentBytes) {
 }
 
 TEST(SweepMerge, RefusesTwoCommitsOfARecordingWithDifferentBytes) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   run_all(plan_of({room("one", "[1]", kLine)}, folder.path() / "s", 1));
   const SweepPlan plan = plan_of({room("one", "[1]", kLine + kSkip)}, folder.path() / "s", 1);
   run_all(plan);
@@ -118,7 +118,7 @@ TEST(SweepMerge, RefusesTwoCommitsOfARecordingWithDifferentBytes) {
 }
 
 TEST(SweepMerge, NoticesArchivesThatAreCutOffAndRunsTheirShardAgain) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const SweepPlan plan = plan_of({room("one", "[1]", kLine + kSkip)}, folder.path() / "s", 1);
   run_all(plan);
   const fs::path archive = commits_of(plan)[0] / "cells.tar";
@@ -133,7 +133,7 @@ TEST(SweepMerge, NoticesArchivesThatAreCutOffAndRunsTheirShardAgain) {
 }
 
 TEST(SweepMerge, AChangedByteOfAnArchiveCostsOneCellOnly) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const SweepPlan plan = plan_of({room("one", "[1]", kLine + kSkip)}, folder.path() / "s", 1);
   run_all(plan);
   const ShardCommit commit = load_commits(plan.folder).whole[0];
@@ -146,11 +146,11 @@ TEST(SweepMerge, AChangedByteOfAnArchiveCostsOneCellOnly) {
   EXPECT_EQ(run_shard(plan.folder, {.shard = 1}).cells.size(), 1u);
   ASSERT_FALSE(merge_sweep(plan, {.out = folder.path() / "run"}).missing);
   run({room("one", "[1]", kLine + kSkip)}, {.out = folder.path() / "local"});
-  EXPECT_EQ(testing::artefacts(folder.path() / "run"), testing::artefacts(folder.path() / "local"));
+  EXPECT_EQ(fixtures::artefacts(folder.path() / "run"), fixtures::artefacts(folder.path() / "local"));
 }
 
 TEST(SweepMerge, AnArchiveThatIsGoneCountsAsMissingCells) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const SweepPlan plan = plan_of({room("one", "[1]", kLine)}, folder.path() / "s", 1);
   run_all(plan);
   fs::remove(commits_of(plan)[0] / "cells.tar");
@@ -161,7 +161,7 @@ TEST(SweepMerge, AnArchiveThatIsGoneCountsAsMissingCells) {
 TEST(SweepMerge, NoticesTablesThatAreCutOffAndRunsTheirShardAgain) {
   for (const char* file : {"commit.json", "cells.csv", "recordings.csv", "summary.csv"}) {
     SCOPED_TRACE(file);
-    const testing::TemporaryFolder folder;
+    const TemporaryFolder folder;
     const SweepPlan plan = plan_of({room("one", "[1]", kLine)}, folder.path() / "s", 1);
     run_all(plan);
     cut(commits_of(plan)[0] / file);
@@ -175,7 +175,7 @@ TEST(SweepMerge, NoticesTablesThatAreCutOffAndRunsTheirShardAgain) {
 }
 
 TEST(SweepMerge, ArchivesOfShardsAreUnpackedByTar) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const SweepPlan plan = plan_of(two_rooms(), folder.path() / "s", 1);
   run_all(plan);
   fs::create_directory(folder.path() / "unpacked");
@@ -183,15 +183,15 @@ TEST(SweepMerge, ArchivesOfShardsAreUnpackedByTar) {
       "tar -xf " + (commits_of(plan)[0] / "cells.tar").string() + " -C " + (folder.path() / "unpacked").string();
   ASSERT_EQ(std::system(command.c_str()), 0);
   run(two_rooms(), {.out = folder.path() / "local"});
-  auto local = testing::artefacts(folder.path() / "local");
+  auto local = fixtures::artefacts(folder.path() / "local");
   std::erase_if(local, [](const auto& file) {
     return !file.first.starts_with("cells/") && !file.first.starts_with("recordings/");
   });
-  EXPECT_EQ(testing::artefacts(folder.path() / "unpacked"), local);
+  EXPECT_EQ(fixtures::artefacts(folder.path() / "unpacked"), local);
 }
 
 TEST(SweepMerge, MergedAsArchivesBecomesTheRunWhenItIsUnpacked) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   run(two_rooms(), {.out = folder.path() / "local"});
   const SweepPlan plan = plan_of(two_rooms(), folder.path() / "s", 3);
   run_all(plan);
@@ -217,12 +217,12 @@ TEST(SweepMerge, MergedAsArchivesBecomesTheRunWhenItIsUnpacked) {
               HasSubstr("`scanbench unpack " + merged.string() + " one/line/2` writes its files"));
   EXPECT_EQ(unpack_cells(merged, load_manifest(merged).cells), 4u);
   EXPECT_FALSE(has_archives(merged));
-  EXPECT_EQ(testing::artefacts(merged), testing::artefacts(folder.path() / "local"));
+  EXPECT_EQ(fixtures::artefacts(merged), fixtures::artefacts(folder.path() / "local"));
   EXPECT_EQ(listed_hashes(merged).size(), listed_hashes(folder.path() / "local").size());
 }
 
 TEST(SweepMerge, AnArchivedRunHasTheRecordsAndValuesOfTheRun) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string pipelines = kLine + "  - {name: throws, extract: {module: test_throw}}\n";
   const std::vector<Scenario> scenarios{room("one", "[1, 2]", pipelines)};
   const SweepPlan plan = plan_of(scenarios, folder.path() / "s", 2);
@@ -242,7 +242,7 @@ TEST(SweepMerge, AnArchivedRunHasTheRecordsAndValuesOfTheRun) {
 }
 
 TEST(SweepMerge, UnpackingRefusesDamagedArchivesAndUnknownCells) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const SweepPlan plan = plan_of({room("one", "[1, 2]", kLine)}, folder.path() / "s", 1);
   run_all(plan);
   const fs::path merged = folder.path() / "merged";
@@ -275,7 +275,7 @@ class LargestFile {
 };
 
 TEST(SweepMerge, CellsThatDoNotFitTheDiskAreMissingAndTheOthersAreCommitted) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::vector<Scenario> scenarios{room("one", "{first: 1, count: 12}", kLine)};
   const SweepPlan plan = plan_of(scenarios, folder.path() / "s", 1);
   {
@@ -288,11 +288,11 @@ TEST(SweepMerge, CellsThatDoNotFitTheDiskAreMissingAndTheOthersAreCommitted) {
   EXPECT_EQ(run_shard(plan.folder, {.shard = 1}).cells.size(), status.missing);
   ASSERT_FALSE(merge_sweep(plan, {.out = folder.path() / "merged"}).missing);
   run(scenarios, {.out = folder.path() / "local"});
-  EXPECT_EQ(testing::artefacts(folder.path() / "merged"), testing::artefacts(folder.path() / "local"));
+  EXPECT_EQ(fixtures::artefacts(folder.path() / "merged"), fixtures::artefacts(folder.path() / "local"));
 }
 
 TEST(SweepMerge, AMergeThatDoesNotFitTheDiskLeavesNothing) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const SweepPlan plan = plan_of(two_rooms(), folder.path() / "s");
   run_all(plan);
   for (const CellForm form : {CellForm::files, CellForm::archives}) {
@@ -303,12 +303,12 @@ TEST(SweepMerge, AMergeThatDoesNotFitTheDiskLeavesNothing) {
     EXPECT_FALSE(fs::exists(folder.path() / "new"));
   }
   merge_sweep(plan, {.out = folder.path() / "run"});
-  const auto before = testing::artefacts(folder.path() / "run");
+  const auto before = fixtures::artefacts(folder.path() / "run");
   {
     const LargestFile limit(900);
     EXPECT_THROW(merge_sweep(plan, {.out = folder.path() / "run"}), SystemError);
   }
-  EXPECT_EQ(testing::artefacts(folder.path() / "run"), before);
+  EXPECT_EQ(fixtures::artefacts(folder.path() / "run"), before);
 }
 
 }  // namespace

@@ -32,22 +32,22 @@ namespace scanbench::harness {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::commits_of;
-using testing::cut;
-using testing::kLine;
-using testing::kSkip;
-using testing::plan_of;
-using testing::room;
-using testing::run_all;
-using testing::two_rooms;
-using testing::with_time_two;
+using fixtures::commits_of;
+using fixtures::cut;
+using fixtures::kLine;
+using fixtures::kSkip;
+using fixtures::plan_of;
+using fixtures::room;
+using fixtures::run_all;
+using fixtures::two_rooms;
+using fixtures::with_time_two;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST(Sweep, MergedFromShardsHasTheBytesOfARun) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   run(two_rooms(), {.out = folder.path() / "local"});
   for (const int shards : {1, 3, 5}) {
     SCOPED_TRACE(shards);
@@ -58,7 +58,7 @@ TEST(Sweep, MergedFromShardsHasTheBytesOfARun) {
     const MergeResult result = merge_sweep(load_sweep(plan.folder), {.out = merged});
     ASSERT_FALSE(result.missing);
     EXPECT_EQ(result.run.exit_code(), 0);
-    EXPECT_EQ(testing::artefacts(merged), testing::artefacts(folder.path() / "local"));
+    EXPECT_EQ(fixtures::artefacts(merged), fixtures::artefacts(folder.path() / "local"));
     EXPECT_EQ(listed_hashes(merged).size(), listed_hashes(folder.path() / "local").size());
     EXPECT_EQ(load_manifest(merged).cells, load_manifest(folder.path() / "local").cells);
     EXPECT_EQ(load_manifest(merged).state, "complete");
@@ -66,7 +66,7 @@ TEST(Sweep, MergedFromShardsHasTheBytesOfARun) {
 }
 
 TEST(Sweep, KeepsTheCellsOfARecordingInOneShard) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const SweepPlan plan = plan_of(two_rooms(), folder.path() / "s", 4);
   std::map<std::pair<std::string, std::uint64_t>, std::set<int>> shards;
   for (const auto& cell : plan.cells) shards[{cell.key.scenario, cell.key.seed}].insert(cell.shard);
@@ -81,7 +81,7 @@ TEST(Sweep, KeepsTheCellsOfARecordingInOneShard) {
 }
 
 TEST(Sweep, RefusesNumbersThatNoPlanHas) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   for (const int shards : {0, -1, 1001})
     EXPECT_THAT(config_refusal([&] { plan_of(two_rooms(), folder.path() / "s", shards); }),
                 HasSubstr("shards is " + std::to_string(shards) + "; allowed: 1 .. 1000"));
@@ -110,7 +110,7 @@ TEST(Sweep, TakesTheNumberOfAShardFromTheFirstVariableThatIsSet) {
 }
 
 TEST(Sweep, NamesWhatIsMissingAndMergesNothing) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const SweepPlan plan = plan_of(two_rooms(), folder.path() / "s", 5);
   run_shard(plan.folder, {.shard = 4});
   const SweepStatus status = sweep_status(plan);
@@ -132,7 +132,7 @@ TEST(Sweep, ArraysAreWrittenAsSlurmReadsThem) {
 }
 
 TEST(Sweep, AShardThatIsCommittedIsNotRunAgain) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const SweepPlan plan = plan_of(two_rooms(), folder.path() / "s");
   run_shard(plan.folder, {.shard = 1});
   const ShardResult again = run_shard(plan.folder, {.shard = 1});
@@ -143,7 +143,7 @@ TEST(Sweep, AShardThatIsCommittedIsNotRunAgain) {
 }
 
 TEST(Sweep, OneAddedCellRunsOneCell) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   run_all(plan_of(two_rooms(), folder.path() / "s"));
   auto scenarios = two_rooms();
   scenarios[1].pipelines.push_back(room("two", "[5]", kSkip).pipelines[0]);
@@ -155,11 +155,11 @@ TEST(Sweep, OneAddedCellRunsOneCell) {
   EXPECT_EQ(to_string(result.cells[0].key), "two/skip/5");
   ASSERT_FALSE(merge_sweep(plan, {.out = folder.path() / "merged"}).missing);
   run(scenarios, {.out = folder.path() / "local"});
-  EXPECT_EQ(testing::artefacts(folder.path() / "merged"), testing::artefacts(folder.path() / "local"));
+  EXPECT_EQ(fixtures::artefacts(folder.path() / "merged"), fixtures::artefacts(folder.path() / "local"));
 }
 
 TEST(Sweep, OneAddedSeedRunsItsCellsOnly) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   run_all(plan_of({room("one", "{first: 1, count: 8}", kLine)}, folder.path() / "s", 4));
   const std::vector<Scenario> grown{room("one", "{first: 1, count: 9}", kLine)};
   const SweepPlan plan = plan_of(grown, folder.path() / "s", 4);
@@ -170,11 +170,11 @@ TEST(Sweep, OneAddedSeedRunsItsCellsOnly) {
   EXPECT_EQ(to_string(result.cells[0].key), "one/line/9");
   ASSERT_FALSE(merge_sweep(plan, {.out = folder.path() / "merged"}).missing);
   run(grown, {.out = folder.path() / "local"});
-  EXPECT_EQ(testing::artefacts(folder.path() / "merged"), testing::artefacts(folder.path() / "local"));
+  EXPECT_EQ(fixtures::artefacts(folder.path() / "merged"), fixtures::artefacts(folder.path() / "local"));
 }
 
 TEST(Sweep, RefusesAPlanThatWasEdited) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto replace = [](const fs::path& file, const std::string& piece, const std::string& by) {
     std::string text = read_file(file);
     const auto at = text.find(piece);
@@ -195,7 +195,7 @@ TEST(Sweep, RefusesAPlanThatWasEdited) {
 }
 
 TEST(Sweep, RefusesThePlanOfAnotherProgram) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   SweepPlan plan = plan_of(two_rooms(), folder.path() / "s");
   EXPECT_NO_THROW(require_this_program(plan));
   plan.code = std::string(64, '0');
@@ -206,16 +206,16 @@ TEST(Sweep, RefusesThePlanOfAnotherProgram) {
 }
 
 TEST(Sweep, RefusesFoldersThatAreNoSweep) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   write_file_atomically(folder.path() / "thesis.tex", "years of work");
   EXPECT_THAT(config_refusal([&] { plan_of(two_rooms(), folder.path()); }), HasSubstr("stays unchanged"));
   EXPECT_THAT(config_refusal([&] { plan_of(two_rooms(), folder.path() / "thesis.tex"); }), HasSubstr("is a file"));
   EXPECT_THAT(config_refusal([&] { load_sweep(folder.path()); }), HasSubstr("it has no sweep.json"));
-  EXPECT_THAT(testing::listing(folder.path()), ElementsAre("thesis.tex"));
+  EXPECT_THAT(fixtures::listing(folder.path()), ElementsAre("thesis.tex"));
 }
 
 TEST(Sweep, FailedCellsAreCommittedAndMerged) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string pipelines = kLine + "  - {name: throws, extract: {module: test_throw}}\n";
   const SweepPlan plan = plan_of({room("one", "[1, 2]", pipelines)}, folder.path() / "s", 2);
   for (const int shard : {1, 2})
@@ -224,14 +224,14 @@ TEST(Sweep, FailedCellsAreCommittedAndMerged) {
   const MergeResult result = merge_sweep(plan, {.out = folder.path() / "merged"});
   ASSERT_FALSE(result.missing);
   EXPECT_EQ(result.run.exit_code(), 3);
-  EXPECT_THAT(testing::cell_of(result.run, "one/throws/1").record.outcome.message, HasSubstr("cannot go on"));
+  EXPECT_THAT(fixtures::cell_of(result.run, "one/throws/1").record.outcome.message, HasSubstr("cannot go on"));
   run_with({room("one", "[1, 2]", pipelines)}, {.out = folder.path() / "local"},
            {.recording = with_time_two, .effective_yaml = effective_yaml});
-  EXPECT_EQ(testing::artefacts(folder.path() / "merged"), testing::artefacts(folder.path() / "local"));
+  EXPECT_EQ(fixtures::artefacts(folder.path() / "merged"), fixtures::artefacts(folder.path() / "local"));
 }
 
 TEST(Sweep, SigtermLetsTheCurrentCellEndAndCommitsWhatIsDone) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const SweepPlan plan = plan_of({room("one", "[1, 2, 3]", kLine)}, folder.path() / "s", 1);
   ShardOptions options{.shard = 1};
   options.progress = [](const RunProgress& now) {
@@ -248,11 +248,11 @@ TEST(Sweep, SigtermLetsTheCurrentCellEndAndCommitsWhatIsDone) {
   EXPECT_EQ(rest.exit_code(), 0);
   ASSERT_FALSE(merge_sweep(plan, {.out = folder.path() / "merged"}).missing);
   run({room("one", "[1, 2, 3]", kLine)}, {.out = folder.path() / "local"});
-  EXPECT_EQ(testing::artefacts(folder.path() / "merged"), testing::artefacts(folder.path() / "local"));
+  EXPECT_EQ(fixtures::artefacts(folder.path() / "merged"), fixtures::artefacts(folder.path() / "local"));
 }
 
 TEST(Sweep, ACellThatTheSystemRefusesIsMissingAndTheOthersAreCommitted) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string pipelines = kLine + "  - {name: full, extract: {module: test_full_disk}}\n";
   const SweepPlan plan = plan_of({room("one", "[1]", pipelines)}, folder.path() / "s", 1);
   const ShardResult result = run_shard(plan.folder, {.shard = 1, .recording = with_time_two});
@@ -262,7 +262,7 @@ TEST(Sweep, ACellThatTheSystemRefusesIsMissingAndTheOthersAreCommitted) {
 }
 
 TEST(Sweep, AFullDiskLeavesNoCommit) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const SweepPlan plan = plan_of({room("one", "[1]", kLine)}, folder.path() / "s", 1);
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
@@ -274,7 +274,7 @@ TEST(Sweep, AFullDiskLeavesNoCommit) {
   };
   EXPECT_THROW(run_shard(plan.folder, options), SystemError);
   setrlimit(RLIMIT_FSIZE, &before);
-  EXPECT_THAT(testing::listing(plan.folder / "shards"), IsEmpty());
+  EXPECT_THAT(fixtures::listing(plan.folder / "shards"), IsEmpty());
   EXPECT_EQ(sweep_status(plan).missing, 1u);
 }
 

@@ -60,7 +60,7 @@ bool says(const Scene& scene, const std::string& what) {
 }
 
 TEST(MergeFigures, AreDrawnOfTheSpiral) {
-  const test::Merged spiral = test::merged_by_mean_shift(testing::spiral());
+  const test::Merged spiral = test::merged_by_mean_shift(support::spiral());
   for (const auto* names : {&kFromTheTrace, &kFromTheMap})
     for (const std::string& name : *names) {
       const NamedScene figure = drawn(name, spiral, "spiral");
@@ -87,7 +87,7 @@ TEST(MergeFigures, OfNoLineAreEmptyAndSaySo) {
 
 TEST(MergeFigures, OfAPipelineWithoutATraceAreNone) {
   const Recording recording = test::blind_recording();
-  const test::Merged merged = test::merged_by_mean_shift(testing::spiral());
+  const test::Merged merged = test::merged_by_mean_shift(support::spiral());
   const TraceRows nothing, foreign{{"merge.joint_space", {{-1, {1.0, 2.0}}}}};
   for (const TraceRows* trace : {static_cast<const TraceRows*>(nullptr), &nothing, &foreign})
     for (const std::string& name : kFromTheTrace)
@@ -107,7 +107,7 @@ TEST(MergeFigures, OfRowsThatDoNotFitEachOtherAreStillDrawn) {
 }
 
 TEST(MergeFigures, RequestTheRowsThatTheyDrawFrom) {
-  const test::Merged all = test::merged_by_mean_shift(testing::spiral());
+  const test::Merged all = test::merged_by_mean_shift(support::spiral());
   for (const auto* names : {&kFromTheTrace, &kFromTheMap})
     for (const std::string& name : *names) {
       test::Merged kept{all.result, {}};
@@ -137,7 +137,7 @@ TEST(MergeFigures, ShowTheRequestedPipeline) {
 }
 
 TEST(JointSpace, HasAPointForEachOfThe300SegmentsOfFigure1) {
-  const test::Merged whole = test::merged_by_mean_shift(testing::spiral(), {}, {{"split_length_sigma", 6.0}});
+  const test::Merged whole = test::merged_by_mean_shift(support::spiral(), {}, {{"split_length_sigma", 6.0}});
   const NamedScene figure = drawn("joint_space", whole, "whole");
   EXPECT_NE(figure.caption.find("300 segments"), std::string::npos) << figure.caption;
   std::size_t points = 0;
@@ -168,7 +168,7 @@ TEST(Trajectories, NeverCrossTheBoxWhereADirectionPassesTheSeam) {
 }
 
 TEST(DirectionClusters, NumberEveryClusterOfTheSpiral) {
-  const test::Merged spiral = test::merged_by_mean_shift(testing::spiral());
+  const test::Merged spiral = test::merged_by_mean_shift(support::spiral());
   std::set<int> clusters;
   for (const auto& row : rows_of<mean_shift::ClusterRow>(spiral.trace, "merge")) clusters.insert(row.cluster1);
   const NamedScene figure = drawn("direction_clusters", spiral, "spiral");
@@ -176,7 +176,7 @@ TEST(DirectionClusters, NumberEveryClusterOfTheSpiral) {
 }
 
 TEST(CollinearClusters, ShowsThe30ModesAndThe30LinesOfFigure3) {
-  const NamedScene figure = drawn("collinear_clusters", test::merged_by_mean_shift(testing::spiral()), "spiral");
+  const NamedScene figure = drawn("collinear_clusters", test::merged_by_mean_shift(support::spiral()), "spiral");
   ASSERT_EQ(figure.scene.panels.size(), 4u);
   EXPECT_EQ(items<Points>(figure.scene.panels[2]).at(0).points.size(), 30u);
   EXPECT_EQ(items<Lines>(figure.scene.panels[3]).at(1).segments.size(), 30u);

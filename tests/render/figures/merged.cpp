@@ -11,7 +11,7 @@ namespace scanbench::render::test {
 namespace {
 
 Merged merged(std::span<const MapLine> lines, std::span<const Vec2> points, const ParamSet& params) {
-  testing::TraceRecorder recorder("merge");
+  support::TraceRecorder recorder("merge");
   Merged made;
   made.result.has_map = true;
   made.result.map = Registry<SegmentMerger>::make("mean_shift", params)->merge({lines, points}, recorder.trace).map;

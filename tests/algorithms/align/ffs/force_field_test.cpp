@@ -35,7 +35,7 @@ double norm_of(const std::vector<Vec2>& forces) {
 TEST(ForceField, IsMinusTheGradientOfThePotential) {
   const double sigma = 0.4;
   FieldPoints points = random_points(3, 12, 2.0, 1);
-  const std::vector<Vec2> forces = testing::plain_forces(points, sigma, 0.05 * sigma);
+  const std::vector<Vec2> forces = support::plain_forces(points, sigma, 0.05 * sigma);
   const double h = 1e-5;
   for (std::size_t k = 0; k < points.size(); ++k)
     for (int axis = 0; axis < 2; ++axis) {
@@ -69,7 +69,7 @@ TEST(ForceField, ThroughTheIndexIsThatOfThePlainLoopWithinTheStatedCut) {
       const FieldPoints points = random_points(7, 60, extent, 9);
       std::vector<PointForce> forces;
       point_forces(points, {sigma, 4.0}, forces);
-      const std::vector<Vec2> exact = testing::plain_forces(points, sigma, 0.05 * sigma);
+      const std::vector<Vec2> exact = support::plain_forces(points, sigma, 0.05 * sigma);
       std::vector<Vec2> error;
       for (std::size_t k = 0; k < points.size(); ++k) error.emplace_back(forces[k].force - exact[k]);
       // Every pair beyond the cut leaves out at most exp(-8) of the peak of the heaviest pair.
@@ -85,7 +85,7 @@ TEST(ForceField, WithoutSofteningIsThatOfTheEquationsAsTheyStand) {
   const FieldPoints points = random_points(6, 60, 3.0, 5);
   std::vector<PointForce> forces;
   point_forces(points, {0.3, 6.0, 1e-6}, forces);
-  const std::vector<Vec2> exact = testing::plain_forces(points, 0.3);
+  const std::vector<Vec2> exact = support::plain_forces(points, 0.3);
   std::vector<Vec2> error;
   for (std::size_t k = 0; k < points.size(); ++k) error.emplace_back(forces[k].force - exact[k]);
   EXPECT_LE(norm_of(error), 1e-4 * norm_of(exact));
@@ -93,7 +93,7 @@ TEST(ForceField, WithoutSofteningIsThatOfTheEquationsAsTheyStand) {
 
 TEST(ForceField, PotentialThroughTheIndexIsThatOfThePlainLoop) {
   const FieldPoints points = random_points(4, 50, 3.0, 4);
-  const double exact = testing::plain_potential(points, 0.3);
+  const double exact = support::plain_potential(points, 0.3);
   EXPECT_NEAR(potential(points, {0.3, 6.0, 1e-6}), exact, 1e-7 * std::abs(exact));
   EXPECT_LT(exact, 0.0);
 }
@@ -111,7 +111,7 @@ TEST(ForceField, HasNoMomentum) {
   }
   EXPECT_LT(total.norm(), 1e-6 * size);
   EXPECT_LT(std::abs(torque), 4.0 * 1e-6 * size);
-  const std::vector<Vec2> plain = testing::plain_forces(points, 0.5);
+  const std::vector<Vec2> plain = support::plain_forces(points, 0.5);
   Vec2 exact = Vec2::Zero();
   for (const Vec2& f : plain) exact += f;
   EXPECT_LT(exact.norm(), 1e-12 * size);

@@ -55,7 +55,7 @@ TEST(HoughLines, AreClippedToTheMap) {
 
 TEST(Rectangles, AnExactOneIsFoundWithCertaintyOneAndExactCorners) {
   const Pose2 pose(2, 5, 0.7);
-  const auto found = rectangles_of(placed(pose, testing::box(0, 0, 4, 2.5)), {});
+  const auto found = rectangles_of(placed(pose, support::box(0, 0, 4, 2.5)), {});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].certainty, 1.0, 1e-9);
   for (const Vec2& corner : {Vec2(0, 0), Vec2(4, 0), Vec2(4, 2.5), Vec2(0, 2.5)}) {
@@ -68,7 +68,7 @@ TEST(Rectangles, AnExactOneIsFoundWithCertaintyOneAndExactCorners) {
 TEST(Rectangles, CertaintyFallsWithWhatIsMissingOfTheSides) {
   double last = 1.1;
   for (const double missing : {0.0, 0.3, 0.6, 0.9}) {
-    auto sides = testing::box(0, 0, 4, 2.5);
+    auto sides = support::box(0, 0, 4, 2.5);
     sides[0] = {{missing / 2, 0}, {4 - missing / 2, 0}};
     const auto found = rectangles_of(sides, {});
     ASSERT_EQ(found.size(), 1u) << missing;
@@ -79,21 +79,21 @@ TEST(Rectangles, CertaintyFallsWithWhatIsMissingOfTheSides) {
 }
 
 TEST(Rectangles, ThreeSidesAndSkewedOnesAreNone) {
-  auto sides = testing::box(0, 0, 4, 2.5);
+  auto sides = support::box(0, 0, 4, 2.5);
   sides.pop_back();
   EXPECT_TRUE(rectangles_of(sides, {}).empty());
-  EXPECT_TRUE(rectangles_of(testing::polygon({{0, 0}, {4, 0}, {5.5, 2.5}, {1.5, 2.5}}), {}).empty());
+  EXPECT_TRUE(rectangles_of(support::polygon({{0, 0}, {4, 0}, {5.5, 2.5}, {1.5, 2.5}}), {}).empty());
   EXPECT_TRUE(rectangles_of({}, {}).empty());
 }
 
 TEST(Rectangles, DoNotDependOnTheOrderOrTheDirectionOfSegments) {
-  auto sides = testing::box(0, 0, 4, 2.5);
+  auto sides = support::box(0, 0, 4, 2.5);
   const auto found = rectangles_of(sides, {});
   std::swap(sides[0], sides[3]);
   sides[1] = {sides[1].b, sides[1].a};
   const auto again = rectangles_of(sides, {});
   ASSERT_EQ(again.size(), found.size());
-  EXPECT_THAT(again[0].centre(), testing::PointNear(found[0].centre(), 1e-12));
+  EXPECT_THAT(again[0].centre(), support::PointNear(found[0].centre(), 1e-12));
   EXPECT_NEAR(again[0].certainty, found[0].certainty, 1e-12);
 }
 
@@ -107,7 +107,7 @@ TEST(Prototypes, OneStandsForTheSegmentsOfAWallAcrossADoor) {
 }
 
 TEST(Prototypes, ParallelWallsAndCornersStayApart) {
-  EXPECT_EQ(prototypes_of(testing::box(0, 0, 4, 2.5), {}).size(), 4u);
+  EXPECT_EQ(prototypes_of(support::box(0, 0, 4, 2.5), {}).size(), 4u);
   EXPECT_EQ(prototypes_of(std::vector<Segment>{{{0, 0}, {3, 0}}, {{0, 0.3}, {3, 0.3}}}, {}).size(), 2u);
 }
 
@@ -126,7 +126,7 @@ TEST(VirtualScan, PointsLieOnTheirHypothesesWithWeightsByCertainty) {
     double nearest = 1e9;
     if (on_line) nearest = distance(scan.points[k], Segment{{0, 0}, {4, 0}});
     if (!on_line) {
-      const std::vector<Segment> sides = testing::box(0, 0, 2, 1);
+      const std::vector<Segment> sides = support::box(0, 0, 2, 1);
       for (const Segment& side : sides) nearest = std::min(nearest, distance(scan.points[k], side));
       EXPECT_EQ(scan.side[k] / 4, 1) << "the second hypothesis";
       const Vec2 from = hypotheses[1].corners[static_cast<std::size_t>(scan.side[k] % 4)];

@@ -15,8 +15,8 @@
 namespace scanbench::extract {
 namespace {
 
-constexpr double kSigma = 0.02;
-constexpr int kReadings = 40;
+constexpr double kEndSigma = 0.02;
+constexpr int kEndReadings = 40;
 
 // A wall x = 2 m whose last readings, j with probability proportional to 2^-j, lie anywhere between it and x = 2.15 m.
 std::vector<BeamReading> wall_with_a_tail(std::uint32_t seed, bool tail) {
@@ -27,17 +27,17 @@ std::vector<BeamReading> wall_with_a_tail(std::uint32_t seed, bool tail) {
     for (double share = 1.0; u > share; share *= 0.5, ++foreign) u -= share;
   }
   std::vector<BeamReading> readings;
-  for (int i = 0; i < kReadings; ++i) {
+  for (int i = 0; i < kEndReadings; ++i) {
     const double phi = -0.3 + 0.02 * i;
-    const double x = i >= kReadings - foreign ? 2.0 + 0.15 * rng.uniform() : 2.0;
-    readings.push_back({{std::cos(phi), std::sin(phi)}, x / std::cos(phi) + kSigma * rng.normal()});
+    const double x = i >= kEndReadings - foreign ? 2.0 + 0.15 * rng.uniform() : 2.0;
+    readings.push_back({{std::cos(phi), std::sin(phi)}, x / std::cos(phi) + kEndSigma * rng.normal()});
   }
   return readings;
 }
 
-SensorNoise noise() {
+SensorNoise end_noise() {
   SensorNoise n;
-  n.sigma_m = kSigma;
+  n.sigma_m = kEndSigma;
   return n;
 }
 
@@ -48,7 +48,8 @@ UncertainLine averaged_line(const BeamLine& line, const std::array<UncertainEnd,
 // Readings whose last end is next to a reading of this range.
 UncertainLine averaged_before_range(const BeamLine& line, std::span<const BeamReading> readings, double range_m,
                                     int min_readings = 3) {
-  return averaged_line(line, {{{}, end_towards_range({line, readings}, noise(), End::last, range_m, min_readings)}});
+  return averaged_line(line,
+                       {{{}, end_towards_range({line, readings}, end_noise(), End::last, range_m, min_readings)}});
 }
 
 double squared_error(const BeamLine& line) {
@@ -58,7 +59,7 @@ double squared_error(const BeamLine& line) {
 
 TEST(LineEnds, NothingAdjacentChangesNothing) {
   const auto readings = wall_with_a_tail(1, false);
-  const auto line = fit_beam_line(readings, noise());
+  const auto line = fit_beam_line(readings, end_noise());
   ASSERT_TRUE(line);
   const UncertainLine same = averaged_line(*line, {});
   EXPECT_EQ(same.line.theta, line->theta);
@@ -72,7 +73,7 @@ TEST(LineEnds, ErrorsAreAsLargeAsTheWholeCovarianceSays) {
   double averaged = 0.0, plain = 0.0;
   for (std::uint32_t seed = 0; seed < trials; ++seed) {
     const auto readings = wall_with_a_tail(seed, true);
-    const auto line = fit_beam_line(readings, noise());
+    const auto line = fit_beam_line(readings, end_noise());
     ASSERT_TRUE(line);
     averaged += squared_error(averaged_before_range(*line, readings, 2.15 / std::cos(0.5)).line) / trials;
     plain += squared_error(*line) / trials;
@@ -103,12 +104,12 @@ Step step_with_a_side(std::uint32_t seed, double side_probability) {
   const double end = (out.foreign[1] - 1 + rng.uniform()) * step;
   const auto on = [](double x, double phi) { return Vec2(x, x * std::tan(phi)); };
   const Vec2 p = on(2.0, begin), q = on(2.15, end);
-  for (int i = 0; i < 2 * kReadings; ++i) {
-    const double phi = (i - kReadings) * step;
+  for (int i = 0; i < 2 * kEndReadings; ++i) {
+    const double phi = (i - kEndReadings) * step;
     const Vec2 d(std::cos(phi), std::sin(phi));
-    double r = (i < kReadings ? 2.0 : 2.15) / d.x();
-    if (i >= kReadings - out.foreign[0] && i < kReadings + out.foreign[1]) r = cross(p, q - p) / cross(d, q - p);
-    (i < kReadings ? out.first : out.second).push_back({d, r + kSigma * rng.normal()});
+    double r = (i < kEndReadings ? 2.0 : 2.15) / d.x();
+    if (i >= kEndReadings - out.foreign[0] && i < kEndReadings + out.foreign[1]) r = cross(p, q - p) / cross(d, q - p);
+    (i < kEndReadings ? out.first : out.second).push_back({d, r + kEndSigma * rng.normal()});
   }
   return out;
 }
@@ -118,9 +119,9 @@ TEST(LineEnds, SideBetweenTwoLinesIsDistinguishedFromThem) {
   double averaged = 0.0, plain = 0.0, sides = 0.0, true_sides = 0.0;
   for (std::uint32_t seed = 0; seed < trials; ++seed) {
     const Step step = step_with_a_side(seed, 0.5);
-    const auto line = fit_beam_line(step.first, noise()), next = fit_beam_line(step.second, noise());
+    const auto line = fit_beam_line(step.first, end_noise()), next = fit_beam_line(step.second, end_noise());
     ASSERT_TRUE(line && next);
-    const auto ends = ends_at_junction({*line, step.first}, {*next, step.second}, noise(), 3);
+    const auto ends = ends_at_junction({*line, step.first}, {*next, step.second}, end_noise(), 3);
     const UncertainLine found = averaged_line(*line, {{{}, ends[0]}});
     averaged += squared_error(found.line) / trials;
     plain += squared_error(*line) / trials;
@@ -144,11 +145,11 @@ TEST(LineEnds, FirstEndIsTheMirrorImageOfTheLast) {
       return readings;
     };
     const auto first = mirrored(step.first), second = mirrored(step.second);
-    const auto line = fit_beam_line(step.first, noise()), next = fit_beam_line(step.second, noise());
-    const auto image = fit_beam_line(first, noise()), next_image = fit_beam_line(second, noise());
+    const auto line = fit_beam_line(step.first, end_noise()), next = fit_beam_line(step.second, end_noise());
+    const auto image = fit_beam_line(first, end_noise()), next_image = fit_beam_line(second, end_noise());
     ASSERT_TRUE(line && next && image && next_image);
-    const auto ends = ends_at_junction({*line, step.first}, {*next, step.second}, noise(), 3);
-    const auto image_ends = ends_at_junction({*next_image, second}, {*image, first}, noise(), 3);
+    const auto ends = ends_at_junction({*line, step.first}, {*next, step.second}, end_noise(), 3);
+    const auto image_ends = ends_at_junction({*next_image, second}, {*image, first}, end_noise(), 3);
     const UncertainLine a = averaged_line(*line, {{{}, ends[0]}});
     const UncertainLine b = averaged_line(*image, {{image_ends[1], {}}});
     EXPECT_EQ(a.foreign[1], b.foreign[0]);
@@ -160,23 +161,23 @@ TEST(LineEnds, FirstEndIsTheMirrorImageOfTheLast) {
 // The sum over j of the density of i and j readings on the side, times the ratio of likelihoods of the next line
 // without its j readings, reading by reading as section 5 of docs/algorithms/optimal.md states it.
 double density_with_side(const Step& step, const BeamLine& line, const BeamLine& next, std::size_t i) {
-  const auto all = [&](std::size_t k) { return k < kReadings ? step.first[k] : step.second[k - kReadings]; };
+  const auto all = [&](std::size_t k) { return k < kEndReadings ? step.first[k] : step.second[k - kEndReadings]; };
   const auto between = [&](std::size_t k) { return Vec2((all(k - 1).direction + all(k).direction).normalized()); };
-  const Tails before = tails_of(line, step.first, noise(), End::last, kLongestTail);
-  const Tails behind = tails_of(next, step.second, noise(), End::first, kLongestTail);
+  const Tails before = tails_of(line, step.first, end_noise(), End::last, kLongestTail);
+  const Tails behind = tails_of(next, step.second, end_noise(), End::first, kLongestTail);
   double sum = 0.0;
   for (std::size_t j = i == 0 ? 1 : 0; j <= kLongestTail; ++j) {
     const Shortened a = without_tail(line, before[i]), b = without_tail(next, behind[j]);
-    const std::size_t first = kReadings - i, last = kReadings + j;
+    const std::size_t first = kEndReadings - i, last = kEndReadings + j;
     const Vec2 p = between(first) / a.theta.dot(between(first)), q = between(last) / b.theta.dot(between(last));
     const double h = (q.norm() - p.norm()) / static_cast<double>(last - first);
     double density = 1.0;
     for (std::size_t k = first; k < last; ++k) {
       const double t = (static_cast<double>(k - first) + 0.5) / static_cast<double>(last - first);
-      const double sigma = std::sqrt(kSigma * kSigma + ((1 - t) * (1 - t) + t * t) * h * h / 12.0);
+      const double sigma = std::sqrt(kEndSigma * kEndSigma + ((1 - t) * (1 - t) + t * t) * h * h / 12.0);
       const double error = all(k).range_m - cross(p, q - p) / cross(all(k).direction, q - p);
-      density *= std::max(kSigma / sigma * std::exp(-0.5 * std::pow(error / sigma, 2)),
-                          kSigma * std::sqrt(kTwoPi) / all(k).range_m);
+      density *= std::max(kEndSigma / sigma * std::exp(-0.5 * std::pow(error / sigma, 2)),
+                          kEndSigma * std::sqrt(kTwoPi) / all(k).range_m);
     }
     sum += std::exp(b.gain) * density / 48.0;
   }
@@ -186,9 +187,9 @@ double density_with_side(const Step& step, const BeamLine& line, const BeamLine&
 TEST(LineEnds, DensityWithASideIsTheProductOverItsReadings) {
   for (std::uint32_t seed = 0; seed < 40; ++seed) {
     const Step step = step_with_a_side(seed, 0.7);
-    const auto line = fit_beam_line(step.first, noise()), next = fit_beam_line(step.second, noise());
+    const auto line = fit_beam_line(step.first, end_noise()), next = fit_beam_line(step.second, end_noise());
     ASSERT_TRUE(line && next);
-    const auto ends = ends_at_junction({*line, step.first}, {*next, step.second}, noise(), 3);
+    const auto ends = ends_at_junction({*line, step.first}, {*next, step.second}, end_noise(), 3);
     for (std::size_t i = 0; i <= kLongestTail; ++i) {
       const double expected = density_with_side(step, *line, *next, i);
       EXPECT_NEAR(ends[0].with_side[i], expected, 1e-9 * expected) << "seed " << seed << ", " << i << " readings";
@@ -198,12 +199,12 @@ TEST(LineEnds, DensityWithASideIsTheProductOverItsReadings) {
 
 TEST(LineEnds, FarReadingsAreForeignAndFewRemain) {
   auto readings = wall_with_a_tail(3, false);
-  for (std::size_t i = kReadings - 3; i < kReadings; ++i) readings[i].range_m += 0.12;
-  const auto line = fit_beam_line(readings, noise());
+  for (std::size_t i = kEndReadings - 3; i < kEndReadings; ++i) readings[i].range_m += 0.12;
+  const auto line = fit_beam_line(readings, end_noise());
   ASSERT_TRUE(line);
   const double range_m = 2.3 / std::cos(0.5);
   EXPECT_EQ(averaged_before_range(*line, readings, range_m).foreign[1], 3);
-  EXPECT_EQ(averaged_before_range(*line, readings, range_m, kReadings).foreign[1], 0);
+  EXPECT_EQ(averaged_before_range(*line, readings, range_m, kEndReadings).foreign[1], 0);
 }
 
 }  // namespace

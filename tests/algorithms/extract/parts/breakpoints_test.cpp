@@ -13,7 +13,7 @@ namespace scanbench {
 namespace {
 
 using extract::AdaptiveBreakpoint;
-using testing::OwnedScan;
+using support::OwnedScan;
 
 const double kStep = radians(0.5);
 const double kLambda = radians(10.0);
@@ -24,7 +24,7 @@ double limit_of_the_paper(double r, double step) {
 }
 
 OwnedScan fan(int beams, double range) {
-  return testing::constant_scan(testing::fan_sensor(beams, (beams - 1) * kStep), range);
+  return support::constant_scan(support::fan_sensor(beams, (beams - 1) * kStep), range);
 }
 
 TEST(AdaptiveBreakpoint, BetweenNeighboursIsTheFormulaOfThePaper) {
@@ -43,7 +43,7 @@ TEST(AdaptiveBreakpoint, MissingBeamsNeverWidenTheLimit) {
 
 TEST(AdaptiveBreakpoint, AWallThatFacesTheSensorSurvivesFourLostReturnsAndAnOpeningEndsIt) {
   for (const int missing : {1, 4, 5, 16}) {
-    OwnedScan scan = testing::cast(testing::fan_sensor(61, 60 * kStep), {{{3, -9}, {3, 9}}});
+    OwnedScan scan = support::cast(support::fan_sensor(61, 60 * kStep), {{{3, -9}, {3, 9}}});
     for (int i = 0; i < missing; ++i) scan.ranges[as_index(25 + i)] = kInf;
     const auto runs = runs_between_breakpoints(scan.view(), valid_points(scan.view()), AdaptiveBreakpoint(kLambda));
     EXPECT_EQ(runs.size(), missing <= AdaptiveBreakpoint::kMostMissingBeams ? 1u : 2u) << missing << " missing beams";
@@ -59,14 +59,14 @@ INSTANTIATE_TEST_SUITE_P(All, Contours,
 TEST_P(Contours, DoNotContinueThroughFreeSpace) {
   const Vec2 direction(std::cos(radians(14)), std::sin(radians(14)));
   const Vec2 begin(1.85, -0.1);
-  OwnedScan scan = testing::cast(testing::fan_sensor(41, 40 * kStep), {{begin, begin + 20.0 * direction}});
+  OwnedScan scan = support::cast(support::fan_sensor(41, 40 * kStep), {{begin, begin + 20.0 * direction}});
   int seen = 0;
   for (int i = 0; i < 41; ++i) seen += std::isfinite(scan.ranges[as_index(i)]);
   ASSERT_GE(seen, 26);
   const int first = 41 - seen;
   for (int i = first + 6; i < first + 6 + 16; ++i) scan.ranges[as_index(i)] = kInf;
   scan.sensor.noise.sigma_m = 0.01;
-  const ScanLines lines = testing::extract(GetParam(), scan, {{"min_points", std::int64_t{2}}, {"min_length_m", 0.0}});
+  const ScanLines lines = support::extract(GetParam(), scan, {{"min_points", std::int64_t{2}}, {"min_length_m", 0.0}});
   ASSERT_FALSE(lines.lines.empty());
   for (const LineFeature& line : lines.lines)
     EXPECT_FALSE(line.first_beam < first + 6 && line.last_beam >= first + 22)

@@ -16,10 +16,10 @@ namespace scanbench {
 namespace {
 
 using extract::tls_covariance;
-using testing::cast;
-using testing::fan_sensor;
-using testing::OwnedScan;
-using testing::with_noise;
+using support::cast;
+using support::fan_sensor;
+using support::OwnedScan;
+using support::with_noise;
 
 // A slanted wall across the whole view of a 90-degree fan, 1.5 m away at its nearest, hit at up to 75 degrees from its
 // normal.
@@ -106,7 +106,7 @@ TEST_P(SureExtractor, ErrorsOnASingleWallAreAsLargeAsItsCovarianceSays) {
   double sum = 0.0;
   for (std::uint64_t seed = 1; seed <= kScans; ++seed) {
     const OwnedScan scan = with_noise(cast(fan_sensor(181, radians(90)), {kWall}), 0.02, seed);
-    const ScanLines lines = testing::extract(GetParam(), scan);
+    const ScanLines lines = support::extract(GetParam(), scan);
     ASSERT_EQ(lines.lines.size(), 1U) << "seed " << seed;
     const LineFeature& f = lines.lines[0];
     ASSERT_TRUE(f.covariance);
@@ -125,9 +125,9 @@ TEST_P(SureExtractor, ErrorsInRoomsAreNotMuchLargerThanItsCovarianceSays) {
   double sum = 0.0;
   int lines = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    const auto walls = testing::random_room(seed);
-    const OwnedScan scan = with_noise(cast(testing::ring_sensor(361), walls), 0.02, seed);
-    const ScanLines found = testing::extract(GetParam(), scan);
+    const auto walls = support::random_room(seed);
+    const OwnedScan scan = with_noise(cast(support::ring_sensor(361), walls), 0.02, seed);
+    const ScanLines found = support::extract(GetParam(), scan);
     for (std::size_t k = 0; k < found.lines.size(); ++k) {
       const LineFeature& f = found.lines[k];
       std::vector<int> votes(walls.size(), 0);
@@ -153,14 +153,14 @@ TEST_P(SureExtractor, ErrorsInRoomsAreNotMuchLargerThanItsCovarianceSays) {
 TEST(CovarianceOfExtractors, IsAbsentWherePointsAreNotHeldAgainstTheNoise) {
   const OwnedScan scan = with_noise(cast(fan_sensor(181, radians(90)), {kWall}), 0.01, 1);
   for (const std::string name : {"sef", "iepf", "line_tracking", "kovesi", "smf", "fuzzy_lines", "line_regression"})
-    for (const LineFeature& f : testing::extract(name, scan).lines) EXPECT_FALSE(f.covariance) << name;
+    for (const LineFeature& f : support::extract(name, scan).lines) EXPECT_FALSE(f.covariance) << name;
 }
 
 TEST(CovarianceOfExtractors, IsAbsentForASensorWithoutStatedNoise) {
   const OwnedScan scan = cast(fan_sensor(181, radians(90)), {kWall});
   for (const std::string& name : kSure) {
     if (name == "optimal") continue;  // assumes a least noise of its own
-    const ScanLines lines = testing::extract(name, scan);
+    const ScanLines lines = support::extract(name, scan);
     ASSERT_FALSE(lines.lines.empty()) << name;
     for (const LineFeature& f : lines.lines) EXPECT_FALSE(f.covariance) << name;
   }

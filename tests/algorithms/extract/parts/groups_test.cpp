@@ -11,8 +11,8 @@ namespace scanbench {
 namespace {
 
 using namespace extract;
-using testing::LineNear;
-using testing::PointNear;
+using support::LineNear;
+using support::PointNear;
 
 const std::vector<Vec2> kLine = {{1, 2}, {2, 2.5}, {4, 3.5}, {5, 4}};  // y = 1.5 + x/2
 
@@ -86,8 +86,8 @@ TEST(FitGroup, AGroupWithoutADirectionLiesAcrossTheRay) {
 }
 
 // A wall x = 2 seen by five beams.
-testing::OwnedScan wall_scan() {
-  return testing::cast(testing::fan_sensor(5, radians(60)), {{{2, -9}, {2, 9}}});
+support::OwnedScan wall_scan() {
+  return support::cast(support::fan_sensor(5, radians(60)), {{{2, -9}, {2, 9}}});
 }
 
 TEST(LinesOfRuns, ASharedBreakPointSupportsTheSecondRunButEndsBothSegments) {
@@ -123,7 +123,7 @@ TEST(LinesOfRuns, TheSensorIsOnTheLeftForEitherSenseOfRotation) {
   for (const double step : {radians(15), -radians(15)}) {
     SensorModel sensor;
     sensor.geometry = ScanGeometry(-2 * step, step, 5);
-    const auto scan = testing::cast(sensor, {{{2, -9}, {2, 9}}});
+    const auto scan = support::cast(sensor, {{{2, -9}, {2, 9}}});
     const std::vector<PointRun> runs = {{0, 4}};
     const ScanLines lines = lines_of_runs(scan.view(), valid_points(scan.view()), runs, Fit::tls);
     ASSERT_EQ(lines.lines.size(), 1u);

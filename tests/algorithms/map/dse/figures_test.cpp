@@ -17,7 +17,7 @@
 namespace scanbench::mapping::dse {
 namespace {
 
-using testing::SegmentNear;
+using support::SegmentNear;
 
 const double kSlope = std::tan(radians(62));
 constexpr double kHeight = 0.5;  // of the scan above the map

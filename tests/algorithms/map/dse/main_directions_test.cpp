@@ -10,7 +10,7 @@
 namespace scanbench::mapping::dse {
 namespace {
 
-using testing::DirectionNear;
+using support::DirectionNear;
 
 const PeakRule kRule{.least_share = 0.10, .apart_rad = radians(10)};
 

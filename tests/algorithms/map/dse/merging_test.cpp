@@ -13,7 +13,7 @@
 namespace scanbench::mapping::dse {
 namespace {
 
-using testing::SegmentNear;
+using support::SegmentNear;
 
 const Vec2 kX(1, 0);
 

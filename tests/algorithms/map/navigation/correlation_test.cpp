@@ -15,12 +15,12 @@ namespace {
 /// A scan of walls and the lines in it.
 struct Seen {
   Seen(const std::vector<Segment>& walls, const Pose2& pose) : series(), truth(pose) {
-    series.add_exact(testing::cast(testing::ring_sensor(361), walls, pose));
+    series.add_exact(support::cast(support::ring_sensor(361), walls, pose));
     const Observation observation = series.observations().front();
     points = valid_points(observation.scan).points;
     segments = scan_segments(observation, 0.0);
   }
-  testing::ScanSeries series;
+  support::ScanSeries series;
   Pose2 truth;
   std::vector<Vec2> points;
   std::vector<ScanSegment> segments;
@@ -46,7 +46,7 @@ void expect_pose(const Pose2& found, const Pose2& truth, double tolerance) {
 }
 
 TEST(Correlation, SegmentsAndPointsFindThePoseInARoomExactly) {
-  const std::vector<Segment> room = testing::box(-4, -3, 5, 3.5);
+  const std::vector<Segment> room = support::box(-4, -3, 5, 3.5);
   const Seen seen(room, {0.3, -0.2, 0.4});
   const Pose2 predicted(0.4, -0.1, 0.43);
   expect_pose(by_segments(seen, room, predicted).map_from_sensor, seen.truth, 1e-9);
@@ -54,7 +54,7 @@ TEST(Correlation, SegmentsAndPointsFindThePoseInARoomExactly) {
 }
 
 TEST(Correlation, AnExactPredictionIsNotCorrected) {
-  const std::vector<Segment> room = testing::box(-4, -3, 5, 3.5);
+  const std::vector<Segment> room = support::box(-4, -3, 5, 3.5);
   const Seen seen(room, {0.3, -0.2, 0.4});
   expect_pose(by_segments(seen, room, seen.truth).map_from_sensor, seen.truth, 1e-12);
   expect_pose(by_points(seen, room, seen.truth).map_from_sensor, seen.truth, 1e-12);
@@ -73,7 +73,7 @@ TEST(Correlation, ACorridorLeavesItsAxisAsPredicted) {
 }
 
 TEST(Correlation, PointsWithPointsFindACopyThatMovedLessThanHalfTheSpacing) {
-  const std::vector<Segment> room = testing::box(-1, -0.8, 1.2, 0.9);  // 361 beams: points some 2 cm apart
+  const std::vector<Segment> room = support::box(-1, -0.8, 1.2, 0.9);  // 361 beams: points some 2 cm apart
   const Seen seen(room, {});
   PointMap map(0.001);
   map.add(seen.points);

@@ -10,7 +10,7 @@
 namespace scanbench::mapping::navigation {
 namespace {
 
-using testing::SegmentNear;
+using support::SegmentNear;
 
 std::vector<Vec2> along(const Segment& s, int n) {
   std::vector<Vec2> points;

@@ -41,7 +41,7 @@ struct Walls {
 };
 
 TEST(Registration, FindsThePoseInARoomExactly) {
-  const Walls room(testing::box(-3, -2, 4, 2), {0.5, 0.3, 0.2});
+  const Walls room(support::box(-3, -2, 4, 2), {0.5, 0.3, 0.2});
   const Registration found = room.on({0.6, 0.2, 0.24});
   EXPECT_EQ(found.status, Status::converged);
   EXPECT_NEAR((found.map_from_sensor.translation() - room.truth.translation()).norm(), 0, 1e-9);
@@ -50,7 +50,7 @@ TEST(Registration, FindsThePoseInARoomExactly) {
 }
 
 TEST(Registration, DoesNotMoveAnExactPrediction) {
-  const Walls room(testing::box(-3, -2, 4, 2), {0.5, 0.3, 0.2});
+  const Walls room(support::box(-3, -2, 4, 2), {0.5, 0.3, 0.2});
   const Registration found = room.on(room.truth);
   EXPECT_NEAR((found.map_from_sensor.translation() - room.truth.translation()).norm(), 0, 1e-12);
   EXPECT_NEAR(found.map_from_sensor.yaw(), 0.2, 1e-12);
@@ -67,7 +67,7 @@ TEST(Registration, LeavesTheOpenMotionOfACorridorAsPredicted) {
 }
 
 TEST(Registration, WithTooFewPartnersIsNoMatchAtThePredictedPose) {
-  const Walls room(testing::box(-3, -2, 4, 2), {0, 0, 0});
+  const Walls room(support::box(-3, -2, 4, 2), {0, 0, 0});
   const Registration found = room.on({5, 5, 0});
   EXPECT_EQ(found.status, Status::no_match);
   EXPECT_TRUE(found.map_from_sensor == Pose2(5, 5, 0));
@@ -75,7 +75,7 @@ TEST(Registration, WithTooFewPartnersIsNoMatchAtThePredictedPose) {
 }
 
 TEST(Search, FindsATurnThatIsTooLargeForTheGates) {
-  const Walls room(testing::box(-3, -2, 4, 2), {0.5, 0.3, 0.2});
+  const Walls room(support::box(-3, -2, 4, 2), {0.5, 0.3, 0.2});
   const Pose2 slipped(0.5, 0.3, 0.2 - radians(38));
   const RegistrationRule rule{.search_rad = radians(40)};
   const Locate locate = [&](const Pose2& from) { return room.on(from, rule); };
@@ -86,7 +86,7 @@ TEST(Search, FindsATurnThatIsTooLargeForTheGates) {
 }
 
 TEST(Search, IsNotMadeWhereThePredictionFitsWell) {
-  const Walls room(testing::box(-3, -2, 4, 2), {0, 0, 0});
+  const Walls room(support::box(-3, -2, 4, 2), {0, 0, 0});
   int calls = 0;
   const RegistrationRule rule{.search_rad = radians(40)};
   with_search(
@@ -112,7 +112,7 @@ TEST(Search, ThatFindsNothingStaysAtThePrediction) {
 }
 
 TEST(FromStep, AScanThatDoesNotMeetTheMapStaysWhereTheScanBeforePutsIt) {
-  const Walls room(testing::box(-3, -2, 4, 2), {0, 0, 0});
+  const Walls room(support::box(-3, -2, 4, 2), {0, 0, 0});
   const RegistrationRule rule{};
   const Locate locate = [&](const Pose2& from) { return room.on(from, rule); };
   const Registration away = from_step(locate, Pose2(50, 5, 1), Pose2(49, 5, 1), rule);

@@ -18,20 +18,20 @@ namespace {
 
 // A room without symmetry, so that a heading is right or wrong.
 std::vector<Segment> room() {
-  auto walls = testing::box(-4, -3, 5, 3.5);
-  for (const Segment& s : testing::polygon({{2, 1}, {3.2, 1.3}, {2.8, 2.4}, {1.9, 2.0}})) walls.push_back(s);
-  for (const Segment& s : testing::polygon({{-3, -2}, {-2.1, -2.2}, {-2.0, -0.9}})) walls.push_back(s);
+  auto walls = support::box(-4, -3, 5, 3.5);
+  for (const Segment& s : support::polygon({{2, 1}, {3.2, 1.3}, {2.8, 2.4}, {1.9, 2.0}})) walls.push_back(s);
+  for (const Segment& s : support::polygon({{-3, -2}, {-2.1, -2.2}, {-2.0, -0.9}})) walls.push_back(s);
   return walls;
 }
 
-testing::OwnedScan seen(const Pose2& pose, const std::vector<Segment>& walls = room(), std::uint32_t frame = 0) {
-  return testing::with_noise(testing::cast(testing::ring_sensor(361), walls, pose), 0.01, 5, frame);
+support::OwnedScan seen(const Pose2& pose, const std::vector<Segment>& walls = room(), std::uint32_t frame = 0) {
+  return support::with_noise(support::cast(support::ring_sensor(361), walls, pose), 0.01, 5, frame);
 }
 
 const Pose2 kFirst(0.5, -0.4, 0.3), kSecond(0.8, -0.2, 0.9);
 
-testing::ScanSeries two_scans(const std::vector<Segment>& second_room = room()) {
-  testing::ScanSeries series;
+support::ScanSeries two_scans(const std::vector<Segment>& second_room = room()) {
+  support::ScanSeries series;
   series.add_extracted(seen(kFirst), "iepf");
   series.add_extracted(seen(kSecond, second_room, 1), "iepf");
   return series;
@@ -58,12 +58,12 @@ TEST(StepMatching, GivesNoPoseWhereNothingSaysWhereTheScanIs) {
   EXPECT_FALSE(steps.pose(scans[1], kSecond)) << "there is no scan before";
   none.found(scans[0], kFirst);
   EXPECT_FALSE(none.pose(scans[1], kSecond));
-  const auto other = two_scans(testing::box(-30, -30, 40, 35));
+  const auto other = two_scans(support::box(-30, -30, 40, 35));
   steps.found(scans[0], kFirst);
   EXPECT_FALSE(steps.pose(other.observations()[1], kSecond)) << "another place";
   for (const double range : {kInf, kNaN}) {
-    testing::ScanSeries empty;
-    empty.add_extracted(testing::constant_scan(testing::ring_sensor(361), range), "iepf");
+    support::ScanSeries empty;
+    empty.add_extracted(support::constant_scan(support::ring_sensor(361), range), "iepf");
     EXPECT_FALSE(steps.pose(empty.observations()[0], kSecond));
     steps.found(empty.observations()[0], kFirst);
     EXPECT_FALSE(steps.pose(scans[1], kSecond)) << "the scan before is empty";
@@ -84,7 +84,7 @@ TEST(StepMatching, KeepsBothMappersOnTheirPathWhereWheelsSlip) {
   // Every second step of the odometry loses 35 degrees. The poses of the map are still those of the sensor.
   for (const std::string mapper : {"dse", "navigation_map"}) {
     const auto module = Registry<Mapper>::make(mapper, {{"step_matcher", "icp"}, {"search_deg", 60.0}});
-    testing::ScanSeries series;
+    support::ScanSeries series;
     std::vector<Pose2> truth, odometry;
     for (int k = 0; k < 8; ++k) {
       truth.emplace_back(0.15 * k - 0.8, 0.05 * k - 0.5, 0.25 * k);

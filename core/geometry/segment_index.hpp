@@ -9,12 +9,14 @@
 
 #include "core/geometry/geometry.hpp"
 
-namespace scanbench::mapping {
+namespace scanbench {
 
 /// Segments by number, in an R-tree of their bounding boxes.
 class SegmentIndex {
  public:
   SegmentIndex();
+  /// Segments numbered from 0, whose boxes are larger than they by a margin each.
+  SegmentIndex(std::span<const Segment> segments, std::span<const double> margins_m);
   ~SegmentIndex();
   SegmentIndex(const SegmentIndex&) = delete;
   SegmentIndex& operator=(const SegmentIndex&) = delete;
@@ -35,4 +37,4 @@ class SegmentIndex {
   std::unique_ptr<Tree> tree_;
 };
 
-}  // namespace scanbench::mapping
+}  // namespace scanbench

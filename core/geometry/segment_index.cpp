@@ -1,5 +1,5 @@
 // Wraps Boost's R-tree: of walls a grid would hold long ones in hundreds of cells, or short ones by hundreds in a cell.
-#include "algorithms/map/parts/segment_index.hpp"
+#include "core/geometry/segment_index.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -12,27 +12,35 @@
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
 
-namespace scanbench::mapping {
+namespace scanbench {
 namespace {
 
 namespace bg = boost::geometry;
-using Point = bg::model::point<double, 2, bg::cs::cartesian>;
-using Box = bg::model::box<Point>;
-using Entry = std::pair<Box, std::size_t>;
+using TreePoint = bg::model::point<double, 2, bg::cs::cartesian>;
+using TreeBox = bg::model::box<TreePoint>;
+using TreeEntry = std::pair<TreeBox, std::size_t>;
 constexpr std::size_t kNodeSize = 16;
 
-Box box_of(const Segment& s, double margin) {
+TreeBox box_of(const Segment& s, double margin) {
   const Vec2 low = s.a.cwiseMin(s.b), high = s.a.cwiseMax(s.b);
-  return {Point(low.x() - margin, low.y() - margin), Point(high.x() + margin, high.y() + margin)};
+  return {TreePoint(low.x() - margin, low.y() - margin), TreePoint(high.x() + margin, high.y() + margin)};
 }
 
 }  // namespace
 
 struct SegmentIndex::Tree {
-  bg::index::rtree<Entry, bg::index::quadratic<kNodeSize>> entries;
+  bg::index::rtree<TreeEntry, bg::index::quadratic<kNodeSize>> entries;
 };
 
 SegmentIndex::SegmentIndex() : tree_(std::make_unique<Tree>()) {}
+
+SegmentIndex::SegmentIndex(std::span<const Segment> segments, std::span<const double> margins_m) {
+  std::vector<TreeEntry> entries;
+  entries.reserve(segments.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) entries.emplace_back(box_of(segments[i], margins_m[i]), i);
+  tree_ = std::make_unique<Tree>(Tree{decltype(Tree::entries)(entries)});  // packed, which is faster than insertion
+}
+
 SegmentIndex::~SegmentIndex() = default;
 SegmentIndex::SegmentIndex(SegmentIndex&&) noexcept = default;
 SegmentIndex& SegmentIndex::operator=(SegmentIndex&&) noexcept = default;
@@ -47,15 +55,15 @@ void SegmentIndex::erase(std::size_t number, const Segment& segment) {
 
 std::vector<std::size_t> SegmentIndex::near(std::span<const Segment> segments, double reach_m) const {
   std::vector<std::size_t> found;
-  std::vector<Entry> hits;
+  std::vector<TreeEntry> hits;
   for (const Segment& s : segments) {
     hits.clear();
     tree_->entries.query(bg::index::intersects(box_of(s, reach_m)), std::back_inserter(hits));
-    for (const Entry& hit : hits) found.push_back(hit.second);
+    for (const TreeEntry& hit : hits) found.push_back(hit.second);
   }
   std::ranges::sort(found);
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
-}  // namespace scanbench::mapping
+}  // namespace scanbench

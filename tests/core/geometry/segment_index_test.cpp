@@ -1,5 +1,5 @@
 // The spatial index against a search through all segments.
-#include "algorithms/map/parts/segment_index.hpp"
+#include "core/geometry/segment_index.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/rng.hpp"
 
-namespace scanbench::mapping {
+namespace scanbench {
 namespace {
 
 bool boxes_within(const Segment& s, const Segment& t, double reach) {
@@ -49,4 +49,4 @@ TEST(SegmentIndex, AnEmptyIndexFindsNothing) {
 }
 
 }  // namespace
-}  // namespace scanbench::mapping
+}  // namespace scanbench
