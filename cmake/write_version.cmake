@@ -1,6 +1,6 @@
 # Writes the version header. The commit of a tree with local changes gets "-dirty-" and a hash of the code, so that two
 # such programs can be distinguished. Without Git it is "unknown-" with that hash.
-set(code core sim algorithms metrics render harness app cmake CMakeLists.txt)
+set(code core sim algorithms metrics render harness app examples/plugin cmake CMakeLists.txt)
 execute_process(COMMAND git -C ${SOURCE_DIR} rev-parse HEAD OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE
                 ERROR_QUIET RESULT_VARIABLE failed)
 set(mark "")
@@ -19,7 +19,7 @@ if(mark)
   foreach(part ${code})
     if(IS_DIRECTORY ${SOURCE_DIR}/${part})
       file(GLOB_RECURSE files RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/${part}/*.cpp ${SOURCE_DIR}/${part}/*.hpp
-           ${SOURCE_DIR}/${part}/*.cmake)
+           ${SOURCE_DIR}/${part}/*.cmake ${SOURCE_DIR}/${part}/*.cpp.in)
     elseif(EXISTS ${SOURCE_DIR}/${part})
       set(files ${part})
     else()

@@ -1,4 +1,4 @@
-// libFuzzer target for the reader of rows of walls, which must agree with the YAML parser.
+// libFuzzer target for the reader of tables of walls.
 #include <cstdint>
 
 #include "fuzz/inputs.hpp"

@@ -2,16 +2,14 @@
 #include "sim/world.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
-#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "sim/label_set.hpp"
 #include "sim/path.hpp"
 #include "sim/place_text.hpp"
 
@@ -35,27 +33,6 @@ struct Box {
     low = low.cwiseMin(p - Vec2::Constant(margin));
     high = high.cwiseMax(p + Vec2::Constant(margin));
   }
-};
-
-/// The labels seen so far, in a table with open addressing: a world may have 300 000.
-class Labels {
- public:
-  explicit Labels(std::size_t count) : slots_(std::bit_ceil(2 * count + 1)) {}
-
-  /// False if the label has been inserted before. It must outlive the table.
-  bool insert(std::string_view label) {
-    for (std::size_t i = std::hash<std::string_view>{}(label);; ++i) {
-      std::string_view& slot = slots_[i & (slots_.size() - 1)];
-      if (slot == label) return false;
-      if (slot.empty()) {
-        slot = label;
-        return true;
-      }
-    }
-  }
-
- private:
-  std::vector<std::string_view> slots_;  // empty: free
 };
 
 Box bounding_box(const World& world) {
@@ -100,7 +77,7 @@ void validate(const World& world) {
     if (!(world.losses[i] >= 0 && world.losses[i] <= 1))
       throw ConfigError("wall '" + world.walls[i].label + "' has a loss of " + number_text(world.losses[i]) +
                         "; allowed: a probability, 0 .. 1");
-  Labels labels(world.walls.size());
+  LabelSet labels(world.walls.size());
   for (std::size_t i = 0; i < world.walls.size(); ++i) {
     const Wall& wall = world.walls[i];
     const auto what = [&] { return "wall '" + wall.label + "' (number " + std::to_string(i + 1) + ")"; };

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "harness/files/csv_rows.hpp"
 #include "harness/files/text_file.hpp"
 
 namespace scanbench::harness {
@@ -20,14 +21,6 @@ std::string csv_field(std::string_view text) {
   }
   return quoted + "\"";
 }
-
-namespace {
-
-bool ends_field(char c) {
-  return c == ',' || c == '\n' || c == '\r' || c == '"';
-}
-
-}  // namespace
 
 CsvWriter::CsvWriter(const std::vector<std::string>& columns) : columns_(columns.size()) {
   for (const auto& column : columns) text(column);
@@ -75,64 +68,18 @@ void CsvWriter::end_row() {
 
 CsvTable::CsvTable(std::string bytes, std::filesystem::path file, const std::vector<std::string>& required)
     : file_(std::move(file)), bytes_(std::move(bytes)) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  std::size_t line = 1;
-  std::size_t i = bytes_.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
-  bool has_header = false;
-  while (i < bytes_.size()) {
-    const std::size_t start = line;
-    const std::size_t first = fields_.size();
-    for (bool more = true; more;) {
-      fields_.push_back(read_field(i, line));
-      if (i + 1 < bytes_.size() && bytes_[i] == '\r' && bytes_[i + 1] == '\n') ++i;
-      more = i < bytes_.size() && bytes_[i] == ',';
-      if (i < bytes_.size() && !more && bytes_[i] != '\n') fail(line, "a comma or the end of the line is missing");
-      ++i;
-    }
-    ++line;
-    if (!has_header) {
-      columns_ = names();
-      fields_.clear();
-      has_header = true;
-    } else if (fields_.size() - first != columns_.size()) {
-      fail(start, "found " + std::to_string(fields_.size() - first) + " fields; the first line names " +
-                      std::to_string(columns_.size()) + " columns");
-    } else {
-      lines_.push_back(start);
+  CsvRows rows(bytes_, file_, required);
+  columns_ = rows.columns();
+  const auto most = static_cast<std::size_t>(std::ranges::count(bytes_, '\n')) + 1;  // fewer if fields have line ends
+  lines_.reserve(most);
+  fields_.reserve(most * columns_.size());
+  while (rows.next()) {
+    lines_.push_back(rows.line());
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const std::string_view field = rows.text();
+      fields_.push_back({static_cast<std::size_t>(field.data() - bytes_.data()), field.size()});
     }
   }
-  const bool semicolons = columns_.size() == 1 && columns_.front().find(';') != std::string::npos;
-  const std::string hint = semicolons ? "; allowed: commas between the fields, not semicolons" : "";
-  for (const auto& name : required)
-    if (!has(name)) fail(1, "the column '" + name + "' is missing" + hint);
-}
-
-/// Reads the field that begins at `next`, and moves `next` behind it. `line` grows by the line ends in it.
-CsvTable::Field CsvTable::read_field(std::size_t& next, std::size_t& line) {
-  if (next >= bytes_.size() || bytes_[next] != '"') {
-    const std::size_t begin = next;
-    while (next < bytes_.size() && !ends_field(bytes_[next])) ++next;
-    return {begin, next - begin};
-  }
-  // The text is never longer than what it replaces.
-  const std::size_t start = line;
-  const std::size_t begin = next;
-  std::size_t end = begin;
-  for (++next;; ++next) {
-    if (next >= bytes_.size()) fail(start, "a quote is not closed");
-    if (bytes_[next] == '\n') ++line;
-    if (bytes_[next] == '"' && (next + 1 >= bytes_.size() || bytes_[next + 1] != '"')) break;
-    if (bytes_[next] == '"') ++next;
-    bytes_[end++] = bytes_[next];
-  }
-  ++next;
-  return {begin, end - begin};
-}
-
-std::vector<std::string> CsvTable::names() const {
-  std::vector<std::string> names;
-  for (const Field& field : fields_) names.push_back(bytes_.substr(field.begin, field.size));
-  return names;
 }
 
 void CsvTable::fail(std::size_t line, const std::string& message) const {

@@ -59,8 +59,6 @@ class CsvTable {
     std::size_t size;
   };
 
-  Field read_field(std::size_t& next, std::size_t& line);
-  std::vector<std::string> names() const;
   std::size_t column(std::string_view name) const;
   [[noreturn]] void fail(std::size_t line, const std::string& message) const;
 

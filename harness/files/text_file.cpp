@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <system_error>
 #include <vector>
 
 #include "core/error.hpp"
@@ -85,6 +86,8 @@ void for_each_text_block(const std::filesystem::path& path, std::uint64_t max_by
 
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed) {
   std::string text;
+  std::error_code error;
+  if (const auto size = std::filesystem::file_size(path, error); !error) text.reserve(std::min(size, max_bytes));
   for_each_text_block(path, max_bytes, allowed, [&](std::string_view block) { text += block; });
   return text;
 }

@@ -179,7 +179,7 @@ void keep_good_night(const fs::path& run) {
   const auto links = fs::copy_options::recursive | fs::copy_options::create_hard_links;
   for (const char* folder : {"cells", "recordings", "effective", "inputs", "figures"})
     if (fs::exists(run / folder)) fs::copy(run / folder, staged.path() / folder, links);
-  for (const char* file : {"manifest.json", "effective.yaml", "summary.csv"})
+  for (const char* file : {"manifest.json", "artefacts.sha256", "effective.yaml", "summary.csv"})
     if (fs::exists(run / file)) fs::copy_file(run / file, staged.path() / file);
   staged.commit();
 }

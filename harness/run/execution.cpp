@@ -15,12 +15,12 @@
 #include "core/number_text.hpp"
 #include "core/registry.hpp"
 #include "harness/files/hash.hpp"
+#include "harness/files/hash_list.hpp"
 #include "harness/files/system_error.hpp"
 #include "harness/run/cell_work.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/summary.hpp"
-#include "harness/store/written_hashes.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::harness {

@@ -30,7 +30,7 @@ struct ExecutionEvents {
   std::function<void(std::size_t cell, CellResult result, const std::string& summary)> ended;
   std::function<void(const std::string& what)> began_recording;
   std::function<void()> pause;  ///< between two cells
-  /// A folder with these files was put in place; its path is relative to the run (hash_lines() of written_hashes.hpp).
+  /// A folder with these files was put in place; its path is relative to the run (hash_lines() of hash_list.hpp).
   std::function<void(const std::filesystem::path& folder, const std::string& hashes)> wrote = {};
   /// If given, no folder is put in place: before `ended`, the owner copies the files of the cell, and those of its
   /// recording, whose path is empty if it could not be made. If this throws ConfigError, the cell is missing.

@@ -22,12 +22,12 @@ struct EarlierCell {
 
 class EarlierCells {
  public:
-  /// Reads the hashes in the run's manifest. Construct it before the manifest is rewritten.
+  /// Reads the run's list of hashes (listed_hashes()). Construct it before the manifest is rewritten.
   explicit EarlierCells(std::filesystem::path run);
 
-  /// Returns the cell if it is ok, has this address, and its recording is undamaged. All files that the manifest lists
-  /// must have their SHA-256. If a killed run has left no list, the files that the pipeline writes must exist, be
-  /// readable, and agree with each other and with the recording.
+  /// Returns the cell if it is ok, has this address, and its recording is undamaged. All listed files must have their
+  /// SHA-256. If a killed run has left no list, the files that the pipeline writes must exist, be readable, and agree
+  /// with each other and with the recording.
   std::optional<EarlierCell> find(const CellKey& key, const std::string& address, const PipelineSpec& pipeline,
                                   const TraceChoice& trace);
 
@@ -40,8 +40,8 @@ class EarlierCells {
  private:
   /// Number of frames; nullopt if the recording is missing or does not have its hash.
   std::optional<std::size_t> recorded_frames(const std::string& scenario, std::uint64_t seed);
-  /// True if all files of the folder have the hashes that the manifest lists; nullopt if it lists none. Throws
-  /// ConfigError for a file that cannot be read.
+  /// True if all files of the folder have the listed hashes; nullopt if none is listed. Throws ConfigError for a file
+  /// that cannot be read.
   std::optional<bool> hashes_agree(const std::filesystem::path& folder);
   /// Throws ConfigError for a file that cannot be read.
   bool files_are_whole(const CellKey& key, const PipelineSpec& pipeline, const TraceChoice& trace, std::size_t frames);

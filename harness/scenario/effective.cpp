@@ -33,8 +33,8 @@ YamlNode choices_node(const std::vector<ModuleChoice>& choices) {
   return list;
 }
 
-void add_input(YamlNode& root, const SimulatedInput& input, const StoredInputs&) {
-  yaml_add(root, "world", to_yaml(input.world));
+void add_input(YamlNode& root, const SimulatedInput& input, const StoredInputs& stored) {
+  yaml_add(root, "world", to_yaml(input.world, stored.walls));
   YamlNode& sensor = yaml_add(root, "sensor", yaml_map());
   yaml_add(sensor, "preset", yaml_text(input.sensor_preset));
   add_params(sensor, input.sensor_params);
@@ -70,7 +70,7 @@ void add_input(YamlNode& root, const RecordedInput& input, const StoredInputs&) 
 }
 
 void add_input(YamlNode& root, const LinesInput& input, const StoredInputs& stored) {
-  if (input.world) yaml_add(root, "world", to_yaml(*input.world));
+  if (input.world) yaml_add(root, "world", to_yaml(*input.world, stored.walls));
   YamlNode& lines = yaml_add(root, "lines", yaml_map());
   if (input.file.empty())
     add_params(lines, input.params);

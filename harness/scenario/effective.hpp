@@ -13,6 +13,7 @@ namespace scanbench::harness {
 struct StoredInputs {
   std::string published;
   std::string lines;
+  std::string walls;  ///< the table of the world's walls (wall_table.hpp); without it they are listed
 };
 
 /// The scenario as YAML, with every default and the world written out. It names the copies; every other path is

@@ -37,7 +37,6 @@ struct PipelineSpec {
 
 /// Input of a run with scans of a simulated world.
 struct SimulatedInput {
-  std::string world_text;  ///< bytes of the world's file, unpacked; empty: the world is written into the scenario
   sim::World world;
   std::string sensor_preset;
   ParamSet sensor_params;  ///< effective

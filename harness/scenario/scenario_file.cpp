@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "harness/exchange/line_set.hpp"
 #include "harness/exchange/log.hpp"
@@ -16,11 +15,11 @@
 #include "harness/scenario/published.hpp"
 #include "harness/scenario/sections.hpp"
 #include "harness/scenario/shared_keys.hpp"
-#include "harness/scenario/wall_rows.hpp"
 #include "harness/scenario/world_file.hpp"
 #include "harness/yaml/reader.hpp"
 #include "harness/yaml/sets.hpp"
 #include "sim/sensors.hpp"
+#include "sim/world.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -30,9 +29,8 @@ constexpr double kUnknownSigmaM = 0.01;
 
 class ScenarioReader {
  public:
-  /// `rows` is null, or the walls of the key `segments` of `world` (wall_rows.hpp).
-  ScenarioReader(const YamlNode& root, Scenario& scenario, bool is_recorded, std::vector<Wall>* rows)
-      : root_(root), map_(root, "the scenario"), scenario_(scenario), is_recorded_(is_recorded), rows_(rows) {}
+  ScenarioReader(const YamlNode& root, Scenario& scenario, bool is_recorded)
+      : root_(root), map_(root, "the scenario"), scenario_(scenario), is_recorded_(is_recorded) {}
 
   void read() {
     read_schema(map_);
@@ -87,10 +85,8 @@ class ScenarioReader {
 
   void read_simulated() {
     SimulatedInput input;
-    LoadedWorld loaded = read_world_section(map_.require(
+    input.world = read_world_section(map_.require(
         "world", "{file: PATH}, or the keys of a world file; or recording: {log: FILE, ...}; or lines: {file: FILE}"));
-    input.world = std::move(loaded.world);
-    input.world_text = std::move(loaded.text);
     const YamlNode& sensor = map_.require("sensor", "{preset: NAME}, and any field that overrides the preset");
     read_sensor(sensor, sim::sensor_param_specs(), input.sensor_preset, input.sensor_params, input.sensor);
     read_trajectory(map_.require("trajectory", "{kind: NAME, ...}"), input);
@@ -107,22 +103,21 @@ class ScenarioReader {
     input.caster = name == "box2d" ? sim::CasterKind::box2d : sim::CasterKind::exact;
   }
 
-  /// `text` is empty for a world inside the scenario file.
-  LoadedWorld read_world_section(const YamlNode& node) {
+  sim::World read_world_section(const YamlNode& node) {
     YamlMap map(node, "world");
-    LoadedWorld loaded;
-    if (const YamlNode* file = map.find("file")) {
-      const std::string as_written = map.text("file", "a path");
+    const YamlNode* file = map.find("file");
+    if (file == nullptr) {
+      sim::World world = read_world(map, scenario_.name, scenario_.path);
       map.done();
-      loaded = load_world(resolve_path(*file, as_written, scenario_.path));
-      if (loaded.dropped > 0)
-        scenario_.notes.push_back(fmt::format("{}: skipped {} segments without length", as_written, loaded.dropped));
-    } else {
-      loaded.world = read_world(map, scenario_.name, rows_);
-      map.done();
-      at_param(node, [&] { sim::validate(loaded.world); });
+      at_param(node, [&] { sim::validate(world); });
+      return world;
     }
-    return loaded;
+    const std::string as_written = map.text("file", "a path");
+    map.done();
+    LoadedWorld loaded = load_world(resolve_path(*file, as_written, scenario_.path));
+    if (loaded.dropped > 0)
+      scenario_.notes.push_back(fmt::format("{}: skipped {} segments without length", as_written, loaded.dropped));
+    return std::move(loaded.world);
   }
 
   static void read_sensor(const YamlNode& node, const std::vector<ParamSpec>& specs, std::string& preset,
@@ -218,14 +213,13 @@ class ScenarioReader {
       input.file_name = input.file.filename().string();
       input.frames = load_line_set(input.file);
       refuse_many_seeds("a file of lines");
-      if (const YamlNode* world = map_.find("world")) input.world = read_world_section(*world).world;
+      if (const YamlNode* world = map_.find("world")) input.world = read_world_section(*world);
     } else {
       input.params = map.params(param_specs<sim::LineCopies>());
       map.done();
       input.copies = make_params<sim::LineCopies>(input.params);
       input.world = read_world_section(
-                        map_.require("world", "{file: PATH}, or the keys of a world file: the walls that are copied"))
-                        .world;
+          map_.require("world", "{file: PATH}, or the keys of a world file: the walls that are copied"));
     }
     scenario_.input = std::move(input);
   }
@@ -247,34 +241,10 @@ class ScenarioReader {
   YamlMap map_;
   Scenario& scenario_;
   bool is_recorded_;  ///< the run folder holds what the log says
-  std::vector<Wall>* rows_;
 };
-
-// Reads a scenario whose world is in it, with rows of walls in the canonical form. Returns nothing for other scenarios
-// and for all errors, which the reader of any form then finds again, with their places.
-std::optional<Scenario> parse_canonical(std::string_view text, const std::filesystem::path& path,
-                                        const std::vector<std::string>& sets, bool is_recorded) {
-  if (std::ranges::any_of(sets, [](const std::string& set) { return set.starts_with("world"); })) return std::nullopt;
-  auto rows = take_wall_rows(text);
-  if (!rows) return std::nullopt;
-  try {
-    YamlNode root = parse_yaml(rows->rest, kMaxWorldBytes);
-    const YamlNode* world = root.find("world");
-    if (world == nullptr || !rows->belong_to(*world) || !rows->fit_into(root)) return std::nullopt;
-    Scenario scenario;
-    scenario.path = path;
-    scenario.text = text;
-    apply_sets(root, sets);
-    ScenarioReader(root, scenario, is_recorded, &rows->walls).read();
-    return scenario;
-  } catch (const ConfigError&) {
-    return std::nullopt;
-  }
-}
 
 Scenario parse(std::string_view text, const std::filesystem::path& path, const std::vector<std::string>& sets,
                bool is_recorded) {
-  if (auto scenario = parse_canonical(text, path, sets, is_recorded)) return *std::move(scenario);
   Scenario scenario;
   scenario.path = path;
   scenario.text = text;
@@ -282,7 +252,7 @@ Scenario parse(std::string_view text, const std::filesystem::path& path, const s
     // The larger limit applies, because a scenario may contain its world.
     YamlNode root = parse_yaml(text, kMaxWorldBytes);
     apply_sets(root, sets);
-    ScenarioReader(root, scenario, is_recorded, nullptr).read();
+    ScenarioReader(root, scenario, is_recorded).read();
   });
   return scenario;
 }

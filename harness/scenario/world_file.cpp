@@ -4,34 +4,31 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
 #include <unordered_map>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "harness/files/placed_error.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/scenario/shared_keys.hpp"
-#include "harness/scenario/wall_rows.hpp"
+#include "harness/scenario/wall_table.hpp"
 #include "harness/yaml/writer.hpp"
 
 namespace scanbench::harness {
 namespace {
 
-// Labels appear in CSV tables and as subjects of metrics.
 const std::string& read_label(const YamlNode& node, std::string_view what) {
-  constexpr std::string_view kAllowed = "a label of 1 to 64 characters without comma, quote or line break";
-  const std::string& label = read_word(node, what, kAllowed);
-  const auto bad = [](char c) { return c == ',' || c == '"' || (c >= 0 && c < ' ') || c == 127; };
-  if (label.size() > 64 || std::ranges::any_of(label, bad))
-    throw PlacedError(node.mark, fmt::format("{} is {}; allowed: {}", what, quoted_excerpt(label), kAllowed));
+  const std::string& label = read_word(node, what, kWallLabels);
+  if (!is_wall_label(label))
+    throw PlacedError(node.mark, fmt::format("{} is {}; allowed: {}", what, quoted_excerpt(label), kWallLabels));
   return label;
 }
 
 class WorldReader {
  public:
-  WorldReader(YamlMap& map, const std::string& default_name, std::vector<Wall>* rows) : map_(map) {
+  WorldReader(YamlMap& map, const std::string& default_name, const std::filesystem::path& file)
+      : map_(map), file_(file) {
     world_.name = map.text_or("name", default_name);
     world_.about = map.text_or("about", "");
     ParamSpec unit;
@@ -39,10 +36,7 @@ class WorldReader {
     unit.bounds = above(0);
     unit.unit = "m";
     if (const YamlNode* node = map.find("unit_m")) unit_m_ = std::get<double>(read_param(*node, unit));
-    if (rows != nullptr)
-      take_segments(std::move(*rows));
-    else
-      read_segments();
+    read_segments();
     read_chains("polylines", 2, false);
     read_chains("polygons", 3, true);
     read_circles();
@@ -81,18 +75,13 @@ class WorldReader {
     return node == nullptr ? nullptr : &read_list(*node, key, allowed);
   }
 
-  void take_segments(std::vector<Wall> rows) {
-    const Mark mark = map_.require("segments", "rows").mark;
-    for (Wall& wall : rows) {
-      wall.segment = {unit_m_ * wall.segment.a, unit_m_ * wall.segment.b};
-      if (!(wall.segment.length() > 0)) throw PlacedError(mark, fmt::format("wall {} has no length", wall.label));
-    }
-    world_.walls = std::move(rows);
-  }
-
   void read_segments() {
     constexpr std::string_view kRow = "[label, x1, y1, x2, y2]";
-    const auto* rows = list("segments", "a list of [label, x1, y1, x2, y2]");
+    if (const YamlNode* node = map_.find("segments"); node != nullptr && node->kind == YamlKind::map) {
+      read_table(*node);
+      return;
+    }
+    const auto* rows = list("segments", "a list of [label, x1, y1, x2, y2], or {file: TABLE}");
     if (rows == nullptr) return;
     for (const auto& row : *rows) {
       const auto& v = read_list(row, "a segment", kRow);
@@ -101,6 +90,16 @@ class WorldReader {
       add_wall(read_label(v[0], "a segment's label"), {point(v[1], v[2], "x1 or y1"), point(v[3], v[4], "x2 or y2")},
                row.mark);
     }
+  }
+
+  void read_table(const YamlNode& node) {
+    YamlMap table(node, "segments");
+    const YamlNode& path = table.require("file", "the path of a table of walls");
+    const std::string as_written = table.text("file", "a path");
+    table.done();
+    world_.walls = load_wall_table(resolve_path(path, as_written, file_));
+    if (map_.find("polylines") == nullptr && map_.find("polygons") == nullptr) return;  // nothing else has labels
+    for (const Wall& wall : world_.walls) lines_.emplace(wall.label, node.mark.line);
   }
 
   void read_chains(std::string_view key, std::size_t least, bool closed) {
@@ -204,6 +203,7 @@ class WorldReader {
   }
 
   YamlMap& map_;
+  const std::filesystem::path& file_;
   sim::World world_;
   double unit_m_ = 1.0;
   std::unordered_map<std::string, int> lines_;  // of the walls, by label
@@ -235,45 +235,20 @@ std::string default_name(const std::string& file) {
   return std::filesystem::path(file).stem().string();
 }
 
-sim::World read_world_file(const YamlNode& root, const std::string& name, std::vector<Wall>* rows) {
-  YamlMap map(root, "the world file");
-  read_schema(map);
-  sim::World world = read_world(map, name, rows);
-  map.done();
-  return world;
-}
-
-// Reads a file whose rows of walls have the canonical form. Returns nothing for other files and for all errors, which
-// the reader of any form then finds again, with their places.
-std::optional<sim::World> parse_canonical(std::string_view text, const std::string& name) {
-  auto rows = take_wall_rows(text);
-  if (!rows) return std::nullopt;
-  try {
-    const YamlNode root = parse_yaml(rows->rest, kMaxWorldBytes);
-    if (!rows->belong_to(root) || !rows->fit_into(root)) return std::nullopt;
-    sim::World world = read_world_file(root, name, &rows->walls);
-    sim::validate(world);
-    return world;
-  } catch (const ConfigError&) {
-    return std::nullopt;
-  }
-}
-
 }  // namespace
 
-sim::World read_world(YamlMap& map, const std::string& default_name, std::vector<Wall>* rows) {
-  return WorldReader(map, default_name, rows).take();
+sim::World read_world(YamlMap& map, const std::string& default_name, const std::filesystem::path& file) {
+  return WorldReader(map, default_name, file).take();
 }
 
 sim::World parse_world(std::string_view text, const std::string& file) {
-  if (auto world = parse_canonical(text, default_name(file))) return *std::move(world);
-  return parse_world_yaml(text, file);
-}
-
-sim::World parse_world_yaml(std::string_view text, const std::string& file) {
   sim::World world = in_file(file, {}, [&] {
     const YamlNode root = parse_yaml(text, kMaxWorldBytes);
-    return read_world_file(root, default_name(file), nullptr);
+    YamlMap map(root, "the world file");
+    read_schema(map);
+    sim::World read = read_world(map, default_name(file), file);
+    map.done();
+    return read;
   });
   validate_in_file(world, file);
   return world;
@@ -283,7 +258,6 @@ LoadedWorld parse_vector_map(std::string_view text, const std::string& file) {
   LoadedWorld loaded;
   std::string name = std::filesystem::path(file).filename().string();
   loaded.world.name = name.substr(0, name.find('.'));
-  loaded.text = text;
   in_file(file, {}, [&] {
     std::vector<std::string_view> fields;
     int number = 0;
@@ -304,8 +278,8 @@ LoadedWorld parse_vector_map(std::string_view text, const std::string& file) {
         v[i] = *parsed;
       }
       const Segment segment{{v[0], v[1]}, {v[2], v[3]}};
-      if (loaded.world.walls.size() == kMaxVectorMapWalls)
-        throw PlacedError({number, 1}, fmt::format("more than {} walls", kMaxVectorMapWalls));
+      if (loaded.world.walls.size() == kMaxTableWalls)
+        throw PlacedError({number, 1}, fmt::format("more than {} walls", kMaxTableWalls));
       if (segment.length() > 0)
         loaded.world.walls.push_back({std::to_string(number), segment});
       else
@@ -319,24 +293,27 @@ LoadedWorld parse_vector_map(std::string_view text, const std::string& file) {
 }
 
 LoadedWorld load_world(const std::filesystem::path& path) {
-  std::string text = read_text_file(
+  const std::string text = read_text_file(
       path, kMaxWorldBytes,
       "a world file in YAML, or a vector map (name ends in .txt or .txt.gz) with x1, y1, x2, y2 in metres "
       "per line; pictures and grid maps are not read");
   if (is_vector_map(path)) return parse_vector_map(text, path.string());
-  sim::World world = parse_world(text, path.string());
-  return {std::move(world), std::move(text), 0};
+  return {parse_world(text, path.string())};
 }
 
-YamlNode to_yaml(const sim::World& world) {
+YamlNode to_yaml(const sim::World& world, const std::string& table) {
   YamlNode map = yaml_map();
   yaml_add(map, "name", yaml_text(world.name));
   if (!world.about.empty()) yaml_add(map, "about", yaml_text(world.about));
-  YamlNode& segments = yaml_add(map, "segments", yaml_sequence());
-  segments.items.reserve(world.walls.size());
-  for (const auto& wall : world.walls)
-    segments.items.push_back(
-        row({wall.segment.a.x(), wall.segment.a.y(), wall.segment.b.x(), wall.segment.b.y()}, wall.label));
+  YamlNode& segments = yaml_add(map, "segments", table.empty() ? yaml_sequence() : yaml_map());
+  if (table.empty()) {
+    segments.items.reserve(world.walls.size());
+    for (const auto& wall : world.walls)
+      segments.items.push_back(
+          row({wall.segment.a.x(), wall.segment.a.y(), wall.segment.b.x(), wall.segment.b.y()}, wall.label));
+  } else {
+    yaml_add(segments, "file", yaml_text(table));
+  }
   if (!world.losses.empty()) {
     YamlNode& losses = yaml_add(map, "losses", yaml_map());
     for (std::size_t i = 0; i < world.losses.size(); ++i)

@@ -1,11 +1,12 @@
 // Loads JSON objects and limits their size and depth.
 #include "harness/store/json_file.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
@@ -19,93 +20,45 @@ using Json = nlohmann::ordered_json;
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
 constexpr int kDeepest = 32;  // files of a run have four levels; copying a value recurses over its levels
 
-/// Builds a value as Json::parse() does, with a limit of its depth and without one key. A callback of Json::parse()
-/// would do the same, but the library then visits all elements of an array again after each object in it: of 10^5 cells
+/// The deepest level of a JSON text; of a text that is not JSON, up to its first error. Json::parse() could limit the
+/// depth through a callback, but it then visits all elements of an array again after each object in it: of 10^5 cells
 /// that takes seconds.
-class Builder : public nlohmann::json_sax<Json> {
- public:
-  Builder(const fs::path& file, const std::string& without) : file_(file), without_(without) {}
-  Json take() { return std::move(root_); }
-
-  bool null() override { return add(nullptr); }
-  bool boolean(bool value) override { return add(value); }
-  bool number_integer(number_integer_t value) override { return add(value); }
-  bool number_unsigned(number_unsigned_t value) override { return add(value); }
-  bool number_float(number_float_t value, const string_t&) override { return add(value); }
-  bool string(string_t& value) override { return add(std::move(value)); }
-  bool binary(binary_t&) override { return false; }
-  bool start_object(std::size_t) override { return open(Json::object()); }
-  bool start_array(std::size_t) override { return open(Json::array()); }
-  bool end_object() override { return close(); }
-  bool end_array() override { return close(); }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
-
-  bool key(string_t& name) override {
-    if (left_out_ > 0) return true;
-    leave_out_next_ = depth_ == 1 && !without_.empty() && name == without_;
-    key_ = std::move(name);
-    return true;
+int depth_of(std::string_view text) {
+  int depth = 0, deepest = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"')
+      in_string = !in_string;
+    else if (in_string)
+      i += c == '\\' ? 1 : 0;  // the character after it does not end the string
+    else if (c == '{' || c == '[')
+      deepest = std::max(deepest, ++depth);
+    else if (c == '}' || c == ']')
+      --depth;
   }
-
- private:
-  bool add(Json value) {
-    if (left_out_ == 0 && !std::exchange(leave_out_next_, false)) place(std::move(value));
-    return true;
-  }
-
-  bool open(Json empty) {
-    if (++depth_ > kDeepest)
-      throw ConfigError(file_.string() + ": nested deeper than " + std::to_string(kDeepest) + " levels");
-    if (left_out_ > 0 || std::exchange(leave_out_next_, false))
-      ++left_out_;
-    else
-      open_.push_back(place(std::move(empty)));
-    return true;
-  }
-
-  bool close() {
-    --depth_;
-    if (left_out_ > 0)
-      --left_out_;
-    else
-      open_.pop_back();
-    return true;
-  }
-
-  Json* place(Json value) {
-    if (open_.empty()) return &(root_ = std::move(value));
-    Json& parent = *open_.back();
-    if (!parent.is_array()) return &(parent[key_] = std::move(value));
-    parent.push_back(std::move(value));
-    return &parent.back();
-  }
-
-  const fs::path& file_;
-  const std::string& without_;
-  Json root_;
-  std::vector<Json*> open_;  ///< objects and arrays that have not ended; nothing moves them before they end
-  std::string key_;
-  bool leave_out_next_ = false;
-  int left_out_ = 0;  ///< depth within the value that is left out
-  int depth_ = 0;
-};
+  return deepest;
+}
 
 }  // namespace
 
-Json load_json(const fs::path& file, const std::string& without) {
+Json load_json(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (fs::exists(status) && !fs::is_regular_file(status)) throw ConfigError(file.string() + ": not a regular file");
   if (const auto size = fs::file_size(file, error); !error && size > kLargestFile)
     throw ConfigError(file.string() + ": has " + std::to_string(size) +
                       " bytes; allowed: " + std::to_string(kLargestFile));
-  Builder builder(file, without);
-  if (!Json::sax_parse(read_file(file), &builder)) throw ConfigError(file.string() + ": not JSON");
-  return builder.take();
+  const std::string text = read_file(file);
+  if (depth_of(text) > kDeepest)
+    throw ConfigError(file.string() + ": nested deeper than " + std::to_string(kDeepest) + " levels");
+  Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) throw ConfigError(file.string() + ": not JSON");
+  return json;
 }
 
-Json load_json_object(const fs::path& file, const std::string& without) {
-  Json json = load_json(file, without);
+Json load_json_object(const fs::path& file) {
+  Json json = load_json(file);
   if (!json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
   return json;
 }

@@ -2,18 +2,17 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include <nlohmann/json.hpp>
 
 namespace scanbench::harness {
 
 /// Loads what a file holds. Throws ConfigError with the file's name unless it is a regular file of at most 256 MiB that
-/// contains JSON nested at most 32 levels deep. The value of the top-level key `without` is read but not kept.
-nlohmann::ordered_json load_json(const std::filesystem::path& file, const std::string& without = "");
+/// contains JSON nested at most 32 levels deep.
+nlohmann::ordered_json load_json(const std::filesystem::path& file);
 
 /// Loads an object; throws for any other JSON value too.
-nlohmann::ordered_json load_json_object(const std::filesystem::path& file, const std::string& without = "");
+nlohmann::ordered_json load_json_object(const std::filesystem::path& file);
 
 [[noreturn]] void refuse_json(const std::filesystem::path& file, const nlohmann::ordered_json::exception& error);
 

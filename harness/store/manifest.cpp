@@ -1,11 +1,12 @@
-// Writes and reads manifest.json, and describes the build.
+// Writes and reads manifest.json and artefacts.sha256, and describes the build.
 #include "harness/store/manifest.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <ctime>
-#include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,7 @@
 #include "core/names.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
+#include "harness/files/hash_list.hpp"
 #include "harness/store/json_file.hpp"
 #include "scanbench_version.hpp"  // included here and nowhere else: it changes with every commit
 
@@ -43,21 +45,22 @@ Json libraries() {
   return json;
 }
 
+constexpr const char* kListHash = "artefacts_sha256";  // the key; absent while there is no list
+
 /// Hashes that are known, and since when: a file that was written before then has not changed.
 struct KnownHashes {
-  std::map<std::string, std::string> hashes;
+  FileHashes hashes;
   fs::file_time_type since = fs::file_time_type::min();
 };
 
-using Hashes = std::map<std::string, std::string>;  // by path, relative to the run
-
-/// The SHA-256 of every file of the run but the manifest.
-Hashes artefacts(const fs::path& run, const KnownHashes& known = {}) {
-  Hashes hashes;
+/// The SHA-256 of every file of the run but the manifest and the list.
+FileHashes artefacts(const fs::path& run, const KnownHashes& known) {
+  FileHashes hashes;
   for (const auto& entry : fs::recursive_directory_iterator(run)) {
     const fs::path relative = entry.path().lexically_relative(run);
-    if (!entry.is_regular_file() || !is_run_file(relative) || relative == kManifestFile.name()) continue;
+    if (!entry.is_regular_file() || !is_run_file(relative)) continue;
     const std::string path = relative.generic_string();
+    if (path == kManifestFile.name() || path == kArtefactsFile.name()) continue;
     const auto hash = known.hashes.find(path);
     const bool is_known = hash != known.hashes.end() &&
                           (known.since == fs::file_time_type::max() || fs::last_write_time(entry.path()) < known.since);
@@ -66,12 +69,11 @@ Hashes artefacts(const fs::path& run, const KnownHashes& known = {}) {
   return hashes;
 }
 
-/// Everything but the files.
 Json manifest_json(const fs::path& run) {
   const fs::path file = run / kManifestFile;
   std::error_code absent;
   if (!fs::exists(file, absent)) throw ConfigError(run.string() + ": not the folder of a run: it has no manifest.json");
-  Json json = load_json_object(file, "artefacts");
+  Json json = load_json_object(file);
   if (json.value("program", Json()) != "scanbench")
     throw ConfigError(file.string() + ": not the manifest of a scanbench run");
   if (json.value("schema", Json()) != 1)
@@ -79,67 +81,25 @@ Json manifest_json(const fs::path& run) {
   return json;
 }
 
-/// Collects the paths and hashes of the key `artefacts`. A run of 10^5 cells has half a million of them: as JSON values
-/// they would take a gigabyte.
-class ArtefactReader : public nlohmann::json_sax<Json> {
- public:
-  Hashes take() { return std::move(hashes_); }
-
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const string_t&) override { return true; }
-  bool binary(binary_t&) override { return true; }
-  bool string(string_t& text) override {
-    if (depth_ == 3 && key_ == "path") path_ = text;
-    if (depth_ == 3 && key_ == "sha256") sha256_ = text;
-    return true;
-  }
-  bool key(string_t& text) override {
-    if (depth_ == 1) is_artefacts_ = text == "artefacts";
-    key_ = text;
-    return true;
-  }
-  bool start_object(std::size_t) override { return ++depth_ < kDeepest; }
-  bool end_object() override {
-    if (depth_-- == 3 && is_artefacts_ && !path_.empty()) hashes_.emplace(std::move(path_), std::move(sha256_));
-    path_.clear();
-    sha256_.clear();
-    return true;
-  }
-  bool start_array(std::size_t) override { return ++depth_ < kDeepest; }
-  bool end_array() override {
-    --depth_;
-    return true;
-  }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
-
- private:
-  static constexpr int kDeepest = 32;
-  int depth_ = 0;
-  bool is_artefacts_ = false;
-  std::string key_, path_, sha256_;
-  Hashes hashes_;
-};
-
-Hashes hashes_in_manifest(const fs::path& run) {
-  ArtefactReader reader;
-  Json::sax_parse(read_file(run / kManifestFile), &reader);
-  return reader.take();
+/// The list that the manifest names; nothing if it names none, or if that is not the one in the folder.
+std::optional<FileHashes> named_list(const fs::path& run, const Json& manifest) {
+  const fs::path file = run / kArtefactsFile;
+  if (!manifest.contains(kListHash) || !fs::exists(file)) return std::nullopt;
+  const std::string text = read_file(file);
+  if (manifest.at(kListHash) != sha256_hex(text)) return std::nullopt;
+  return parse_hash_list(text, file.string());
 }
 
-/// Writes the file as Json::dump() would, without holding the list of files as JSON values.
-void write_json(const fs::path& run, const Json& json, const Hashes& hashes) {
-  std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
-  text.resize(text.rfind("\n}"));
-  text += ",\n  \"artefacts\": [";
-  for (const auto& [path, hash] : hashes) {
-    const std::string name = Json(path).dump(-1, ' ', false, Json::error_handler_t::replace);
-    text += (text.back() == '[' ? "\n    {\n      \"path\": " : ",\n    {\n      \"path\": ") + name +
-            ",\n      \"sha256\": \"" + hash + "\"\n    }";
-  }
-  write_file_atomically(run / kManifestFile, text + (hashes.empty() ? "]\n}\n" : "\n  ]\n}\n"));
+void write_json(const fs::path& run, const Json& json) {
+  write_file_atomically(run / kManifestFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+/// Writes the list of files, then the manifest that names it. The manifest in the folder names none.
+void write_with_list(const fs::path& run, Json manifest, const FileHashes& files) {
+  const std::string list = hash_list(files);
+  write_file_atomically(run / kArtefactsFile, list);
+  manifest[kListHash] = sha256_hex(list);
+  write_json(run, manifest);
 }
 
 }  // namespace
@@ -184,8 +144,12 @@ void write_manifest(const fs::path& run, const Manifest& manifest) {
             {"isolation", manifest.isolation},
             {"foreign_modules", manifest.foreign_modules},
             {"cells", cells}};
-  write_json(run, json,
-             manifest.state == "running" ? Hashes() : artefacts(run, {manifest.verified, fs::file_time_type::max()}));
+  if (manifest.state != "running") {
+    write_with_list(run, std::move(json), artefacts(run, {manifest.verified, fs::file_time_type::max()}));
+    return;
+  }
+  write_json(run, json);
+  remove_file(run / kArtefactsFile);
 }
 
 Manifest load_manifest(const fs::path& run) {
@@ -212,22 +176,32 @@ Manifest load_manifest(const fs::path& run) {
   }
 }
 
-std::map<std::string, std::string> listed_hashes(const fs::path& run) {
-  manifest_json(run);  // refuses what is no manifest
-  return hashes_in_manifest(run);
+FileHashes listed_hashes(const fs::path& run) {
+  const Json json = manifest_json(run);
+  if (!json.contains(kListHash)) return {};
+  if (auto list = named_list(run, json)) return *std::move(list);
+  throw ConfigError((run / kArtefactsFile).string() +
+                    " is missing or is not the list of files that manifest.json names, so that undamaged cells cannot "
+                    "be told from others; a run without --resume makes all of them");
 }
 
 void refresh_manifest(const fs::path& run) {
   constexpr auto kClock = std::chrono::seconds(1);  // more than the grain of any file system's times
-  const Json json = manifest_json(run);
-  const KnownHashes known{hashes_in_manifest(run), fs::last_write_time(run / kManifestFile) - kClock};
-  write_json(run, json, artefacts(run, known));
+  Json json = manifest_json(run);
+  KnownHashes known;
+  if (auto list = named_list(run, json)) known = {*std::move(list), fs::last_write_time(run / kArtefactsFile) - kClock};
+  const FileHashes files = artefacts(run, known);
+  if (known.hashes == files) return;
+  json.erase(kListHash);
+  json.erase("artefacts");  // the list in manifests of earlier versions of the program
+  write_json(run, json);
+  write_with_list(run, std::move(json), files);
 }
 
 void set_run_state(const fs::path& run, const std::string& state) {
   Json json = manifest_json(run);
   json["state"] = state;
-  write_json(run, json, hashes_in_manifest(run));
+  write_json(run, json);
 }
 
 std::string version_text() {
@@ -265,7 +239,7 @@ std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& 
           {"compiler", made_by.compiler},
           {"libraries", made_by.libraries},
           {"processor", made_by.processor},
-          {"files", "effective.yaml holds every parameter; manifest.json the SHA-256 of every file"}};
+          {"files", "effective.yaml holds every parameter; artefacts.sha256 the SHA-256 of every file"}};
 } catch (const Json::exception& e) {
   refuse_json(run / kManifestFile, e);
 }

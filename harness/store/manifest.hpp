@@ -1,18 +1,21 @@
-// manifest.json: the command, program, machine and files of a run.
+// manifest.json: the command, program and machine of a run. It names artefacts.sha256, the list of the run's files.
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "harness/files/hash_list.hpp"
 #include "harness/store/run_file.hpp"
 #include "harness/store/run_folder.hpp"
 
 namespace scanbench::harness {
 
 inline const RunFile kManifestFile("manifest.json");
+/// The SHA-256 of every other file of the run, as `sha256sum -c` reads it. The manifest has the hash of this list, and
+/// names no list before it is in place or while another one is.
+inline const RunFile kArtefactsFile("artefacts.sha256");
 
 /// The part of manifest.json that differs between runs. The file also has version, commit, compiler, libraries and CPU.
 struct Manifest {
@@ -22,9 +25,9 @@ struct Manifest {
   std::vector<std::string> argv;
   std::vector<std::string> scenarios;  ///< in order
   std::vector<CellKey> cells;          ///< all planned cells, in the order of summary.csv
-  /// By path: SHA-256 of files that were read or written during this run, had it, and were not written since. They are
-  /// not read again for the list of files.
-  std::map<std::string, std::string> verified{};
+  /// Of files that were read or written during this run, had this SHA-256, and were not written since. They are not
+  /// read again for the list of files.
+  FileHashes verified{};
   /// What keeps cells from each other and from the machine: limits and sandboxes that were active.
   std::vector<std::string> isolation{};
   /// What programs and libraries that are not part of scanbench say of their modules, with versions.
@@ -38,14 +41,16 @@ std::string utc_now();
 /// change of the executable, of the compiler or of its options too, is another version.
 const std::string& code_version();
 
-/// Writes manifest.json, with the SHA-256 of every file unless the run is still running.
+/// Writes manifest.json of a run that is still running, and removes the list of files of an earlier run; otherwise
+/// writes the list, then manifest.json.
 void write_manifest(const std::filesystem::path& run, const Manifest& manifest);
 /// Throws ConfigError if there is no manifest or another program wrote it.
 Manifest load_manifest(const std::filesystem::path& run);
-/// The SHA-256 of the files that manifest.json lists, by their path relative to the run; empty if the run was killed.
-/// The files themselves are not read. Throws ConfigError if there is no manifest or another program wrote it.
-std::map<std::string, std::string> listed_hashes(const std::filesystem::path& run);
-/// Updates the list of files, after figures or reports were added to a run.
+/// The hashes in artefacts.sha256, by path relative to the run; empty if the manifest names no list, because the run
+/// was killed or an earlier version of the program made it. The files themselves are not read. Throws ConfigError if
+/// the list is not the one that the manifest names.
+FileHashes listed_hashes(const std::filesystem::path& run);
+/// Updates the list of files, after figures or reports were added to a run. If it was damaged, all files are read.
 void refresh_manifest(const std::filesystem::path& run);
 
 /// Changes the state and nothing else.

@@ -10,6 +10,7 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/scenario/scenario_file.hpp"
+#include "harness/scenario/wall_table.hpp"
 #include "harness/store/json_file.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_file.hpp"
@@ -26,7 +27,11 @@ const RunFile kGatesFile("gates.json");
 
 const RunFile kPublishedCopy("inputs/*/published.csv");
 const RunFile kLinesCopy("inputs/*/lines.csv");
+const RunFile kWallTable("inputs/*/walls.csv");
 const RunFile kSourcesFile("inputs/*/sources.json");
+
+/// A world with more walls is stored as a table: as YAML they would take 10 ms to read for each thousand.
+constexpr std::size_t kMostWallsInYaml = 1000;
 
 using Json = nlohmann::ordered_json;
 
@@ -44,6 +49,13 @@ Json copy_input(const fs::path& from, const fs::path& to, const std::string& nam
   make_folders(to.parent_path());
   write_file_atomically(to, bytes);
   return {{"file", name}, {"sha256", sha256_hex(bytes)}};
+}
+
+/// The simulated world of a scenario; nullptr if it has none.
+const sim::World* world_of(const Scenario& scenario) {
+  if (const auto* simulated = std::get_if<SimulatedInput>(&scenario.input)) return &simulated->world;
+  const auto* lines = std::get_if<LinesInput>(&scenario.input);
+  return lines != nullptr && lines->world ? &*lines->world : nullptr;
 }
 
 /// `up` leads from the folder of the effective scenario to the run folder.
@@ -65,6 +77,11 @@ StoredInputs store_inputs(const fs::path& run, const Scenario& scenario, const s
     sources["log"] = source_json(recorded->log, sha256_of_file(recorded->log));
     if (!recorded->relations.empty())
       sources["relations"] = source_json(recorded->relations, sha256_of_file(recorded->relations));
+  }
+  if (const sim::World* world = world_of(scenario); world != nullptr && world->walls.size() > kMostWallsInYaml) {
+    make_folders(folder);
+    write_file_atomically(folder / kWallTable, wall_table(world->walls));
+    stored.walls = prefix + kWallTable.name();
   }
   if (sources.empty()) return stored;
   make_folders(folder);
@@ -122,6 +139,9 @@ std::map<std::string, std::map<std::string, std::string>> load_run_settings(cons
   for (const auto& name : manifest.scenarios) {
     const fs::path file = effective_file(run, manifest.scenarios, name);
     settings[name] = effective_settings(read_file(file), file.string());
+    const fs::path walls = inputs_path(run, name) / kWallTable;
+    if (const auto table = settings[name].find("world.segments.file"); table != settings[name].end())
+      table->second = "SHA-256 " + sha256_of_file(walls).substr(0, 12);
   }
   return settings;
 }
@@ -146,7 +166,7 @@ std::vector<fs::path> scenario_files(const fs::path& run, const std::vector<std:
   for (const auto& name : names) {
     if (names.size() > 1)
       for (const char* folder : {"scenarios", "effective"}) files.push_back(fs::path(folder) / (name + ".yaml"));
-    for (const RunFile* file : {&kPublishedCopy, &kLinesCopy, &kSourcesFile})
+    for (const RunFile* file : {&kPublishedCopy, &kLinesCopy, &kWallTable, &kSourcesFile})
       files.push_back(inputs_path("", name) / *file);
   }
   std::erase_if(files, [&](const fs::path& file) { return !fs::exists(run / file); });

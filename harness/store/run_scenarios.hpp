@@ -19,7 +19,8 @@ using EffectiveText = std::function<std::string(const Scenario&, const StoredInp
 
 /// Writes one scenario as scenario.yaml and effective.yaml, several as files in scenarios/ and effective/. What is
 /// needed of the scenarios' own files is copied to inputs/<scenario>/, so that reports, scores and figures need nothing
-/// outside the run folder: published values, a set of lines, and the name and hash of a log. Throws ConfigError.
+/// outside the run folder: published values, a set of lines, the walls of a large world, and the name and hash of a
+/// log. Throws ConfigError.
 void write_run_scenarios(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
                          const EffectiveText& effective_yaml);
 

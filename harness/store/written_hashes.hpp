@@ -1,17 +1,14 @@
-// The SHA-256 of files that this run has written, kept on disk until manifest.json lists them.
+// The SHA-256 of files that this run has written, kept on disk until artefacts.sha256 lists them.
 #pragma once
 
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 
-namespace scanbench::harness {
+#include "harness/files/hash_list.hpp"
 
-/// A line "name sha256" for every regular file of a folder.
-std::string hash_lines(const std::filesystem::path& folder);
-std::string hash_line(const std::string& name, const std::string& sha256);
+namespace scanbench::harness {
 
 /// A run of 10^5 cells has a million files. Their hashes would be a hundred megabytes, which each fork copies the page
 /// tables of, so they are in a temporary file. If that cannot be made or written, nothing is known, and the files are
@@ -19,10 +16,10 @@ std::string hash_line(const std::string& name, const std::string& sha256);
 class WrittenHashes {
  public:
   WrittenHashes();
-  /// `lines` are of the files in `folder`, relative to the run.
+  /// `lines` are of the files in `folder` (hash_lines()), which is relative to the run.
   void add(const std::filesystem::path& folder, const std::string& lines);
   /// By path, relative to the run. What was added last counts. Nothing may be added afterwards.
-  std::map<std::string, std::string> take();
+  FileHashes take();
 
  private:
   struct Close {

@@ -45,7 +45,7 @@ TEST_F(Film, OfADriveHasAFrameForEachScanAndTheSameBytesEachTime) {
   const std::string first = read(folder_ / "run/figures/room_iepf_drive.apng");
   EXPECT_EQ(frames_of(first), 5U);
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("Simulated with seed 1"), HasSubstr("room_iepf_drive.apng")));
-  EXPECT_THAT(read(folder_ / "run/manifest.json"), HasSubstr("room_iepf_drive.apng"));
+  EXPECT_THAT(read(folder_ / "run/artefacts.sha256"), HasSubstr("room_iepf_drive.apng"));
   ASSERT_EQ(here({"film", "run", "-q"}).code, 0);
   EXPECT_EQ(read(folder_ / "run/figures/room_iepf_drive.apng"), first);
   ASSERT_EQ(here({"film", "run", "--frames", "3", "--out", "short"}).code, 0);

@@ -31,7 +31,8 @@ TEST_F(NewModule, TheClassOfEachKindIsNamedAfterTheModule) {
     ASSERT_EQ(here({"new", kind, "two_words"}).code, 0) << kind;
     const std::string text = read(folder_ / ("algorithms/" + kind + "/two_words.cpp"));
     EXPECT_THAT(text, testing::AllOf(HasSubstr("class TwoWords final"), HasSubstr(".name = \"two_words\""),
-                                     testing::Not(HasSubstr("@")), testing::StartsWith("// two_words: ")));
+                                     testing::Not(HasSubstr("my_")), testing::Not(HasSubstr("My")),
+                                     testing::StartsWith("// two_words: ")));
   }
 }
 

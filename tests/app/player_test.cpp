@@ -58,7 +58,7 @@ TEST_F(Player, IsAPageOfItsOwnThatTheManifestLists) {
   const std::string page = read(folder_ / "run/scans.html");
   EXPECT_THAT(page, Not(HasSubstr("http")));
   EXPECT_THAT(page, HasSubstr("at most 2000 scans"));
-  EXPECT_THAT(read(folder_ / "run/manifest.json"), HasSubstr("scans.html"));
+  EXPECT_THAT(read(folder_ / "run/artefacts.sha256"), HasSubstr("scans.html"));
   ASSERT_EQ(here({"report", "run", "--scans"}).code, 0);
   EXPECT_EQ(read(folder_ / "run/scans.html"), page);
 }

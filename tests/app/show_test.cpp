@@ -62,7 +62,7 @@ TEST_F(Show, DrawsTheScanWithTheLowestF1AndPrintsThePath) {
   const std::string path = "run/figures/room_iepf_1_scan_" + std::to_string(worst.frame) + ".png";
   EXPECT_THAT(outcome.out, AllOf(HasSubstr(path + "\n"), HasSubstr("missed"), HasSubstr("F1")));
   EXPECT_THAT(read(folder_ / path), StartsWith("\x89PNG"));
-  EXPECT_THAT(read(folder_ / "run/manifest.json"), HasSubstr(path.substr(4)));
+  EXPECT_THAT(read(folder_ / "run/artefacts.sha256"), HasSubstr(path.substr(4)));
 }
 
 TEST_F(Show, DrawsANumberedScanToAChosenFileAndLeavesTheRunAsItIs) {

@@ -87,12 +87,8 @@ void for_each_include(const std::string& folder, const Check& check) {
     std::ifstream file(entry.path());
     std::string line;
     std::smatch match;
-    bool in_template = false;  // the text of a module that `scanbench new` writes
-    while (std::getline(file, line)) {
-      if (line.find("R\"text(") != std::string::npos) in_template = true;
-      if (line.find(")text\"") != std::string::npos) in_template = false;
-      if (!in_template && std::regex_search(line, match, include)) check(entry.path().string(), match[1].str());
-    }
+    while (std::getline(file, line))
+      if (std::regex_search(line, match, include)) check(entry.path().string(), match[1].str());
   }
 }
 

@@ -341,7 +341,8 @@ std::map<std::string, std::string> artefacts(const fs::path& run) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(run)) {
     const std::string name = entry.path().filename().string();
-    if (!entry.is_regular_file() || name == "manifest.json" || name == "timing.csv") continue;
+    if (!entry.is_regular_file()) continue;
+    if (name == "manifest.json" || name == "artefacts.sha256" || name == "timing.csv") continue;
     std::string bytes = read_file(entry.path());
     if (name == "status.json") {
       auto json = nlohmann::json::parse(bytes);

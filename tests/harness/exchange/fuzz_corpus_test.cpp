@@ -25,6 +25,10 @@ TEST(FuzzCorpus, LogsAreReadOrRefused) {
   run_folder(source_dir() / "fuzz/corpus/log", fuzz::run_log);
 }
 
+TEST(FuzzCorpus, TablesOfWallsAreReadOrRefused) {
+  run_folder(source_dir() / "fuzz/corpus/world", fuzz::run_world);
+}
+
 TEST(FuzzCorpus, WrongFilesAndShippedFilesAreReadOrRefused) {
   run_folder(source_dir() / "tests/harness/data/wrong", fuzz::run_yaml);
   run_folder(source_dir() / "scenarios/worlds", fuzz::run_yaml);

@@ -281,6 +281,24 @@ TEST(CellAddress, OfAScenarioWithAWorldFileIsThatOfItsEffectiveScenario) {
             work_address(effective.metrics, effective.pipelines[0]));
 }
 
+TEST(CellAddress, FollowsTheBytesOfATableOfWallsAndNotItsPath) {
+  const TemporaryFolder folder;
+  const auto address = [&](const std::string& segments) {
+    write_file_atomically(folder.path() / "s.yaml",
+                          "schema: 1\nworld: {name: w, segments: " + segments +
+                              "}\nsensor: {preset: ladar_2d30}\n"
+                              "trajectory: {kind: waypoints, points_m: {A: [1, 1], B: [2, 1]}, scans: 2}\n");
+    return input_address(load_scenario(folder.path() / "s.yaml"));
+  };
+  const std::string header = "label,x1_m,y1_m,x2_m,y2_m\n";
+  write_file_atomically(folder.path() / "a.csv", header + "a,0,0,4,0\n");
+  write_file_atomically(folder.path() / "same.csv", header + "a,0,0,4,0\n");
+  write_file_atomically(folder.path() / "other.csv", header + "a,0,0,4,1\n");
+  EXPECT_EQ(address("{file: a.csv}"), address("{file: same.csv}"));
+  EXPECT_EQ(address("{file: a.csv}"), address("[[a, 0, 0, 4, 0]]"));
+  EXPECT_NE(address("{file: a.csv}"), address("{file: other.csv}"));
+}
+
 TEST(CellAddress, FollowsTheBytesOfALog) {
   const TemporaryFolder folder;
   Scenario scenario = fixtures::scenario_with("s", {});

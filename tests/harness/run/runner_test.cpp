@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <functional>
 #include <set>
 
@@ -15,6 +16,7 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/files/hash.hpp"
+#include "harness/files/hash_list.hpp"
 #include "harness/files/system_error.hpp"
 #include "harness/run/run_options.hpp"
 #include "harness/run/score.hpp"
@@ -23,6 +25,7 @@
 #include "harness/store/run_file.hpp"
 #include "harness/store/run_lock.hpp"
 #include "harness/store/run_target.hpp"
+#include "tests/support/inputs.hpp"
 #include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
@@ -127,12 +130,11 @@ TEST(Runner, ResumeRunsAgainWhatHasChangedOrIsDamagedAndNothingElse) {
   EXPECT_EQ(fixtures::artefacts(out), fixtures::artefacts(folder.path() / "fresh"));
 }
 
-/// The manifest of a killed run, which has no list of files.
+/// The manifest of a killed run, which names no list of files.
 void forget_artefacts(const fs::path& run) {
   auto json = nlohmann::ordered_json::parse(read_file(run / "manifest.json"));
-  ASSERT_FALSE(json.at("artefacts").empty());
   json["state"] = "running";
-  json["artefacts"] = nlohmann::ordered_json::array();
+  ASSERT_EQ(json.erase("artefacts_sha256"), 1u);
   write_file_atomically(run / "manifest.json", json.dump());
 }
 
@@ -303,20 +305,17 @@ TEST(Runner, SelectsByScenarioByPipelineAndByBoth) {
   EXPECT_THROW(selection({"three"}), ConfigError);
 }
 
-TEST(Runner, ManifestNamesEveryFileWithItsHash) {
+TEST(Runner, ManifestNamesTheListOfEveryFileWithItsHash) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "r";
   run_here(two_scenarios(), {.out = out, .argv = {"scanbench", "run"}});
   const auto manifest = nlohmann::json::parse(read_file(out / "manifest.json"));
-  std::set<std::string> listed;
-  for (const auto& artefact : manifest["artefacts"]) {
-    EXPECT_EQ(artefact["sha256"], sha256_of_file(out / artefact["path"]));
-    listed.insert(artefact["path"]);
-  }
+  EXPECT_EQ(manifest["artefacts_sha256"], sha256_of_file(out / "artefacts.sha256"));
+  FileHashes expected;
   for (const auto& name : fixtures::listing(out))
-    if (fs::is_regular_file(out / name) && name != "manifest.json") {
-      EXPECT_TRUE(listed.contains(name)) << name;
-    }
+    if (fs::is_regular_file(out / name) && name != "manifest.json" && name != "artefacts.sha256")
+      expected[name] = sha256_of_file(out / name);
+  EXPECT_EQ(listed_hashes(out), expected);
   for (const char* key : {"version", "git_commit", "compiler", "flags", "libraries", "cpu", "start", "end"})
     EXPECT_TRUE(manifest.contains(key)) << key;
   EXPECT_EQ(manifest["state"], "complete");
@@ -325,6 +324,77 @@ TEST(Runner, ManifestNamesEveryFileWithItsHash) {
   EXPECT_EQ(read_file(out / "scenarios/one.yaml"), "about: one\n");
   EXPECT_EQ(read_file(out / "effective/two.yaml"), "about: two\neffective: true\n");
   EXPECT_EQ(load_manifest(out).cells.size(), 8u);
+}
+
+TEST(Runner, LeavesAListThatSha256sumChecks) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  run_here(two_scenarios(), {.out = out});
+  const std::string check =
+      "cd '" + out.string() + "' && LC_ALL=C sha256sum --check --strict --status artefacts.sha256";
+  EXPECT_EQ(std::system(check.c_str()), 0);
+  run_here(two_scenarios(), {.out = out, .resume = true});
+  EXPECT_EQ(std::system(check.c_str()), 0);
+  write_file_atomically(out / "cells/one/a/1/metrics.csv", "tampered\n");
+  EXPECT_NE(std::system(check.c_str()), 0);
+}
+
+TEST(Runner, ResumeRefusesAListThatTheManifestDoesNotName) {
+  const TemporaryFolder folder;
+  const std::vector<Scenario> scenarios{scenario_with("s", {extract_with("a", "test_line")})};
+  const fs::path out = folder.path() / "r", list = out / "artefacts.sha256";
+  run_here(scenarios, {.out = out});
+  const auto refusal = [&] { return config_refusal([&] { run_here(scenarios, {.out = out, .resume = true}); }); };
+  // A changed file with a list to match.
+  const std::string whole = read_file(list);
+  const fs::path cell = out / "cells/s/a/1/lines.csv";
+  std::string changed = whole;
+  const std::string before = sha256_of_file(cell);
+  write_file_atomically(cell, read_file(cell) + "\n");
+  changed.replace(changed.find(before), before.size(), sha256_of_file(cell));
+  write_file_atomically(list, changed);
+  EXPECT_THAT(refusal(), HasSubstr("artefacts.sha256 is missing or is not the list of files that manifest.json names"));
+  fs::remove(list);
+  EXPECT_THAT(refusal(), HasSubstr("artefacts.sha256 is missing"));
+  // With the old list, the changed file is found.
+  write_file_atomically(list, whole);
+  EXPECT_FALSE(cell_of(run_here(scenarios, {.out = out, .resume = true}), "s/a/1").reused);
+  fs::remove(list);
+  EXPECT_EQ(run_here(scenarios, {.out = out}).exit_code(), 0);
+  EXPECT_EQ(read_file(list).size(), whole.size());
+}
+
+TEST(Runner, NamesNoListWhileItRuns) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  const std::vector<Scenario> scenarios{scenario_with("s", {extract_with("a", "test_line")})};
+  run_here(scenarios, {.out = out});
+  RunServices observed = fixtures::services();
+  bool was_listed = true;
+  observed.effective_yaml = [&](const Scenario& s, const StoredInputs&) {
+    was_listed = fs::exists(out / "artefacts.sha256") ||
+                 nlohmann::json::parse(read_file(out / "manifest.json")).contains("artefacts_sha256");
+    return s.text + "effective: true\n";
+  };
+  run_with(scenarios, {.out = out, .resume = true}, observed);
+  EXPECT_FALSE(was_listed);
+  EXPECT_FALSE(listed_hashes(out).empty());
+}
+
+TEST(Runner, ManifestOfAnEarlierVersionGetsAListWhenItIsRefreshed) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "r";
+  run_here({scenario_with("s", {extract_with("a", "test_line")})}, {.out = out});
+  const FileHashes hashes = listed_hashes(out);
+  auto json = nlohmann::ordered_json::parse(read_file(out / "manifest.json"));
+  json.erase("artefacts_sha256");
+  json["artefacts"] = {{{"path", "summary.csv"}, {"sha256", "0"}}};
+  write_file_atomically(out / "manifest.json", json.dump());
+  fs::remove(out / "artefacts.sha256");
+  EXPECT_TRUE(listed_hashes(out).empty());
+  refresh_manifest(out);
+  EXPECT_EQ(listed_hashes(out), hashes);
+  EXPECT_FALSE(nlohmann::json::parse(read_file(out / "manifest.json")).contains("artefacts"));
 }
 
 TEST(Runner, OfOneScenarioWritesItsFileAtTheTop) {

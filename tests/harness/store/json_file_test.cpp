@@ -45,18 +45,25 @@ TEST(RunFiles, OfBenchmarksAreCheckedLikeAllOthers) {
   }
 }
 
-TEST(JsonFile, IsReadAsTheLibraryReadsItButForOneKey) {
+TEST(JsonFile, IsReadAsTheLibraryReadsIt) {
   const TemporaryFolder folder;
-  const std::string kept =
-      R"("a": [1, -2, 2.5, "t", true, null, [], {}, [[3], {"x": 4}]], "o": {"without": {"y": [5]}})";
-  const auto expected = nlohmann::ordered_json::parse("{" + kept + "}");
-  for (const char* other :
-       {R"("without": 1, )", R"("without": [{"a": [1]}, {}], )", R"("without": {"o": {"k": 2}}, )", ""}) {
-    const fs::path file = folder.write("x.json", "{" + std::string(other) + kept + "}");
-    EXPECT_EQ(load_json_object(file, "without"), expected);
-    EXPECT_EQ(load_json(file), nlohmann::ordered_json::parse("{" + std::string(other) + kept + "}"));
-  }
-  EXPECT_EQ(load_json(folder.write("y.json", "7")), nlohmann::ordered_json(7));
+  for (const std::string text :
+       {R"({"a": [1, -2, 2.5, "t", true, null, [], {}, [[3], {"x": 4}]], "o": {"y": [5]}, "a": 2})", "7", "\"t\""})
+    EXPECT_EQ(load_json(folder.write("x.json", text)), nlohmann::ordered_json::parse(text));
+}
+
+TEST(JsonFile, CountsOnlyBracketsOutsideOfStringsAsLevels) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    return config_refusal([&] { load_json(folder.write("x.json", text)); });
+  };
+  EXPECT_EQ(refusal("{\"" + std::string(100, '[') + "\\\"{{\": \"\\\\\"}"), "");
+  EXPECT_EQ(refusal(nested(31)), "");
+  EXPECT_THAT(refusal(nested(32)), HasSubstr("x.json: nested deeper than 32 levels"));
+  EXPECT_THAT(refusal("{\"\\\\\": " + nested(32) + "}"), HasSubstr("nested deeper"));
+  std::string flat = "[[]";
+  for (int i = 0; i < 100; ++i) flat += ", [{}]";
+  EXPECT_EQ(refusal(flat + "]"), "");
 }
 
 TEST(JsonFile, RefusesWhatIsNoRegularFile) {
