@@ -90,6 +90,17 @@ class Builder : public nlohmann::json_sax<Json> {
   int depth_ = 0;
 };
 
+Json parse_json(const std::string& bytes, const fs::path& file, const std::string& without) {
+  Builder builder(file, without);
+  if (!Json::sax_parse(bytes, &builder)) throw ConfigError(file.string() + ": not JSON");
+  return builder.take();
+}
+
+Json require_object(Json json, const fs::path& file) {
+  if (!json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
+  return json;
+}
+
 }  // namespace
 
 Json load_json(const fs::path& file, const std::string& without) {
@@ -99,15 +110,16 @@ Json load_json(const fs::path& file, const std::string& without) {
   if (const auto size = fs::file_size(file, error); !error && size > kLargestFile)
     throw ConfigError(file.string() + ": has " + std::to_string(size) +
                       " bytes; allowed: " + std::to_string(kLargestFile));
-  Builder builder(file, without);
-  if (!Json::sax_parse(read_file(file), &builder)) throw ConfigError(file.string() + ": not JSON");
-  return builder.take();
+  return parse_json(read_file(file), file, without);
 }
 
 Json load_json_object(const fs::path& file, const std::string& without) {
-  Json json = load_json(file, without);
-  if (!json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
-  return json;
+  return require_object(load_json(file, without), file);
+}
+
+Json load_json_object(const StoredFiles& files, const RunFile& file) {
+  const fs::path path = files.path(file);
+  return files.are_archived() ? require_object(parse_json(files.read(file), path, ""), path) : load_json_object(path);
 }
 
 void refuse_json(const fs::path& file, const Json::exception& error) {

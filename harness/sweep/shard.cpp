@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cstdlib>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 
 #include "core/error.hpp"
@@ -39,7 +38,7 @@ class Shard {
   }
 
   ShardResult run() {
-    const auto committed = committed_cells();
+    const auto committed = committed_addresses(sweep_.folder, options_.shard);
     for (std::size_t i = 0; i < sweep_.cells.size(); ++i) {
       if (sweep_.cells[i].shard != options_.shard) continue;
       ++result_.planned;
@@ -81,16 +80,6 @@ class Shard {
                         ": the cells of its scenarios are not those of its list; plan it again");
   }
 
-  /// Addresses of the cells that earlier attempts at this shard have committed.
-  std::unordered_set<std::string> committed_cells() const {
-    std::unordered_set<std::string> addresses;
-    CommitCheck check;
-    for (const ShardCommit& commit : load_commits(sweep_.folder, options_.shard).whole)
-      for (const CommittedCell& cell : commit.cells)
-        if (!addresses.contains(cell.address) && check.is_whole(commit, cell)) addresses.insert(cell.address);
-    return addresses;
-  }
-
   std::size_t place_of(std::size_t cell) const {
     return static_cast<std::size_t>(std::ranges::lower_bound(waiting_, cell) - waiting_.begin());
   }
@@ -108,8 +97,7 @@ class Shard {
     const CellKey key = plan_.key(planned);
     if (!recording.empty() && !writer_->has_recording(key.scenario, key.seed))
       writer_->add_recording(key.scenario, key.seed, read_folder(recording));
-    committed_[place_of(cell)] =
-        writer_->add_cell(key, plan_.address(planned), result.record.outcome, read_folder(files));
+    committed_[place_of(cell)] = writer_->add_cell(key, result.record, read_folder(files));
   }
 
   void tell_progress(const std::string& what, const CellResult* cell) const {
@@ -117,7 +105,7 @@ class Shard {
   }
 
   void commit() {
-    std::vector<CommittedCell> cells;
+    std::vector<ArchivedCell> cells;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       CellResult& result = results_[i];
       result.key = plan_.key(plan_.cells[waiting_[i]]);
@@ -137,9 +125,9 @@ class Shard {
   const ShardOptions& options_;
   RunPlan plan_;
   Execution execution_;
-  std::vector<std::size_t> waiting_;      ///< indices of the cells to run, ascending
-  std::vector<CellResult> results_;       ///< of those
-  std::vector<CommittedCell> committed_;  ///< of those; empty ones until they have ended
+  std::vector<std::size_t> waiting_;     ///< indices of the cells to run, ascending
+  std::vector<CellResult> results_;      ///< of those
+  std::vector<ArchivedCell> committed_;  ///< of those; empty ones until they have ended
   std::optional<CommitWriter> writer_;
   std::optional<SummaryRows> summary_;
   ShardResult result_;
