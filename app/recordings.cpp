@@ -14,13 +14,14 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/run/make_recording.hpp"
 #include "harness/scenario/effective.hpp"
-#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_start.hpp"
+#include "harness/store/run_store.hpp"
 #include "harness/store/run_target.hpp"
+#include "harness/store/stored_files.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -86,10 +87,10 @@ constexpr const char* kPolygons = "polygons";
 
 int export_polygons(const Options& options) {
   const fs::path out = options.out.empty() ? fs::path(options.run) / "export" : fs::path(options.out);
-  harness::require_all_cells(options.run);
-  for (const auto& key : harness::load_manifest(options.run).cells) {
-    const fs::path cell = harness::cell_path(options.run, key);
-    if (!fs::exists(cell / "lines.csv")) continue;
+  const harness::RunStore store(options.run);
+  for (const auto& key : store.keys()) {
+    const harness::StoredFiles cell = store.files(key);
+    if (!cell.has(harness::kLinesFile)) continue;
     const std::string text = harness::polygons_csv(harness::load_result(cell).lines);
     const fs::path path = out / fmt::format("{}_{}_{}_polygons.csv", key.scenario, key.pipeline, key.seed);
     harness::make_folders(out);
@@ -99,41 +100,24 @@ int export_polygons(const Options& options) {
   return kGood;
 }
 
-/// The folders in a folder; names with fewer letters first, so that seed 10 comes after seed 9.
-std::vector<fs::path> folders_of(const fs::path& folder) {
-  std::vector<fs::path> folders;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_directory()) folders.push_back(entry.path());
-  std::ranges::sort(folders, {}, [](const fs::path& path) {
-    const std::string name = path.filename().string();
-    return std::pair(name.size(), name);
-  });
-  return folders;
-}
-
 int export_recordings(const Options& options) {
-  const fs::path folder = fs::path(options.run) / "recordings";
   if (!fs::exists(options.run)) throw ConfigError(options.run + ": no such folder");
-  harness::require_all_cells(options.run);
-  if (!fs::exists(folder)) throw ConfigError(options.run + ": not a run folder: it has no recordings/");
+  const harness::RunStore store(options.run);
+  const auto recordings = store.recordings();
+  if (recordings.empty()) throw ConfigError(options.run + ": not a run folder with recordings");
   const std::string ending = options.format == "carmen" ? ".log" : options.format == "csv" ? ".csv" : ".txt";
   const fs::path out = options.out.empty() ? fs::path(options.run) / "export" : fs::path(options.out);
-  int written = 0;
-  for (const fs::path& scenario : folders_of(folder)) {
-    for (const fs::path& seed : folders_of(scenario)) {
-      const Recording recording = harness::load_recording(seed);
-      const fs::path path = out / (scenario.filename().string() + "_" + seed.filename().string() + ending);
-      const std::string text = harness::export_text(recording, options.format);
-      harness::make_folders(out);
-      harness::write_file_atomically(path, text);
-      fmt::print("{}\n", path.string());
-      if (options.format != "tum")
-        for (const auto& [key, value] : harness::import_params(recording, options.format))
-          fmt::print("  {}: {}\n", key, to_text(value));
-      ++written;
-    }
+  for (const auto& [scenario, seed] : recordings) {
+    const Recording recording = harness::load_recording(store.recording(scenario, seed));
+    const fs::path path = out / fmt::format("{}_{}{}", scenario, seed, ending);
+    const std::string text = harness::export_text(recording, options.format);
+    harness::make_folders(out);
+    harness::write_file_atomically(path, text);
+    fmt::print("{}\n", path.string());
+    if (options.format != "tum")
+      for (const auto& [key, value] : harness::import_params(recording, options.format))
+        fmt::print("  {}: {}\n", key, to_text(value));
   }
-  if (written == 0) throw ConfigError(folder.string() + ": contains no recording");
   return kGood;
 }
 

@@ -19,6 +19,7 @@
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_lock.hpp"
 #include "harness/store/run_scenarios.hpp"
+#include "harness/store/run_store.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -27,7 +28,6 @@ namespace fs = std::filesystem;
 
 int score(const fs::path& run, const std::vector<std::string>& files, bool quiet) {
   const auto scenarios = scenarios_for(run, files);
-  harness::require_all_cells(run);
   const harness::RunLock lock(run);
   harness::refuse_linked_folders(run);
   const InterruptGuard guard;
@@ -38,9 +38,9 @@ int score(const fs::path& run, const std::vector<std::string>& files, bool quiet
   harness::write_reports(run, harness::load_report_input(run, scenarios));
   if (!quiet)
     fmt::print("{} cell{} scored: {}\n", cells, cells == 1 ? "" : "s", (run / harness::kSummaryFile).string());
-  const auto planned = harness::load_manifest(run).cells;
-  const auto missing = std::ranges::count_if(
-      planned, [&](const auto& key) { return !fs::exists(harness::cell_path(run, key) / "status.json"); });
+  const harness::RunStore store(run);
+  const auto planned = store.keys();
+  const auto missing = std::ranges::count_if(planned, [&](const auto& key) { return !store.record(key); });
   if (missing == 0) return kGood;
   fmt::print("INCOMPLETE: {} of {} cells are missing\n", missing, planned.size());
   return kIncomplete;
@@ -77,8 +77,7 @@ int unpack(const fs::path& run, const std::vector<std::string>& names, bool quie
   check_run_exists(run);
   std::vector<harness::CellKey> cells;
   for (const auto& name : names) cells.push_back(cell_from(name));
-  if (names.empty()) cells = harness::load_manifest(run).cells;
-  if (!harness::has_archives(run)) throw ConfigError(run.string() + " has no archives: its cells are files");
+  if (names.empty()) cells = harness::RunStore(run).keys();
   const harness::RunLock lock(run);
   harness::refuse_linked_folders(run);
   const InterruptGuard guard;

@@ -64,18 +64,18 @@ void commit_all(const SweepPlan& plan) {
   harness::run_shard(one.folder, {.shard = 1});
   const harness::ShardCommit commit = harness::load_commits(one.folder).whole.at(0);
   const harness::ArchiveReader reader(commit.archive());
-  const auto cell = reader.files(commit.cells[0].part, "cells/room/iepf/1");
-  const auto recording = reader.files(commit.recordings[0].part, "recordings/room/1");
+  const auto cell = reader.files(commit.table.cells[0].part, "cells/room/iepf/1");
+  const auto recording = reader.files(commit.table.recordings[0].part, "recordings/room/1");
   const std::string summary = harness::read_file(commit.folder / "summary.csv");
   for (int shard = 1; shard <= plan.shards; ++shard) {
     harness::CommitWriter writer(plan.folder, shard);
-    std::vector<harness::CommittedCell> cells;
+    std::vector<harness::ArchivedCell> cells;
     std::string lines = summary.substr(0, summary.find('\n') + 1);
     for (const auto& planned_cell : plan.cells) {
       if (planned_cell.shard != shard) continue;
       const auto& key = planned_cell.key;
       writer.add_recording(key.scenario, key.seed, recording);
-      cells.push_back(writer.add_cell(key, planned_cell.address, commit.cells[0].outcome, cell));
+      cells.push_back(writer.add_cell(key, {commit.table.cells[0].record.outcome, planned_cell.address}, cell));
       const std::string of_cell = lines_of(summary, key.seed);
       cells.back().summary_size = of_cell.size();
       lines += of_cell;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -13,12 +14,6 @@
 #include "core/distributions.hpp"
 #include "core/special_values.hpp"
 #include "harness/analysis/gates.hpp"
-#include "harness/files/atomic_file.hpp"
-#include "harness/files/csv.hpp"
-#include "harness/store/archived_run.hpp"
-#include "harness/store/cell_files.hpp"
-#include "harness/store/json_file.hpp"
-#include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
 
 namespace scanbench::harness {
@@ -178,26 +173,10 @@ class Ranker {
 
 }  // namespace
 
-std::map<CellKey, double> load_scan_seconds(const std::filesystem::path& run, const std::vector<CellResults>& cells) {
+std::map<CellKey, double> load_scan_seconds(const RunStore& store, const std::vector<CellResults>& cells) {
   std::map<CellKey, double> seconds;
-  if (has_archives(run)) {
-    for (const auto& cell : load_archive_tables(run).cells)
-      if (std::isfinite(cell.scan_seconds)) seconds.emplace(cell.key, cell.scan_seconds);
-    return seconds;
-  }
-  std::map<std::pair<std::string, std::uint64_t>, double> frames;
-  for (const auto& cell : cells) {
-    const std::filesystem::path file = cell_path(run, cell.key) / kTimingFile;
-    const std::filesystem::path scans = recording_path(run, cell.key.scenario, cell.key.seed) / kScanFile;
-    if (!cell.ok() || !std::filesystem::exists(file) || !std::filesystem::exists(scans)) continue;
-    const auto [count, is_new] = frames.try_emplace({cell.key.scenario, cell.key.seed});
-    if (is_new)
-      count->second = with_json_of(scans, [](const auto& json) { return json.at("frames").template get<double>(); });
-    const CsvTable table(read_file(file), file, {"stage", "frame", "seconds"});
-    double sum = 0.0;
-    for (std::size_t row = 0; row < table.rows(); ++row) sum += table.number(row, "seconds");
-    if (count->second > 0) seconds[cell.key] = sum / count->second;
-  }
+  for (const auto& cell : cells)
+    if (const auto known = cell.ok() ? store.scan_seconds(cell.key) : std::nullopt) seconds[cell.key] = *known;
   return seconds;
 }
 

@@ -5,13 +5,13 @@
 // fewer cases. The metric is the first of a fixed list (F1, covered walls, pose errors, ...) that most of them have.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "harness/analysis/run_results.hpp"
 #include "harness/analysis/statistics.hpp"
+#include "harness/store/run_store.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::harness {
@@ -41,7 +41,7 @@ struct MethodRanking {
 
 /// Seconds of CPU time of one scan, by cell: the sum over the stages of timing.csv over the recording's number of
 /// frames. Cells without these files are absent.
-std::map<CellKey, double> load_scan_seconds(const std::filesystem::path& run, const std::vector<CellResults>& cells);
+std::map<CellKey, double> load_scan_seconds(const RunStore& store, const std::vector<CellResults>& cells);
 
 /// One ranking per set of scenarios with the same pipelines and the same condition, in the order of the cells. Sets
 /// with one pipeline or without a metric of the list are left out. `conditions`: a text by scenario.

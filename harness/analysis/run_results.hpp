@@ -37,8 +37,8 @@ struct RunResults {
   std::vector<CellResults> cells;  ///< in the order of summary.csv
 };
 
-/// Throws ConfigError unless the folder is that of a run. Reads nothing outside it. Of an archived run only the values
-/// are known, those of summary.csv without their intervals.
+/// Throws ConfigError unless the folder is that of a run. Reads nothing outside it. The rows of a run with archives
+/// have no intervals (run_store.hpp).
 RunResults load_run_results(const std::filesystem::path& run);
 
 }  // namespace scanbench::harness

@@ -37,7 +37,7 @@ ScanPairer::ScanPairer(const RunResults& before, const RunResults& after) : befo
 
 std::optional<ScanPairs> ScanPairer::pairs_of(const CellKey& key, const std::string& metric, bool same_recording) {
   if (!before_.is_log(key) && !after_.is_log(key)) return std::nullopt;
-  for (const Side* side : {&before_, &after_})
+  for (Side* side : {&before_, &after_})
     if (!side->is_log(key)) return not_paired(side->run.name + " keeps no single scans");
   if (!same_recording) return not_paired("the two recordings are not the same");
   const auto before = before_.reader->of(key, metric);

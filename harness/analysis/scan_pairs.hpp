@@ -42,7 +42,7 @@ class ScanPairer {
     const RunResults& run;
     std::optional<ScanValueReader> reader;
     explicit Side(const RunResults& results);
-    bool is_log(const CellKey& key) const { return reader && reader->is_log(key); }
+    bool is_log(const CellKey& key) { return reader && reader->is_log(key); }
   };
   Side before_;
   Side after_;

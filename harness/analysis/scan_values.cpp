@@ -132,15 +132,15 @@ struct ScanValueReader::Cell {
   PipelineResult result;
   std::map<std::string, std::map<std::string, ScanValues>> families;  ///< of the cell, by family
 
-  void load(const fs::path& run, const CellKey& of) {
-    if (scenarios.empty()) scenarios = load_run_scenarios(run);
+  void load(const RunStore& store, const CellKey& of) {
+    if (scenarios.empty()) scenarios = load_run_scenarios(store.run());
     const std::pair wanted{of.scenario, of.seed};
     if (source != wanted) {
-      recording = load_recording(recording_path(run, of.scenario, of.seed));
+      recording = load_recording(store.recording(of.scenario, of.seed));
       source = wanted;
     }
     if (key == of) return;
-    result = load_result(cell_path(run, of));
+    result = load_result(store.files(of));
     families.clear();
     key = of;
   }
@@ -168,16 +168,20 @@ struct ScanValueReader::Cell {
   }
 };
 
-ScanValueReader::ScanValueReader(fs::path run) : run_(std::move(run)), cell_(std::make_unique<Cell>()) {}
+ScanValueReader::ScanValueReader(fs::path run) : store_(std::move(run)), cell_(std::make_unique<Cell>()) {}
 ScanValueReader::~ScanValueReader() = default;
 
-bool ScanValueReader::is_log(const CellKey& key) const {
-  const fs::path folder = recording_path(run_, key.scenario, key.seed);
-  return fs::exists(folder / kRangesFile) && !fs::exists(folder / kTrueRangesFile);
+bool ScanValueReader::is_log(const CellKey& key) {
+  const auto [known, is_new] = logs_.try_emplace({key.scenario, key.seed});
+  if (is_new) {
+    const StoredFiles recording = store_.recording(key.scenario, key.seed);
+    known->second = recording.has(kRangesFile) && !recording.has(kTrueRangesFile);
+  }
+  return known->second;
 }
 
 std::optional<ScanValues> ScanValueReader::of(const CellKey& key, const std::string& metric) {
-  cell_->load(run_, key);
+  cell_->load(store_, key);
   const auto scenario = std::ranges::find(cell_->scenarios, key.scenario, &Scenario::name);
   if (scenario == cell_->scenarios.end()) return std::nullopt;
   for (const auto& choice : scenario->metrics) {

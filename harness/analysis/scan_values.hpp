@@ -2,15 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/analysis/block_bootstrap.hpp"
 #include "harness/store/run_folder.hpp"
+#include "harness/store/run_store.hpp"
 
 namespace scanbench::harness {
 
@@ -31,7 +34,7 @@ class ScanValueReader {
   ScanValueReader& operator=(const ScanValueReader&) = delete;
 
   /// True if the cell is of a recording without a truth whose files are there.
-  bool is_log(const CellKey& key) const;
+  bool is_log(const CellKey& key);
 
   /// Evaluates the metric's family on every scan alone. That the weighted mean of these values, or the root of the mean
   /// of their squares, equals the value of the whole shows that the metric is such a mean; nullopt for other metrics
@@ -41,7 +44,8 @@ class ScanValueReader {
 
  private:
   struct Cell;
-  std::filesystem::path run_;
+  RunStore store_;
+  std::map<std::pair<std::string, std::uint64_t>, bool> logs_;  ///< recordings: is it one of a log
   std::unique_ptr<Cell> cell_;
 };
 

@@ -18,13 +18,13 @@
 #include "harness/page/plain_text.hpp"
 #include "harness/report/recording_note.hpp"
 #include "harness/scenario/trace_choice.hpp"
-#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
-#include "harness/store/cell_status.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_file.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_scenarios.hpp"
+#include "harness/store/run_store.hpp"
+#include "harness/store/stored_files.hpp"
 #include "harness/store/traces.hpp"
 #include "render/backends/apng.hpp"
 #include "render/backends/gl.hpp"
@@ -61,17 +61,16 @@ struct LoadedFilm {
   std::optional<render::Film> film;
 };
 
-std::unique_ptr<LoadedFilm> load_film(const fs::path& run, const Scenario& scenario, const std::string& pipeline,
+std::unique_ptr<LoadedFilm> load_film(const RunStore& store, const Scenario& scenario, const std::string& pipeline,
                                       const FilmOptions& options) {
   const CellKey key{scenario.name, pipeline, scenario.seeds.front()};
-  const fs::path cell = cell_path(run, key);
-  require_cell(run, key);
-  if (!fs::exists(cell / kStatusFile) || load_status(cell).outcome.status != CellStatus::ok) return nullptr;
+  if (!store.is_ok(key)) return nullptr;
+  const StoredFiles cell = store.files(key);
   const auto kind = Registry<render::FilmKind>::make(options.of);
   TraceChoice choice;
   for (std::string& row : kind->trace_rows()) choice.names.insert(std::move(row));
   auto loaded = std::make_unique<LoadedFilm>();
-  loaded->recording = load_recording(recording_path(run, key.scenario, key.seed));
+  loaded->recording = load_recording(store.recording(key.scenario, key.seed));
   loaded->result = load_result(cell);
   loaded->trace = load_trace(cell, choice);
   loaded->pipeline = pipeline;
@@ -102,9 +101,10 @@ std::unique_ptr<LoadedFilm> find_film(const fs::path& run, const Scenario& scena
   if (!options.pipeline.empty() && std::ranges::count(names, options.pipeline) == 0)
     throw ConfigError(fmt::format("{} has no pipeline {}{}", scenario.name, quoted_excerpt(options.pipeline),
                                   known_names(options.pipeline, names)));
+  const RunStore store(run);
   for (const std::string& name : names)
     if (options.pipeline.empty() || options.pipeline == name)
-      if (auto loaded = load_film(run, scenario, name, options)) return loaded;
+      if (auto loaded = load_film(store, scenario, name, options)) return loaded;
   const bool from_trace = !Registry<render::FilmKind>::make(options.of)->trace_rows().empty();
   throw ConfigError(fmt::format("{}: there is no film of {} {}: {}", run.string(), options.of,
                                 options.pipeline.empty() ? "in " + scenario.name : "of " + options.pipeline,

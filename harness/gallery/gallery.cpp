@@ -53,7 +53,7 @@ void make_entry(const fs::path& run, const Catalogue& catalogue, const FigureOpt
   FigureOptions own = options;
   own.pipelines = made.entry.pipelines;
   own.name = made.entry.name;
-  for (FigureFile& file : draw_figures(run, scenario, own)) {
+  for (FigureFile& file : draw_figures(RunStore(run), scenario, own)) {
     if (file.name.empty())
       made.failure = file.caption;
     else

@@ -211,7 +211,7 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
   if (!load_benchmark(plan.run)) input.scenarios_page = input.report;
   std::map<std::string, std::string> conditions;
   for (const auto& scenario : load_run_scenarios(plan.run)) conditions[scenario.name] = condition_text(scenario);
-  input.rankings = rank_methods(input.now.cells, load_scan_seconds(plan.run, input.now.cells), conditions);
+  input.rankings = rank_methods(input.now.cells, load_scan_seconds(RunStore(plan.run), input.now.cells), conditions);
   input.worst = worst_scans(plan.run, input.now, kWorstScans);
   input.files = {kSummaryFile.name(), kManifestFile.name()};
   write_file_atomically(plan.run / kNightFile, nlohmann::ordered_json{{"suite", plan.suite}}.dump() + "\n");

@@ -13,18 +13,17 @@
 
 #include "core/recording.hpp"
 #include "core/result.hpp"
-#include "harness/files/atomic_file.hpp"
 #include "harness/files/base64.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/player/scan_choice.hpp"
 #include "harness/report/line_verdicts.hpp"
 #include "harness/report/recording_note.hpp"
 #include "harness/report/scan_error.hpp"
-#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
-#include "harness/store/cell_status.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
+#include "harness/store/run_store.hpp"
+#include "harness/store/stored_files.hpp"
 #include "render/palette.hpp"
 
 namespace scanbench::harness {
@@ -64,10 +63,9 @@ std::pair<double, double> explained(const Scan& scan, const ScanLines& lines) {
 }
 
 /// Fills f1 and error from scans.csv; leaves them empty without the file.
-void read_scans(const fs::path& cell, std::size_t frames, PlayedPipeline& played) {
-  const fs::path file = cell / "scans.csv";
-  if (!fs::exists(file)) return;
-  const CsvTable table(read_file(file), file, {"frame", "f1", "false", "missed", "split"});
+void read_scans(const StoredFiles& cell, std::size_t frames, PlayedPipeline& played) {
+  if (!cell.has("scans.csv")) return;
+  const CsvTable table = cell.table("scans.csv", {"frame", "f1", "false", "missed", "split"});
   played.f1.assign(frames, NAN);
   played.error.assign(frames, NAN);
   for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -79,14 +77,15 @@ void read_scans(const fs::path& cell, std::size_t frames, PlayedPipeline& played
   }
 }
 
-std::vector<PlayedPipeline> played_pipelines(const fs::path& run, const Scenario& scenario,
+std::vector<PlayedPipeline> played_pipelines(const RunStore& store, const Scenario& scenario,
                                              const Recording& recording) {
   const std::uint64_t seed = scenario.seeds.front();
   const std::size_t frames = recording.observed.frames.size();
   std::vector<PlayedPipeline> played;
   for (const PipelineSpec& pipeline : scenario.pipelines) {
-    const fs::path cell = cell_path(run, {scenario.name, pipeline.name, seed});
-    if (!fs::exists(cell / kStatusFile) || load_status(cell).outcome.status != CellStatus::ok) continue;
+    const CellKey key{scenario.name, pipeline.name, seed};
+    if (!store.is_ok(key)) continue;
+    const StoredFiles cell = store.files(key);
     PipelineResult result = load_result(cell);
     if (result.lines.size() != frames) continue;
     PlayedPipeline one{.name = pipeline.name,
@@ -232,17 +231,16 @@ Json packed(const Scenario& scenario, const Recording& recording, const std::vec
 }  // namespace
 
 Json played_run(const fs::path& run, const std::vector<Scenario>& scenarios, const PlayerLimits& limits) {
+  const RunStore store(run);
   Json recordings = Json::array();
   const double share =
       static_cast<double>(limits.bytes) / static_cast<double>(std::max<std::size_t>(1, scenarios.size()));
   for (const Scenario& scenario : scenarios) {
-    const fs::path folder = recording_path(run, scenario.name, scenario.seeds.front());
-    for (const PipelineSpec& pipeline : scenario.pipelines)
-      require_cell(run, {scenario.name, pipeline.name, scenario.seeds.front()});
-    if (!fs::exists(folder)) continue;
-    const Recording recording = load_recording(folder);
+    const StoredFiles recorded = store.recording(scenario.name, scenario.seeds.front());
+    if (!recorded.exist()) continue;
+    const Recording recording = load_recording(recorded);
     if (recording.observed.sensor.geometry.beams() == 0 || recording.observed.frames.empty()) continue;
-    const auto pipelines = played_pipelines(run, scenario, recording);
+    const auto pipelines = played_pipelines(store, scenario, recording);
     if (pipelines.empty()) continue;
     const double fit = std::max(1.0, share / bytes_per_scan(recording, pipelines));
     const std::size_t most = std::min(limits.scans, static_cast<std::size_t>(fit));

@@ -14,8 +14,9 @@
 #include "harness/files/csv.hpp"
 #include "harness/report/basin_chart.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
-#include "harness/store/archived_run.hpp"
 #include "harness/store/run_folder.hpp"
+#include "harness/store/run_store.hpp"
+#include "harness/store/stored_files.hpp"
 #include "harness/store/summary.hpp"
 #include "render/charts/facets.hpp"
 #include "render/figure.hpp"
@@ -43,9 +44,10 @@ struct MatchBins {
   ErrorBins angle_by_bound{kFirstBound, kBoundRatio};
 };
 
-void add_matches(const fs::path& file, std::uint64_t seed, bool by_range, MatchBins& bins) {
-  if (!fs::exists(file)) return;
-  const CsvTable csv(read_file(file), file, {"range_m", "offset_m", "angle_rad", "bound_offset_m", "bound_angle_rad"});
+void add_matches(const StoredFiles& cell, std::uint64_t seed, bool by_range, MatchBins& bins) {
+  if (!cell.has("matches.csv")) return;
+  const CsvTable csv =
+      cell.table("matches.csv", {"range_m", "offset_m", "angle_rad", "bound_offset_m", "bound_angle_rad"});
   for (std::size_t r = 0; r < csv.rows(); ++r) {
     const double range = csv.number(r, "range_m");
     const double offset = 100.0 * csv.number(r, "offset_m");
@@ -62,9 +64,9 @@ void add_matches(const fs::path& file, std::uint64_t seed, bool by_range, MatchB
 }
 
 /// The matched poses of one pipeline: position and heading in the bins of offset and angle.
-void add_poses(const fs::path& file, std::uint64_t seed, MatchBins& bins) {
-  if (!fs::exists(file)) return;
-  const CsvTable csv(read_file(file), file, {"x_m", "y_m", "yaw_rad", "bound_position_m", "bound_yaw_rad"});
+void add_poses(const StoredFiles& cell, std::uint64_t seed, MatchBins& bins) {
+  if (!cell.has("pose_errors.csv")) return;
+  const CsvTable csv = cell.table("pose_errors.csv", {"x_m", "y_m", "yaw_rad", "bound_position_m", "bound_yaw_rad"});
   for (std::size_t r = 0; r < csv.rows(); ++r) {
     const double position_bound = 100.0 * csv.number(r, "bound_position_m");
     const double heading_bound = degrees(csv.number(r, "bound_yaw_rad"));
@@ -75,16 +77,16 @@ void add_poses(const fs::path& file, std::uint64_t seed, MatchBins& bins) {
 }
 
 /// Only cells with the example's noise enter the curves over range, because other noise would hide the effect of range.
-MatchBins load_matches(const fs::path& run, const std::vector<Scenario>& scenarios, const std::string& pipeline,
+MatchBins load_matches(const RunStore& store, const std::vector<Scenario>& scenarios, const std::string& pipeline,
                        const std::vector<std::uint64_t>& seeds, double noise, bool poses) {
   MatchBins bins;
   for (const auto& scenario : scenarios)
     for (const std::uint64_t seed : seeds) {
-      const fs::path cell = cell_path(run, {scenario.name, pipeline, seed});
+      const StoredFiles cell = store.files({scenario.name, pipeline, seed});
       if (poses)
-        add_poses(cell / "pose_errors.csv", seed, bins);
+        add_poses(cell, seed, bins);
       else
-        add_matches(cell / "matches.csv", seed, noise_m(scenario) == noise, bins);
+        add_matches(cell, seed, noise_m(scenario) == noise, bins);
     }
   return bins;
 }
@@ -127,12 +129,12 @@ const Scenario& example_of(const std::vector<Scenario>& scenarios, const Benchma
 
 class Drawer {
  public:
-  Drawer(const fs::path& run, const std::vector<Scenario>& scenarios, const BenchmarkSpec& spec,
+  Drawer(const RunStore& store, const std::vector<Scenario>& scenarios, const BenchmarkSpec& spec,
          const FigureOptions& options)
-      : run_(run),
+      : store_(store),
         scenarios_(scenarios),
         options_(options),
-        rows_(load_summary(run / kSummaryFile)),
+        rows_(load_summary(store.run() / kSummaryFile)),
         seeds_(seeds_of(rows_)),
         subject_(spec.subject()),
         example_(example_of(scenarios, spec)) {
@@ -156,7 +158,7 @@ class Drawer {
       draw_rank_over_noise();
     for (std::size_t i = 0; i < names_.size(); ++i) {
       step(0.1 + 0.6 * static_cast<double>(i) / static_cast<double>(names_.size()), "matches of " + names_[i]);
-      bins_.push_back(load_matches(run_, scenarios_, names_[i], seeds_, noise_m(example_), !subject_.shows_example));
+      bins_.push_back(load_matches(store_, scenarios_, names_[i], seeds_, noise_m(example_), !subject_.shows_example));
     }
     if (subject_.shows_example) {
       step(0.7, "error_range");
@@ -173,7 +175,8 @@ class Drawer {
 
  private:
   void write(const std::string& name, const std::string& caption, const FacetChart& chart) {
-    write_figure(figure_folder(run_, options_), "benchmark_" + name, render::facet_scene(chart), caption, options_);
+    write_figure(figure_folder(store_.run(), options_), "benchmark_" + name, render::facet_scene(chart), caption,
+                 options_);
     files_.push_back({"benchmark", "benchmark_" + name, caption});
   }
 
@@ -317,10 +320,10 @@ class Drawer {
                       [&](const PipelineSpec& p) { return std::ranges::find(names_, p.name) - names_.begin(); });
     const ParamSet params = resolve(Registry<render::Figure>::all().at("scan_overlay").params, {});
     scenario.figures = {{"figure", "scan_overlay", params}};
-    for (auto& figure : draw_figures(run_, scenario, options_)) files_.push_back(std::move(figure));
+    for (auto& figure : draw_figures(store_, scenario, options_)) files_.push_back(std::move(figure));
   }
 
-  const fs::path& run_;
+  const RunStore& store_;
   const std::vector<Scenario>& scenarios_;
   const FigureOptions& options_;
   std::vector<SummaryRow> rows_;
@@ -334,14 +337,10 @@ class Drawer {
 
 }  // namespace
 
-std::vector<FigureFile> draw_benchmark_figures(const fs::path& run, const std::vector<Scenario>& scenarios,
+std::vector<FigureFile> draw_benchmark_figures(const RunStore& store, const std::vector<Scenario>& scenarios,
                                                const BenchmarkSpec& spec, const FigureOptions& options,
                                                const std::function<void(double, const std::string&)>& progress) {
-  if (has_archives(run))
-    return {{spec.example, "",
-             "the figures of the benchmark need the files of all cells; `scanbench unpack " + run.string() +
-                 "` writes them"}};
-  return Drawer(run, scenarios, spec, options).draw(progress);
+  return Drawer(store, scenarios, spec, options).draw(progress);
 }
 
 }  // namespace scanbench::harness

@@ -15,7 +15,7 @@ namespace scanbench::harness {
 
 /// Draws them from summary.csv, the cells' matches.csv and the example's recording into the folder of the options,
 /// pipelines in the order of their rank. Throws ConfigError if files are damaged or cannot be written.
-std::vector<FigureFile> draw_benchmark_figures(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
+std::vector<FigureFile> draw_benchmark_figures(const RunStore& store, const std::vector<Scenario>& scenarios,
                                                const BenchmarkSpec& spec, const FigureOptions& options,
                                                const std::function<void(double, const std::string&)>& progress = {});
 

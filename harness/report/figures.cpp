@@ -22,7 +22,6 @@
 #include "harness/report/recording_note.hpp"
 #include "harness/scenario/figure_pipelines.hpp"
 #include "harness/scenario/simulation_input.hpp"
-#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/json_file.hpp"
@@ -48,12 +47,12 @@ struct LoadedResult {
   TraceRows trace;
 };
 
-std::vector<LoadedResult> finished_results(const fs::path& run, const Scenario& scenario, std::uint64_t seed) {
+std::vector<LoadedResult> finished_results(const RunStore& store, const Scenario& scenario, std::uint64_t seed) {
   std::vector<LoadedResult> results;
   for (const auto& pipeline : scenario.pipelines) {
-    const fs::path cell = cell_path(run, {scenario.name, pipeline.name, seed});
-    require_cell(run, {scenario.name, pipeline.name, seed});
-    if (!fs::exists(cell / kStatusFile) || load_status(cell).outcome.status != CellStatus::ok) continue;
+    const CellKey key{scenario.name, pipeline.name, seed};
+    if (!store.is_ok(key)) continue;
+    const StoredFiles cell = store.files(key);
     results.push_back({pipeline.name, load_result(cell), load_trace(cell, traces_drawn(scenario, pipeline.name))});
   }
   return results;
@@ -129,7 +128,7 @@ void check_figure_options(const FigureOptions& options, const std::vector<Scenar
   if (!options.folder.empty()) check_folder(options.folder);
 }
 
-std::vector<FigureFile> draw_run_wide_figures(const fs::path& run, const std::vector<Scenario>& scenarios,
+std::vector<FigureFile> draw_run_wide_figures(const RunStore& store, const std::vector<Scenario>& scenarios,
                                               const FigureOptions& options) {
   std::vector<ModuleChoice> choices;
   for (const Scenario& scenario : scenarios)
@@ -145,7 +144,7 @@ std::vector<FigureFile> draw_run_wide_figures(const fs::path& run, const std::ve
                             .results = {}};
   input.looks = metric_looks();
   for (const Scenario& scenario : scenarios)
-    input.scenarios.push_back({scenario.name, measured_pipelines(run, with_pipelines(scenario, options.pipelines))});
+    input.scenarios.push_back({scenario.name, measured_pipelines(store, with_pipelines(scenario, options.pipelines))});
   std::vector<FigureFile> files;
   for (const ModuleChoice& choice : choices) {
     const auto figure = figure_of(choice);
@@ -158,26 +157,25 @@ std::vector<FigureFile> draw_run_wide_figures(const fs::path& run, const std::ve
       };
       std::string name = "all_" + drawn.name;
       for (int k = 2; taken(name); ++k) name = fmt::format("all_{}_{}", drawn.name, k);
-      write_figure(figure_folder(run, options), name, drawn.scene, drawn.caption, options);
+      write_figure(figure_folder(store.run(), options), name, drawn.scene, drawn.caption, options);
       files.push_back({owner, name, drawn.caption});
     }
   }
   return files;
 }
 
-std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& all, const FigureOptions& options,
+std::vector<FigureFile> draw_figures(const RunStore& store, const Scenario& all, const FigureOptions& options,
                                      const std::function<void(double, const std::string&)>& progress) {
   const Scenario scenario = with_pipelines(all, options.pipelines);
   const std::uint64_t seed = scenario.seeds.front();
-  const fs::path folder = recording_path(run, scenario.name, seed);
   if (scenario.figures.empty()) return {};
-  if (!scenario.pipelines.empty()) require_cell(run, {scenario.name, scenario.pipelines.front().name, seed});
-  if (!fs::exists(folder)) return {};
-  const Recording recording = load_recording(folder);
+  const StoredFiles recorded = store.recording(scenario.name, seed);
+  if (!recorded.exist()) return {};
+  const Recording recording = load_recording(recorded);
   check_frame(options.frame, recording, scenario);
-  const std::vector<LoadedResult> results = finished_results(run, scenario, seed);
+  const std::vector<LoadedResult> results = finished_results(store, scenario, seed);
   render::FigureInput input{.title = scenario.name, .recording = recording, .waypoints = {}, .results = {}};
-  input.measured = measured_pipelines(run, scenario);
+  input.measured = measured_pipelines(store, scenario);
   input.looks = metric_looks();
   if (std::holds_alternative<SimulatedInput>(scenario.input)) {
     const sim::SimulationInput simulated = simulation_input(scenario, seed);
@@ -210,7 +208,7 @@ std::vector<FigureFile> draw_figures(const fs::path& run, const Scenario& all, c
       if (!options.name.empty() && scenes.size() > 1) name += "_" + drawn.name;
       if (!drawn.scene.title.empty() && !title_note.empty()) drawn.scene.title += " (" + title_note + ")";
       const std::string caption = drawn.caption + " " + note;
-      write_figure(figure_folder(run, options), name, drawn.scene, caption, options);
+      write_figure(figure_folder(store.run(), options), name, drawn.scene, caption, options);
       files.push_back({scenario.name, name, caption});
     }
   }

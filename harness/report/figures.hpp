@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "harness/scenario/scenario.hpp"
+#include "harness/store/run_store.hpp"
 #include "render/output_style.hpp"
 #include "render/scene.hpp"
 
@@ -39,12 +40,11 @@ void check_figure_options(const FigureOptions& options, const std::vector<Scenar
 
 /// Draws the scenario's figures (of its first seed) from the run's recording and finished cells. Throws ConfigError if
 /// files are missing or cannot be written, and for a scan that the recording does not have.
-std::vector<FigureFile> draw_figures(const std::filesystem::path& run, const Scenario& scenario,
-                                     const FigureOptions& options = {},
+std::vector<FigureFile> draw_figures(const RunStore& store, const Scenario& scenario, const FigureOptions& options = {},
                                      const std::function<void(double, const std::string&)>& progress = {});
 
 /// Draws those figures of the scenarios that span all of them, once for the run, as all_<figure>.
-std::vector<FigureFile> draw_run_wide_figures(const std::filesystem::path& run, const std::vector<Scenario>& scenarios,
+std::vector<FigureFile> draw_run_wide_figures(const RunStore& store, const std::vector<Scenario>& scenarios,
                                               const FigureOptions& options);
 
 /// The folder of the options, run/figures by default.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <system_error>
 #include <variant>
 
 #include <fmt/format.h>
@@ -23,13 +22,13 @@
 #include "harness/report/report.hpp"
 #include "harness/report/scenario_tables.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
-#include "harness/store/archived_run.hpp"
-#include "harness/store/cell_files.hpp"
 #include "harness/store/json_file.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_scenarios.hpp"
+#include "harness/store/run_store.hpp"
+#include "harness/store/stored_files.hpp"
 #include "harness/store/summary.hpp"
 
 namespace scanbench::harness {
@@ -49,13 +48,12 @@ void write_agreement(const fs::path& run, const ReportInput& input) {
 }
 
 /// "SHA-256 ...; 180 beams from -90 deg in steps of 1 deg, from first_angle_deg and step_deg".
-std::string source_of(const fs::path& run, const Scenario& scenario, const RecordedInput& recorded) {
+std::string source_of(const RunStore& store, const Scenario& scenario, const RecordedInput& recorded) {
   std::string text = recorded.log_sha256.empty() ? "hash not known" : "SHA-256 " + recorded.log_sha256;
-  std::error_code absent;
   if (scenario.seeds.empty()) return text;
-  const fs::path file = recording_path(run, scenario.name, scenario.seeds.front()) / kScanFile;
-  if (!fs::is_regular_file(file, absent)) return text;
-  return with_json_of(file, [&](const nlohmann::ordered_json& json) {
+  const StoredFiles recording = store.recording(scenario.name, scenario.seeds.front());
+  if (!recording.has(kScanFile)) return text;
+  return with_json_of(recording, kScanFile, [&](const nlohmann::ordered_json& json) {
     const bool given = std::ranges::any_of(std::array{"step_deg", "span_deg"}, [&](const char* key) {
       const auto param = recorded.params.find(key);
       return param != recorded.params.end() && to_text(param->second) != "0";
@@ -68,7 +66,7 @@ std::string source_of(const fs::path& run, const Scenario& scenario, const Recor
   });
 }
 
-std::map<std::string, MethodRanking> rankings_by_scenario(const ReportInput& input) {
+std::map<std::string, MethodRanking> rankings_by_scenario(const RunStore& store, const ReportInput& input) {
   std::map<std::string, std::vector<CellResults>> cells;
   std::map<CellKey, std::size_t> places;
   std::vector<CellResults> all;  // without rows
@@ -82,7 +80,7 @@ std::map<std::string, MethodRanking> rankings_by_scenario(const ReportInput& inp
     cell.status = line.status;
     all.push_back(cell);
   }
-  const std::map<CellKey, double> seconds = load_scan_seconds(input.run, all);
+  const std::map<CellKey, double> seconds = load_scan_seconds(store, all);
   for (const auto& row : input.rows) {
     const auto place = places.find({row.scenario, row.pipeline, row.seed});
     if (place == places.end()) continue;
@@ -109,10 +107,10 @@ ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& 
   input.scenarios = scenarios;
   if (fs::exists(run / kSummaryFile)) input.rows = load_summary(run / kSummaryFile);
   const Manifest manifest = load_manifest(run);
-  const CellRecords records(run);
+  const RunStore store(run);
   for (const auto& key : manifest.cells) {
     CellLine line{key.scenario, key.pipeline, key.seed, "missing", "not run", 0.0, 0.0, was_selected(manifest, key)};
-    if (const auto record = records.of(key)) {
+    if (const auto record = store.record(key)) {
       line.selected = true;
       line.status = to_string(record->outcome.status);
       line.message = plain_line(record->outcome.message);
@@ -122,25 +120,26 @@ ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& 
     input.cells.push_back(std::move(line));
   }
   input.figures = load_figure_index(run / "figures");
-  input.rankings = rankings_by_scenario(input);
+  input.rankings = rankings_by_scenario(store, input);
   for (const auto& scenario : scenarios)
     if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
-      input.sources[scenario.name] = source_of(run, scenario, *recorded);
+      input.sources[scenario.name] = source_of(store, scenario, *recorded);
   return input;
 }
 
 void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenarios, const FigureOptions& options,
                       const std::function<void(double, const std::string&)>& progress) {
+  const RunStore store(run);
   std::vector<FigureFile> figures;
   const auto benchmark = load_benchmark(run, scenarios);
-  if (benchmark) figures = draw_benchmark_figures(run, scenarios, *benchmark, options, progress);
+  if (benchmark) figures = draw_benchmark_figures(store, scenarios, *benchmark, options, progress);
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     const auto part = [&](double share, const std::string& what) {
       if (progress) progress((static_cast<double>(i) + share) / static_cast<double>(scenarios.size()), what);
     };
-    for (auto& figure : draw_figures(run, scenarios[i], options, part)) figures.push_back(std::move(figure));
+    for (auto& figure : draw_figures(store, scenarios[i], options, part)) figures.push_back(std::move(figure));
   }
-  for (auto& figure : draw_run_wide_figures(run, scenarios, options)) figures.push_back(std::move(figure));
+  for (auto& figure : draw_run_wide_figures(store, scenarios, options)) figures.push_back(std::move(figure));
   save_figure_index(figure_folder(run, options), figures);
   if (options.folder.empty()) refresh_manifest(run);
 }

@@ -16,12 +16,13 @@
 #include "harness/files/text_file.hpp"
 #include "harness/report/line_verdicts.hpp"
 #include "harness/report/scan_error.hpp"
-#include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_scenarios.hpp"
+#include "harness/store/run_store.hpp"
+#include "harness/store/stored_files.hpp"
 #include "render/backends/cairo.hpp"
 #include "render/backends/gl.hpp"
 #include "render/figure.hpp"
@@ -47,10 +48,9 @@ const T& choose(const std::vector<T>& all, const std::string& name, const std::s
 /// The rows of a cell's scans.csv.
 class ScanRows {
  public:
-  explicit ScanRows(fs::path cell) : file_(std::move(cell) / "scans.csv") {
-    if (!fs::exists(file_)) return;
-    table_.emplace(read_file(file_), file_,
-                   std::vector<std::string>{"frame", "true", "false", "missed", "split", "f1", "residual_m"});
+  explicit ScanRows(const StoredFiles& cell) : file_(cell.path("scans.csv")) {
+    if (cell.has("scans.csv"))
+      table_ = cell.table("scans.csv", {"frame", "true", "false", "missed", "split", "f1", "residual_m"});
   }
 
   /// That with the largest scan_error(); of several the first.
@@ -107,14 +107,14 @@ struct ChosenCell {
     const Scenario& scenario = choose(scenarios, choice.scenario, "scenario", run.string());
     const PipelineSpec& pipeline = choose(scenario.pipelines, choice.pipeline, "pipeline", scenario.name);
     key = {scenario.name, pipeline.name, choice.seed.value_or(scenario.seeds.front())};
-    const fs::path cell = cell_path(run, key);
-    require_cell(run, key);
-    if (!fs::exists(cell / "status.json"))
-      throw ConfigError(run.string() + ": the cell " + to_string(key) + " is missing");
-    if (const auto& outcome = load_status(cell).outcome; outcome.status != CellStatus::ok)
+    const RunStore store(run);
+    const auto record = store.record(key);
+    if (!record) throw ConfigError(run.string() + ": the cell " + to_string(key) + " is missing");
+    if (const CellStatus status = record->outcome.status; status != CellStatus::ok)
       throw ConfigError(run.string() + ": the cell " + to_string(key) + " has no lines: it is " +
-                        std::string(to_string(outcome.status)));
-    recording = load_recording(recording_path(run, key.scenario, key.seed));
+                        std::string(to_string(status)));
+    const StoredFiles cell = store.files(key);
+    recording = load_recording(store.recording(key.scenario, key.seed));
     result = load_result(cell);
     rules = segment_rules(scenario.metrics);
     rows.emplace(cell);

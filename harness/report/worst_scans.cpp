@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/recording.hpp"
-#include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/page/scan_sketch.hpp"
 #include "harness/report/line_verdicts.hpp"
@@ -18,6 +17,8 @@
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
 #include "harness/store/run_scenarios.hpp"
+#include "harness/store/run_store.hpp"
+#include "harness/store/stored_files.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -32,8 +33,7 @@ bool is_worse(const WorstScan& a, const WorstScan& b) {
 }
 
 /// Inserts the scans of one cell into the list of its pipeline, which stays in order and short.
-void insert_scans(const fs::path& file, const CellKey& key, std::size_t count, std::vector<WorstScan>& worst) {
-  const CsvTable table(read_file(file), file, {"frame", "true", "false", "missed", "split", "f1"});
+void insert_scans(const CsvTable& table, const CellKey& key, std::size_t count, std::vector<WorstScan>& worst) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const WorstScan scan{key,
                          static_cast<std::size_t>(std::max(0, table.index(row, "frame"))),
@@ -70,9 +70,8 @@ SketchLine kind_of(render::LineVerdict verdict) {
 /// A recording and the verdicts on a pipeline's lines in it.
 class JudgedCell {
  public:
-  JudgedCell(const fs::path& run, const CellKey& key, const std::vector<Scenario>& scenarios)
-      : recording_(load_recording(recording_path(run, key.scenario, key.seed))),
-        result_(load_result(cell_path(run, key))) {
+  JudgedCell(const RunStore& store, const CellKey& key, const std::vector<Scenario>& scenarios)
+      : recording_(load_recording(store.recording(key.scenario, key.seed))), result_(load_result(store.files(key))) {
     const auto scenario = std::ranges::find(scenarios, key.scenario, &Scenario::name);
     if (scenario != scenarios.end()) verdicts_ = line_verdicts(recording_, result_, segment_rules(scenario->metrics));
   }
@@ -104,20 +103,23 @@ class JudgedCell {
 }  // namespace
 
 std::vector<PipelineWorst> worst_scans(const fs::path& run, const RunResults& results, std::size_t count) {
+  const RunStore store(run);
   std::vector<PipelineWorst> all;
   for (const auto& cell : results.cells) {
-    const fs::path file = cell_path(run, cell.key) / "scans.csv";
-    if (!cell.ok() || !fs::exists(file)) continue;
+    if (!cell.ok()) continue;
+    const StoredFiles files = store.files(cell.key);
+    if (!files.has("scans.csv")) continue;
     auto of_pipeline = std::ranges::find(all, cell.key.pipeline, &PipelineWorst::pipeline);
     if (of_pipeline == all.end()) of_pipeline = all.insert(of_pipeline, {cell.key.pipeline, {}});
-    insert_scans(file, cell.key, count, of_pipeline->scans);
+    insert_scans(files.table("scans.csv", {"frame", "true", "false", "missed", "split", "f1"}), cell.key, count,
+                 of_pipeline->scans);
   }
   if (all.empty()) return all;
   const std::vector<Scenario> scenarios = load_run_scenarios(run);
   for (auto& [pipeline, scans] : all) {
     std::map<CellKey, JudgedCell> cells;
     for (auto& scan : scans) {
-      const auto cell = cells.try_emplace(scan.key, run, scan.key, scenarios).first;
+      const auto cell = cells.try_emplace(scan.key, store, scan.key, scenarios).first;
       cell->second.draw(scan);
     }
   }

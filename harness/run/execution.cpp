@@ -2,17 +2,14 @@
 #include "harness/run/execution.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
-#include <initializer_list>
 #include <map>
-#include <set>
-#include <string_view>
 #include <utility>
 
 #include <malloc.h>
 
 #include "core/error.hpp"
-#include "core/number_text.hpp"
 #include "core/registry.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/files/hash_list.hpp"
@@ -29,25 +26,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Of the time, the part that is spent on flushing the disk: one in this many.
-constexpr int kFlushShare = 20;
-
-/// Several texts as one: each after its length.
-std::string packed(std::initializer_list<std::string_view> texts) {
-  std::string all;
-  for (const std::string_view text : texts) all.append(std::to_string(text.size())).append(" ").append(text);
-  return all;
-}
-
-/// Takes the first text.
-std::string unpack(std::string& all) {
-  const std::size_t blank = all.find(' ');
-  const auto size = static_cast<std::size_t>(parse_number(std::string_view(all).substr(0, blank)).value_or(0.0));
-  std::string text = all.substr(blank + 1, size);
-  all.erase(0, blank + 1 + size);
-  return text;
-}
-
 }  // namespace
 
 Execution::Execution(const RunPlan& plan, int jobs, MakeRecording make_recording, ExecutionEvents events)
@@ -62,8 +40,8 @@ void Execution::add(std::size_t cell) {
   ++group_of(cell).unfinished;
 }
 
-void Execution::work(const fs::path& folder, double grace_seconds) {
-  folder_ = folder;
+void Execution::work(CellSink& sink, double grace_seconds) {
+  sink_ = &sink;
   prepare_metrics();
   ::malloc_trim(0);  // each fork copies the page tables of what this process holds, freed or not
   try {
@@ -74,12 +52,10 @@ void Execution::work(const fs::path& folder, double grace_seconds) {
   }
   pool_->kill_all();
   running_.clear();
-  put_in_place();
+  end_cells(sink_->flush());
   interrupted_ = pool_->interrupted();
   terminated_ = pool_->terminated();
   for (auto& group : groups_) group.active.reset();
-  std::error_code ignored;
-  for (const auto& empty : std::exchange(empty_folders_, {})) fs::remove(empty, ignored);
 }
 
 /// A library that a metric needs is loaded here once, and not in each of several cells, most of which take less time.
@@ -106,7 +82,7 @@ void Execution::run_all(double grace_seconds) {
   while (!pool_->interrupted()) {
     while (pool_->running() < static_cast<std::size_t>(jobs_) && start_next()) {
     }
-    put_in_place_if_due();  // while the children run
+    end_cells(sink_->flush_if_due());  // while the children run
     if (pool_->running() == 0) break;
     for (auto& finished : pool_->wait()) take(std::move(finished));
     events_.pause();
@@ -120,9 +96,10 @@ void Execution::run_all(double grace_seconds) {
 
 void Execution::take(WorkerPool::Finished finished) {
   if (finished.id < plan_.cells.size())
-    finish_cell(finished.id, std::move(running_.extract(finished.id).mapped()), std::move(finished.outcome));
+    finish_cell(finished.id, std::move(running_.extract(finished.id).mapped()), std::move(finished.outcome),
+                std::move(finished.output));
   else
-    finish_recording(finished.id - plan_.cells.size(), std::move(finished.outcome));
+    finish_recording(finished.id - plan_.cells.size(), std::move(finished.outcome), std::move(finished.output));
 }
 
 /// Starts a cell whose recording exists, else the next recording. False if there is nothing to start now.
@@ -148,56 +125,67 @@ void Execution::start_recording(std::size_t index) {
   ActiveGroup& group = *groups_[index].active;
   const PlannedGroup& planned = plan_.groups[index];
   const std::vector<std::size_t>& cells = groups_[index].cells;
-  const bool with_cell = cells.size() == 1;
-  std::optional<StagedFolder> cell_folder;
-  try {
-    group.staged.emplace(stage_folder(recording_path(folder_, planned.scenario->name, planned.seed)));
-    if (with_cell) cell_folder.emplace(stage_folder(cell_path(folder_, plan_.key(plan_.cells[cells.front()]))));
-  } catch (const ConfigError& e) {
-    group.staged.reset();
-    skip_cells(index, {.message = e.what(), .system_error = true});
-    return;
-  }
-  const int threads = std::max(1, jobs_ - static_cast<int>(pool_->running()));
   events_.began_recording("recording " + planned.scenario->name + "/" + std::to_string(planned.seed));
-  std::optional<Recording> made;  // in the child
-  const auto make = [&] {
-    made = make_recording_(*planned.scenario, planned.seed, threads);
-    const std::string hash = write_recording(group.staged->path(), *made);
-    return packed({hash, hashes_of(group.staged->path())});
-  };
-  const Limits& limits = planned.scenario->limits;
-  std::vector<WorkerTask> tasks{{plan_.cells.size() + index, make, {limits.seconds, limits.memory_bytes, threads}}};
-  if (with_cell)
-    tasks.push_back({cells.front(),
-                     [&] { return work_on_cell(cells.front(), cell_folder->path(), *made); },
-                     {limits.seconds, limits.memory_bytes, 1}});
   try {
-    pool_->start(tasks);
-    if (with_cell) running_.emplace(cells.front(), std::move(*cell_folder));
-  } catch (const SystemError& e) {
-    group.staged.reset();
+    group.files.emplace(sink_->begin(index, recording_path("", planned.scenario->name, planned.seed)));
+    std::optional<StagedFolder> cell_folder;
+    if (cells.size() == 1) cell_folder.emplace(begin_cell(cells.front()));
+    start_children(index, std::move(cell_folder));
+  } catch (const ConfigError& e) {
+    group.files.reset();
     skip_cells(index, {.message = e.what(), .system_error = true});
   }
 }
 
-void Execution::finish_recording(std::size_t index, WorkerOutcome outcome) {
+/// Starts the tasks of a recording and, if a folder is given, of its only cell.
+void Execution::start_children(std::size_t index, std::optional<StagedFolder> cell_folder) {
+  const int threads = std::max(1, jobs_ - static_cast<int>(pool_->running()));
+  const Limits& limits = plan_.groups[index].scenario->limits;
+  std::optional<Recording> made;  // in the child
+  std::vector<WorkerTask> tasks{{plan_.cells.size() + index,
+                                 [&] { return work_on_recording(index, threads, made); },
+                                 {limits.seconds, limits.memory_bytes, threads}}};
+  const std::size_t cell = groups_[index].cells.front();
+  if (cell_folder)
+    tasks.push_back({cell,
+                     [&] { return work_on_cell(cell, cell_folder->path(), *made); },
+                     {limits.seconds, limits.memory_bytes, 1}});
+  pool_->start(tasks);
+  if (cell_folder) running_.emplace(cell, std::move(*cell_folder));
+}
+
+/// What a recording's child does.
+TaskOutput Execution::work_on_recording(std::size_t index, int threads, std::optional<Recording>& made) const {
+  const PlannedGroup& planned = plan_.groups[index];
+  const fs::path& folder = groups_[index].active->files->path();
+  made = make_recording_(*planned.scenario, planned.seed, threads);
+  TaskOutput output;
+  output.content_hash = write_recording(folder, *made);
+  output.file_hashes = sink_->hashes_of(folder);
+  return output;
+}
+
+/// What a cell's child does.
+TaskOutput Execution::work_on_cell(std::size_t cell, const fs::path& folder, const Recording& recording) const {
+  const PlannedCell& planned = plan_.cells[cell];
+  const PlannedWork& work = plan_.works[planned.work];
+  const CellOutput made = make_cell(folder, *work.scenario, *work.pipeline, plan_.trace(planned), recording);
+  TaskOutput output(made.remarks);
+  output.summary = summary_lines(plan_.key(planned), made.rows);
+  output.file_hashes = sink_->hashes_of(folder);
+  return output;
+}
+
+void Execution::finish_recording(std::size_t index, WorkerOutcome outcome, TaskOutput output) {
   ActiveGroup& group = *groups_[index].active;
   const std::vector<std::size_t>& cells = groups_[index].cells;
   const bool with_cell = cells.size() == 1;
   if (outcome.status == CellStatus::ok) {
-    const std::string hash = unpack(outcome.message);
-    group.hashes = unpack(outcome.message);
     try {
-      if (!with_cell) group.recording = load_recording(group.staged->path());
-      // The new recording replaces the old one only if it differs.
-      try {
-        if (fs::exists(group.staged->target()) && recording_hash(load_recording(group.staged->target())) == hash)
-          group.staged.reset();
-      } catch (const ConfigError&) {
-        // The old recording is damaged.
-      }
-      if (group.staged && !events_.copy_files) new_recordings_.push_back(index);
+      if (!with_cell) group.recording = load_recording(group.files->path());
+      sink_->put(FinishedRecording{index, std::move(output.content_hash), std::move(output.file_hashes),
+                                   std::move(*group.files)});
+      group.files.reset();
       if (with_cell)
         has_other_failure_ = true;
       else
@@ -209,7 +197,7 @@ void Execution::finish_recording(std::size_t index, WorkerOutcome outcome) {
       outcome = {.status = CellStatus::failed, .message = e.what()};
     }
   }
-  group.staged.reset();
+  group.files.reset();
   skip_cells(index, outcome);
 }
 
@@ -220,45 +208,33 @@ void Execution::skip_cells(std::size_t index, const WorkerOutcome& outcome) {
       "there is no recording: " + std::string(to_string(outcome.status)) + ": " + outcome.message;
   for (const std::size_t cell : groups_[index].cells) {
     auto begun = running_.extract(cell);
-    if (outcome.system_error)
+    if (outcome.system_error) {
       mark_missing(cell, outcome.message);
-    else if (auto staged = begun ? std::optional(std::move(begun.mapped())) : stage(cell))
-      finish_cell(cell, std::move(*staged), {.status = CellStatus::skipped, .message = message});
+      continue;
+    }
+    try {
+      finish_cell(cell, begun ? std::move(begun.mapped()) : begin_cell(cell),
+                  {.status = CellStatus::skipped, .message = message}, {});
+    } catch (const ConfigError& e) {
+      mark_missing(cell, e.what());
+    }
   }
-}
-
-/// Nobody needs them if the files are copied.
-std::string Execution::hashes_of(const fs::path& folder) const {
-  return events_.wrote && !events_.copy_files ? hash_lines(folder) : "";
-}
-
-/// What a cell's child does. Returns its remarks, the lines of the summary, and the hashes of its files.
-std::string Execution::work_on_cell(std::size_t cell, const fs::path& folder, const Recording& recording) const {
-  const PlannedCell& planned = plan_.cells[cell];
-  const PlannedWork& work = plan_.works[planned.work];
-  const CellOutput output = make_cell(folder, *work.scenario, *work.pipeline, plan_.trace(planned), recording);
-  return packed({output.remarks, summary_lines(plan_.key(planned), output.rows), hashes_of(folder)});
 }
 
 void Execution::start_cell(std::size_t cell) {
   has_other_failure_ = true;
-  if (!active_group_of(cell).fault.empty()) {
-    mark_missing(cell, active_group_of(cell).fault);
-    return;
-  }
-  std::optional<StagedFolder> staged = stage(cell);
-  if (!staged) return;
   const Limits& limits = scenario_of(cell).limits;
-  const auto task = [&] { return work_on_cell(cell, staged->path(), *active_group_of(cell).recording); };
   try {
+    StagedFolder files = begin_cell(cell);
+    const auto task = [&] { return work_on_cell(cell, files.path(), *active_group_of(cell).recording); };
     pool_->start(cell, task, {limits.seconds, limits.memory_bytes, 1});
-    running_.emplace(cell, std::move(*staged));
-  } catch (const SystemError& e) {
+    running_.emplace(cell, std::move(files));
+  } catch (const ConfigError& e) {
     mark_missing(cell, e.what());
   }
 }
 
-void Execution::finish_cell(std::size_t cell, StagedFolder staged, WorkerOutcome outcome) {
+void Execution::finish_cell(std::size_t cell, StagedFolder files, WorkerOutcome outcome, TaskOutput output) {
   if (outcome.system_error) {
     mark_missing(cell, outcome.message);
     return;
@@ -267,136 +243,31 @@ void Execution::finish_cell(std::size_t cell, StagedFolder staged, WorkerOutcome
   CellResult result;
   result.key = plan_.key(planned);
   result.done = true;
+  result.record = {std::move(outcome), plan_.address(planned)};
   try {
-    std::string summary;
-    std::string hashes;
-    if (outcome.status == CellStatus::ok) {
-      std::string report = std::exchange(outcome.message, "");
-      outcome.message = unpack(report);
-      summary = unpack(report);
-      hashes = unpack(report);
-    } else {
-      staged.clear();
-    }
-    result.record.outcome = std::move(outcome);
-    result.record.address = plan_.address(planned);
+    if (result.record.outcome.status != CellStatus::ok) files.clear();
     const std::string status = status_json(result.record);
-    write_staged_file(staged.path() / kStatusFile, status);
-    hashes += hash_line(kStatusFile.name(), sha256_hex(status));
-    finished_.push_back({cell, std::move(result), std::move(summary), std::move(hashes), std::move(staged)});
+    write_staged_file(files.path() / kStatusFile, status);
+    output.file_hashes += hash_line(kStatusFile.name(), sha256_hex(status));
   } catch (const ConfigError& e) {
     mark_missing(cell, e.what());
-  }
-}
-
-/// Makes the unfinished folder of a cell. If that fails, marks the cell as missing.
-std::optional<StagedFolder> Execution::stage(std::size_t cell) {
-  try {
-    return stage_folder(cell_path(folder_, plan_.key(plan_.cells[cell])));
-  } catch (const ConfigError& e) {
-    mark_missing(cell, e.what());
-    return std::nullopt;
-  }
-}
-
-StagedFolder Execution::stage_folder(const fs::path& target) {
-  if (!events_.copy_files) return StagedFolder(target);
-  if (!empty_folders_.empty()) {
-    fs::path folder = std::move(empty_folders_.back());
-    empty_folders_.pop_back();
-    return StagedFolder::in_empty_folder(target, std::move(folder));
-  }
-  const std::string name = "files" + std::to_string(folders_made_++);
-  return {folder_ / name, folder_ / ("." + name)};
-}
-
-/// Removes the files of a folder and keeps it. A folder that cannot be emptied is removed, as far as possible.
-void Execution::use_again(StagedFolder staged) {
-  std::error_code error;
-  for (fs::directory_iterator entry(staged.path(), error), end; !error && entry != end; entry.increment(error))
-    if (!fs::remove_all(entry->path(), error) || error) return;
-  if (!error) empty_folders_.push_back(staged.release());
-}
-
-/// Lets the owner copy the files of finished cells.
-void Execution::hand_over() {
-  for (Finished& cell : std::exchange(finished_, {})) {
-    Group& group = group_of(cell.cell);
-    std::string fault;
-    try {
-      const std::optional<StagedFolder>& recording = group.active->staged;
-      events_.copy_files(cell.cell, cell.result, cell.staged.path(), recording ? recording->path() : fs::path());
-    } catch (const ConfigError& e) {
-      fault = e.what();
-    }
-    use_again(std::move(cell.staged));
-    if (fault.empty())
-      end_cell(cell.cell, std::move(cell.result), cell.summary);
-    else
-      mark_missing(cell.cell, fault);
-    if (group.unfinished > 0) continue;
-    if (group.active->staged) use_again(std::move(*group.active->staged));
-    group.active.reset();
-  }
-}
-
-void Execution::put_in_place_if_due() {
-  const auto begun = Clock::now();
-  if (finished_.empty() || begun < due_) return;
-  put_in_place();
-  const auto ended = Clock::now();
-  if (!events_.copy_files) due_ = ended + kFlushShare * (ended - begun);
-}
-
-/// Puts finished recordings in place, then finished cells. Cells whose folder cannot be put in place are missing.
-void Execution::put_in_place() {
-  if (events_.copy_files) {
-    hand_over();
     return;
   }
-  std::string fault;
-  std::set<fs::path> parents;
-  const auto place = [&](StagedFolder& staged, const std::string& hashes) -> std::string {
-    if (!fault.empty()) return fault;
-    try {
-      staged.place();
-      if (events_.wrote) events_.wrote(staged.target().lexically_relative(folder_), hashes);
-      parents.insert(staged.target().parent_path());
-    } catch (const ConfigError& e) {
-      return e.what();
-    }
-    return "";
-  };
-  try {
-    if (!finished_.empty())
-      finished_.front().staged.flush();
-    else if (!new_recordings_.empty())
-      groups_[new_recordings_.front()].active->staged->flush();
-  } catch (const ConfigError& e) {
-    fault = e.what();
-  }
-  for (const std::size_t index : std::exchange(new_recordings_, {})) {
-    ActiveGroup& group = *groups_[index].active;
-    group.fault = place(*group.staged, std::exchange(group.hashes, ""));
-    group.staged.reset();
-  }
-  std::vector<Finished> ended = std::exchange(finished_, {});
-  std::vector<std::string> faults;
-  faults.reserve(ended.size());
-  for (auto& cell : ended)
-    faults.push_back(active_group_of(cell.cell).fault.empty() ? place(cell.staged, cell.hashes)
-                                                              : active_group_of(cell.cell).fault);
-  try {
-    for (const auto& parent : parents) flush_folder(parent);
-  } catch (const ConfigError& e) {
-    faults.assign(faults.size(), e.what());
-  }
-  for (std::size_t i = 0; i < ended.size(); ++i) {
-    if (faults[i].empty())
-      end_cell(ended[i].cell, std::move(ended[i].result), ended[i].summary);
+  sink_->put(FinishedCell{cell, planned.group, std::move(result), std::move(output.summary),
+                          std::move(output.file_hashes), std::move(files)});
+}
+
+StagedFolder Execution::begin_cell(std::size_t cell) {
+  const PlannedCell& planned = plan_.cells[cell];
+  return sink_->begin(planned.group, cell_path("", plan_.key(planned)));
+}
+
+void Execution::end_cells(std::vector<FinishedCell> kept) {
+  for (auto& cell : kept) {
+    if (cell.fault.empty())
+      end_cell(cell.cell, std::move(cell.result), cell.summary);
     else
-      mark_missing(ended[i].cell, faults[i]);
-    if (group_of(ended[i].cell).unfinished == 0) group_of(ended[i].cell).active.reset();
+      mark_missing(cell.cell, cell.fault);
   }
 }
 
@@ -413,7 +284,7 @@ void Execution::mark_missing(std::size_t cell, const std::string& reason) {
 
 void Execution::end_cell(std::size_t cell, CellResult result, const std::string& summary) {
   Group& group = group_of(cell);
-  if (--group.unfinished == 0 && group.active) group.active->recording.reset();
+  if (--group.unfinished == 0) group.active.reset();
   events_.ended(cell, std::move(result), summary);
 }
 

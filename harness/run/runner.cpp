@@ -13,6 +13,7 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/system_error.hpp"
 #include "harness/run/execution.hpp"
+#include "harness/run/folder_sink.hpp"
 #include "harness/run/make_recording.hpp"
 #include "harness/run/resume.hpp"
 #include "harness/run/run_plan.hpp"
@@ -35,13 +36,11 @@ class Run {
         options_(options),
         services_(services),
         plan_(plan_run(scenarios, options)),
-        execution_(
-            plan_, options.jobs, services.recording,
-            {.ended = [this](std::size_t cell, CellResult result,
-                             const std::string& summary) { end_cell(cell, std::move(result), summary); },
-             .began_recording = [this](const std::string& what) { tell_progress(what, nullptr); },
-             .pause = [this] { write_summary_now_and_then(); },
-             .wrote = [this](const fs::path& folder, const std::string& hashes) { written_.add(folder, hashes); }}),
+        execution_(plan_, options.jobs, services.recording,
+                   {.ended = [this](std::size_t cell, CellResult result,
+                                    const std::string& summary) { end_cell(cell, std::move(result), summary); },
+                    .began_recording = [this](const std::string& what) { tell_progress(what, nullptr); },
+                    .pause = [this] { write_summary_now_and_then(); }}),
         cells_(plan_.cells.size()),
         summary_(plan_.cells.size()) {
     target_ = std::make_unique<RunTarget>(options.out, options.resume || !options.only.empty());
@@ -53,7 +52,8 @@ class Run {
     refuse_to_drop_cells();
     write_start();
     tell_progress("", nullptr);
-    execution_.work(target_->path());
+    FolderSink sink(target_->path(), written_);
+    execution_.work(sink);
     refuse_if_all_input_is_bad();
     RunResult result = end();
     execution_.release();

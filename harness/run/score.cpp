@@ -17,6 +17,7 @@
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/recording_folder.hpp"
+#include "harness/store/run_store.hpp"
 #include "harness/store/summary.hpp"
 
 namespace scanbench::harness {
@@ -99,7 +100,9 @@ std::string metric_table_csv(const metrics::MetricTable& table) {
 
 std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenarios,
                       const std::function<void(double, const std::string&)>& progress) {
-  const Manifest manifest = load_manifest(run);
+  const RunStore store(run);
+  store.require_folders();  // because it writes into them
+  const std::vector<CellKey> keys = store.keys();
   std::string summary = summary_header();
   std::size_t scored = 0;
   const std::set<std::string> known_tables = metric_table_files();
@@ -108,11 +111,12 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
   std::vector<fs::path> stale;  // tables of an earlier score that this one does not make
   ScenarioAddresses addresses;
   std::map<std::pair<std::string, std::uint64_t>, Recording> recordings;  // at most one at a time
-  for (std::size_t i = 0; i < manifest.cells.size(); ++i) {
-    const CellKey& key = manifest.cells[i];
-    if (progress) progress(static_cast<double>(i) / static_cast<double>(manifest.cells.size()), to_string(key));
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const CellKey& key = keys[i];
+    if (progress) progress(static_cast<double>(i) / static_cast<double>(keys.size()), to_string(key));
+    auto record = store.record(key);
+    if (!record || record->outcome.status != CellStatus::ok) continue;
     const fs::path cell = cell_path(run, key);
-    if (!fs::exists(cell / kStatusFile) || load_status(cell).outcome.status != CellStatus::ok) continue;
     const auto scenario = std::ranges::find(scenarios, key.scenario, &Scenario::name);
     if (scenario == scenarios.end())
       throw ConfigError(run.string() + ": the scenario '" + key.scenario + "' of a cell is missing");
@@ -123,9 +127,9 @@ std::size_t score_run(const fs::path& run, const std::vector<Scenario>& scenario
     }
     const Scores scores = score_cell(scenario->metrics, recordings.at(source), cell);
     files.emplace_back(cell / kMetricsFile, metrics_csv(scores.rows));
-    if (CellRecord record = load_status(cell); !addresses.is_of(*scenario, key, record.address)) {
-      record.address.clear();  // no run has these metrics, so --resume makes the cell again
-      files.emplace_back(cell / kStatusFile, status_json(record));
+    if (!addresses.is_of(*scenario, key, record->address)) {
+      record->address.clear();  // no run has these metrics, so --resume makes the cell again
+      files.emplace_back(cell / kStatusFile, status_json(*record));
     }
     std::set<std::string> others = known_tables;
     for (const auto& table : scores.tables) {

@@ -33,10 +33,9 @@
 namespace scanbench::harness {
 namespace {
 
-constexpr std::size_t kTail = 4096;            // bytes kept of what a child prints
-constexpr std::size_t kReportLimit = 8 << 20;  // bytes that a child may report
-constexpr int kBlocksAtOnce = 64;              // read of one pipe before the others get their turn
-constexpr double kKillDeadline = 5.0;          // seconds to wait for a killed child to end
+constexpr std::size_t kTail = 4096;    // bytes kept of what a child prints
+constexpr int kBlocksAtOnce = 64;      // read of one pipe before the others get their turn
+constexpr double kKillDeadline = 5.0;  // seconds to wait for a killed child to end
 constexpr int kInterrupts[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t interrupt_seen = 0;
@@ -163,7 +162,7 @@ struct WorkerPool::Worker {
     if (report_open) report_open = drain(report, report_text);
     if (output_open) output_open = drain(output, output_text);
     if (output_text.size() > 2 * kTail) output_text.erase(0, output_text.size() - kTail);
-    if (report_text.size() > kReportLimit && !killed_for_report) {
+    if (report_text.size() > kLargestReport && !killed_for_report) {
       killed_for_report = true;
       report_open = false;
       kill_child(pid);
@@ -176,42 +175,43 @@ struct WorkerPool::Worker {
   std::optional<Finished> next_task() {
     if (tasks.size() < 2 || was_killed() || is_late()) return std::nullopt;
     std::string rest = report_text;
-    std::optional<WorkerOutcome> outcome = take_report(rest);
-    if (!outcome || outcome->status != CellStatus::ok) return std::nullopt;
+    std::optional<WorkerReport> taken = take_report(rest);
+    if (!taken || taken->outcome.status != CellStatus::ok) return std::nullopt;
     const double now = wall_seconds();
-    outcome->wall_seconds = now - std::exchange(start, now);
-    cpu_before += outcome->cpu_seconds;
+    taken->outcome.wall_seconds = now - std::exchange(start, now);
+    cpu_before += taken->outcome.cpu_seconds;
     report_text = std::move(rest);
     const std::size_t ended = id();
     tasks.pop_front();
-    return Finished{ended, std::move(*outcome)};
+    return Finished{ended, std::move(taken->outcome), std::move(taken->output)};
   }
 
-  WorkerOutcome outcome(int wait_status, const rusage& usage) {
+  Finished last_task(int wait_status, const rusage& usage) {
     const auto seconds_of = [](const timeval& t) {
       return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
     };
-    WorkerOutcome result = outcome_of(wait_status);
+    WorkerReport last = report_of(wait_status);
+    WorkerOutcome& result = last.outcome;
     result.wall_seconds = wall_seconds() - start;
     result.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime) - cpu_before;
     result.peak_memory_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
-    return result;
+    return {id(), std::move(last.outcome), std::move(last.output)};
   }
 
-  WorkerOutcome outcome_of(int wait_status) {
-    if (killed_for_report) return {.message = "reported more than " + std::to_string(kReportLimit) + " bytes"};
+  WorkerReport report_of(int wait_status) {
+    if (killed_for_report) return {{.message = "reported more than " + std::to_string(kLargestReport) + " bytes"}};
     if (killed_for_signal)
-      return {.status = CellStatus::crashed, .message = "sent a signal to this program, which is for the user to do"};
+      return {{.status = CellStatus::crashed, .message = "sent a signal to this program, which is for the user to do"}};
     WorkerOutcome result;
     const bool exited = WIFEXITED(wait_status) && WEXITSTATUS(wait_status) == 0;
-    std::optional<WorkerOutcome> reported = exited ? take_report(report_text) : std::nullopt;
+    std::optional<WorkerReport> reported = exited ? take_report(report_text) : std::nullopt;
     if (reported && is_late()) {
       // It ended before the parent saw that its time was over. Which comes first must not change the result.
       result.status = CellStatus::timeout;
       result.message = over_time();
     } else if (reported) {
-      result = std::move(*reported);
-      if (result.status == CellStatus::ok) return result;
+      if (reported->outcome.status == CellStatus::ok) return std::move(*reported);
+      result = std::move(reported->outcome);
       if (result.status == CellStatus::out_of_memory && result.message.empty())
         result.message = "an allocation failed under the memory limit";
     } else if (WIFSIGNALED(wait_status)) {
@@ -221,7 +221,7 @@ struct WorkerPool::Worker {
       result.message = "ended without a result, exit code " + std::to_string(WEXITSTATUS(wait_status));
     }
     if (!output_text.empty()) result.message += "\n" + output_tail(output_text);
-    return result;
+    return {std::move(result)};
   }
 
   std::string over_time() const { return "took longer than the limit of " + number_text(seconds()) + " s"; }
@@ -296,7 +296,7 @@ bool WorkerPool::terminated() const {  // NOLINT(*-convert-member-functions-to-s
   return run_is_terminated();
 }
 
-void WorkerPool::start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits) {
+void WorkerPool::start(std::size_t id, const std::function<TaskOutput()>& task, const WorkerLimits& limits) {
   start({{id, task, limits}});
 }
 
@@ -398,7 +398,7 @@ std::vector<WorkerPool::Finished> WorkerPool::poll_once(double longest_pause) {
     ::wait4(w.pid, &status, 0, &usage);
     end_descendants(w.pid);
     w.close();
-    finished.push_back({w.id(), w.outcome(status, usage)});
+    finished.push_back(w.last_task(status, usage));
     workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
   }
   return finished;

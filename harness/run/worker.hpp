@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include <sys/types.h>
 
 #include "harness/run/worker_child.hpp"
+#include "harness/run/worker_report.hpp"
 #include "harness/store/cell_status.hpp"
 
 namespace scanbench::harness {
@@ -31,12 +31,13 @@ class WorkerPool {
   struct Finished {
     std::size_t id = 0;
     WorkerOutcome outcome;
+    TaskOutput output{};  ///< without its message, which the outcome has
   };
 
   /// Forks. In the child the task runs, its result goes through a pipe, and the process ends without destructors of the
-  /// parent's objects. A result of more than 8 MiB is a failure. Throws SystemError if the system refuses another
-  /// process.
-  void start(std::size_t id, const std::function<std::string()>& task, const WorkerLimits& limits);
+  /// parent's objects. A result of more than kLargestReport bytes is a failure. Throws SystemError if the system
+  /// refuses another process.
+  void start(std::size_t id, const std::function<TaskOutput()>& task, const WorkerLimits& limits);
   /// Runs the tasks one after another in one child, which saves forks where the next task needs what the one before it
   /// has in memory. Each has its own limits and its own outcome. A task that is not ok ends the child: those after it
   /// have no outcome.

@@ -124,18 +124,18 @@ void live_as_child(std::span<const WorkerTask> tasks, const ChildSetting& settin
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of write(), with a message
   sigprocmask(SIG_SETMASK, &setting.mask, nullptr);
   adopt_orphans();  // what loses its parent here stays below this task as long as it runs, and ends with it
-  const int report = keep_only(setting.report, setting.output);
+  const int pipe = keep_only(setting.report, setting.output);
   double cpu_seconds = 0.0;
   for (const WorkerTask& task : tasks) {
     if (&task != tasks.data()) forget_peak_memory();
     set_limits(task.limits, &task == &tasks.back());
-    WorkerOutcome outcome = perform(task.work);
+    WorkerReport report = perform(task.work);
     const Usage usage = usage_so_far();
-    outcome.cpu_seconds = usage.cpu_seconds - std::exchange(cpu_seconds, usage.cpu_seconds);
-    outcome.peak_memory_bytes = usage.peak_memory_bytes;
+    report.outcome.cpu_seconds = usage.cpu_seconds - std::exchange(cpu_seconds, usage.cpu_seconds);
+    report.outcome.peak_memory_bytes = usage.peak_memory_bytes;
     std::fflush(nullptr);
-    send(report, report_bytes(outcome));
-    if (outcome.status != CellStatus::ok) break;
+    send(pipe, report_bytes(report));
+    if (report.outcome.status != CellStatus::ok) break;
   }
   _exit(0);
 }

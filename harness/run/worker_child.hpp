@@ -11,6 +11,8 @@
 
 #include <sys/types.h>
 
+#include "harness/run/worker_report.hpp"
+
 namespace scanbench::harness {
 
 struct WorkerLimits {
@@ -21,7 +23,7 @@ struct WorkerLimits {
 
 struct WorkerTask {
   std::size_t id = 0;
-  std::function<std::string()> work;  ///< returns what the parent gets
+  std::function<TaskOutput()> work;  ///< returns what the parent gets
   WorkerLimits limits;
 };
 

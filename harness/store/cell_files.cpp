@@ -89,18 +89,18 @@ void write_lines(const fs::path& cell, const std::vector<ScanLines>& scans) {
 /// Frames without beams occupy no bytes, so only this limit protects from a damaged header that states too many.
 constexpr std::size_t kMostFramesWithoutBeams = 1000000;
 
-std::vector<ScanLines> load_lines(const fs::path& cell) {
-  const fs::path file = cell / kLinesFile;
-  const auto labels = parse_npy_int32(read_file(cell / kLabelsFile), cell / kLabelsFile);
+std::vector<ScanLines> load_lines(const StoredFiles& cell) {
+  const fs::path labels_file = cell.path(kLabelsFile);
+  const auto labels = parse_npy_int32(cell.read(kLabelsFile), labels_file);
   if (labels.columns == 0 && labels.rows > kMostFramesWithoutBeams)
-    throw ConfigError((cell / kLabelsFile).string() + ": " + std::to_string(labels.rows) +
+    throw ConfigError(labels_file.string() + ": " + std::to_string(labels.rows) +
                       " frames without beams; allowed: at most " + std::to_string(kMostFramesWithoutBeams));
   std::vector<ScanLines> scans(labels.rows);
   for (std::size_t k = 0; k < labels.rows; ++k) {
     const auto row = labels.values.begin() + static_cast<std::ptrdiff_t>(k * labels.columns);
     scans[k].labels.assign(row, row + static_cast<std::ptrdiff_t>(labels.columns));
   }
-  const CsvTable csv(read_file(file), file, kLineColumns);
+  const CsvTable csv = cell.table(kLinesFile, kLineColumns);
   const bool covariance = csv.has(kCovarianceColumns.front());
   for (std::size_t r = 0; r < csv.rows(); ++r) {
     const int frame = csv.index(r, "frame");
@@ -119,7 +119,7 @@ std::vector<ScanLines> load_lines(const fs::path& cell) {
   for (std::size_t k = 0; k < scans.size(); ++k)
     for (const int label : scans[k].labels)
       if (label < -1 || label >= static_cast<int>(scans[k].lines.size()))
-        throw ConfigError((cell / kLabelsFile).string() + ": frame " + std::to_string(k) + " has the label " +
+        throw ConfigError(labels_file.string() + ": frame " + std::to_string(k) + " has the label " +
                           std::to_string(label) + ", but lines.csv has " + std::to_string(scans[k].lines.size()) +
                           " lines of this frame");
   return scans;
@@ -151,10 +151,6 @@ void write_matches(const fs::path& cell, const std::vector<FrameMatch>& matches)
   write_staged_file(cell / kPoseMatchesFile, csv.str());
 }
 
-CsvTable table(const fs::path& file, const Columns& columns) {
-  return {read_file(file), file, columns};
-}
-
 Status status_from(const CsvTable& csv, std::size_t row) {
   const std::string text = csv.text(row, "status");
   for (const Status status : {Status::converged, Status::max_iterations, Status::degenerate, Status::no_match})
@@ -162,8 +158,8 @@ Status status_from(const CsvTable& csv, std::size_t row) {
   csv.refuse(row, "no outcome of a match is called '" + text + "'");
 }
 
-std::vector<FrameMatch> load_matches(const fs::path& file, std::size_t frames) {
-  const CsvTable csv = table(file, kMatchColumns);
+std::vector<FrameMatch> load_matches(const StoredFiles& cell, std::size_t frames) {
+  const CsvTable csv = cell.table(kPoseMatchesFile, kMatchColumns);
   std::vector<FrameMatch> matches;
   for (std::size_t r = 0; r < csv.rows(); ++r) {
     FrameMatch m{.frame = csv.index(r, "frame"), .reference = csv.index(r, "reference"), .match = {}};
@@ -200,9 +196,8 @@ std::string status_json(const CellRecord& record) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-CellRecord load_status(const fs::path& cell) {
-  const fs::path file = cell / kStatusFile;
-  return with_json_of(file, [&](const Json& json) -> CellRecord {
+CellRecord load_status(const StoredFiles& cell) {
+  return with_json_of(cell, kStatusFile, [&](const Json& json) -> CellRecord {
     try {
       return {{.status = cell_status_from(json.at("status").get<std::string>()),
                .message = json.at("message"),
@@ -211,7 +206,7 @@ CellRecord load_status(const fs::path& cell) {
                .peak_memory_bytes = json.at("peak_memory_bytes")},
               json.value("address", "")};
     } catch (const ConfigError& e) {
-      throw ConfigError(file.string() + ": " + e.what());
+      throw ConfigError(cell.path(kStatusFile).string() + ": " + e.what());
     }
   });
 }
@@ -241,24 +236,24 @@ void write_result(const fs::path& cell, const PipelineSpec& pipeline, const Pipe
   write_staged_file(cell / kTimingFile, csv.str());
 }
 
-PipelineResult load_result(const fs::path& cell) {
+PipelineResult load_result(const StoredFiles& cell) {
   PipelineResult result;
   result.lines = load_lines(cell);
-  if (fs::exists(cell / kPosesFile)) {
-    const CsvTable csv = table(cell / kPosesFile, kPoseColumns);
+  if (cell.has(kPosesFile)) {
+    const CsvTable csv = cell.table(kPosesFile, kPoseColumns);
     for (std::size_t r = 0; r < csv.rows(); ++r) {
       const Eigen::Vector3d p(csv.number(r, "x_m"), csv.number(r, "y_m"), csv.number(r, "yaw_rad"));
       if (!p.allFinite()) csv.refuse(r, "the pose is not finite");
       result.world_from_sensor.emplace_back(p.x(), p.y(), p.z());
     }
     if (csv.rows() != result.lines.size())
-      throw ConfigError((cell / kPosesFile).string() + ": " + std::to_string(csv.rows()) + " poses for " +
+      throw ConfigError(cell.path(kPosesFile).string() + ": " + std::to_string(csv.rows()) + " poses for " +
                         std::to_string(result.lines.size()) + " frames");
   }
-  if (fs::exists(cell / kPoseMatchesFile)) result.matches = load_matches(cell / kPoseMatchesFile, result.lines.size());
-  result.has_map = fs::exists(cell / kMapFile);
+  if (cell.has(kPoseMatchesFile)) result.matches = load_matches(cell, result.lines.size());
+  result.has_map = cell.has(kMapFile);
   if (result.has_map) {
-    const CsvTable csv = table(cell / kMapFile, kMapColumns);
+    const CsvTable csv = cell.table(kMapFile, kMapColumns);
     const bool covariance = csv.has(kCovarianceColumns.front());
     for (std::size_t r = 0; r < csv.rows(); ++r) {
       MapLine line{
@@ -267,8 +262,8 @@ PipelineResult load_result(const fs::path& cell) {
       result.map.lines.push_back(line);
     }
   }
-  if (fs::exists(cell / kMergeFile)) {
-    const CsvTable csv = table(cell / kMergeFile, kMergeColumns);
+  if (cell.has(kMergeFile)) {
+    const CsvTable csv = cell.table(kMergeFile, kMergeColumns);
     for (std::size_t r = 0; r < csv.rows(); ++r) {
       const MergeLabel label{csv.index(r, "frame"), csv.index(r, "line"), csv.index(r, "cluster1"),
                              csv.index(r, "cluster2"), csv.index(r, "map_line")};
@@ -280,8 +275,8 @@ PipelineResult load_result(const fs::path& cell) {
       result.merge_labels.push_back(label);
     }
   }
-  if (fs::exists(cell / kTimingFile)) {
-    const CsvTable csv = table(cell / kTimingFile, kTimingColumns);
+  if (cell.has(kTimingFile)) {
+    const CsvTable csv = cell.table(kTimingFile, kTimingColumns);
     for (std::size_t r = 0; r < csv.rows(); ++r) {
       auto time = stage_time_labelled(csv.text(r, "stage"), csv.index(r, "frame"));
       if (!time) csv.refuse(r, quoted_excerpt(csv.text(r, "stage")) + " is not a stage");
@@ -290,6 +285,12 @@ PipelineResult load_result(const fs::path& cell) {
     }
   }
   return result;
+}
+
+double stage_seconds(const CsvTable& timing) {
+  double sum = 0.0;
+  for (std::size_t row = 0; row < timing.rows(); ++row) sum += timing.number(row, "seconds");
+  return sum;
 }
 
 std::string metrics_csv(const std::vector<metrics::MetricRow>& rows) {
@@ -307,8 +308,8 @@ std::string metrics_csv(const std::vector<metrics::MetricRow>& rows) {
   return csv.str();
 }
 
-std::vector<metrics::MetricRow> load_metrics(const fs::path& cell) {
-  const CsvTable csv = table(cell / kMetricsFile, kMetricColumns);
+std::vector<metrics::MetricRow> load_metrics(const StoredFiles& cell) {
+  const CsvTable csv = cell.table(kMetricsFile, kMetricColumns);
   std::vector<metrics::MetricRow> rows;
   for (std::size_t r = 0; r < csv.rows(); ++r)
     rows.push_back({csv.text(r, "metric"), csv.text(r, "subject"), csv.number(r, "value"), csv.text(r, "unit"),

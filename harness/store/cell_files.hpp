@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "harness/files/csv.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/run_file.hpp"
+#include "harness/store/stored_files.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::harness {
@@ -30,7 +32,7 @@ struct CellRecord {
 };
 std::string status_json(const CellRecord& record);
 /// Throws ConfigError, naming the file.
-CellRecord load_status(const std::filesystem::path& cell);
+CellRecord load_status(const StoredFiles& cell);
 
 /// Writes lines.csv and labels.npy, poses.csv if there are poses, pose_matches.csv with a `match` slot, map.csv if the
 /// pipeline has a `map` or `merge` slot, merge_labels.csv with a `merge` slot, and timing.csv into an existing folder.
@@ -39,10 +41,13 @@ void write_result(const std::filesystem::path& cell, const PipelineSpec& pipelin
 
 /// Reads the files of write_result(); a part without a file is empty. Throws ConfigError with file and line for files
 /// that are malformed or contradict each other.
-PipelineResult load_result(const std::filesystem::path& cell);
+PipelineResult load_result(const StoredFiles& cell);
+
+/// The seconds of all stages in timing.csv, which has a column `seconds`. Throws ConfigError.
+double stage_seconds(const CsvTable& timing);
 
 std::string metrics_csv(const std::vector<metrics::MetricRow>& rows);
 /// Throws ConfigError.
-std::vector<metrics::MetricRow> load_metrics(const std::filesystem::path& cell);
+std::vector<metrics::MetricRow> load_metrics(const StoredFiles& cell);
 
 }  // namespace scanbench::harness

@@ -40,6 +40,19 @@ int depth_of(std::string_view text) {
   return deepest;
 }
 
+Json parse_json(const std::string& text, const fs::path& file) {
+  if (depth_of(text) > kDeepest)
+    throw ConfigError(file.string() + ": nested deeper than " + std::to_string(kDeepest) + " levels");
+  Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) throw ConfigError(file.string() + ": not JSON");
+  return json;
+}
+
+Json require_object(Json json, const fs::path& file) {
+  if (!json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
+  return json;
+}
+
 }  // namespace
 
 Json load_json(const fs::path& file) {
@@ -49,18 +62,16 @@ Json load_json(const fs::path& file) {
   if (const auto size = fs::file_size(file, error); !error && size > kLargestFile)
     throw ConfigError(file.string() + ": has " + std::to_string(size) +
                       " bytes; allowed: " + std::to_string(kLargestFile));
-  const std::string text = read_file(file);
-  if (depth_of(text) > kDeepest)
-    throw ConfigError(file.string() + ": nested deeper than " + std::to_string(kDeepest) + " levels");
-  Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded()) throw ConfigError(file.string() + ": not JSON");
-  return json;
+  return parse_json(read_file(file), file);
 }
 
 Json load_json_object(const fs::path& file) {
-  Json json = load_json(file);
-  if (!json.is_object()) throw ConfigError(file.string() + ": not a JSON object");
-  return json;
+  return require_object(load_json(file), file);
+}
+
+Json load_json_object(const StoredFiles& files, const RunFile& file) {
+  const fs::path path = files.path(file);
+  return files.are_archived() ? require_object(parse_json(files.read(file), path), path) : load_json_object(path);
 }
 
 void refuse_json(const fs::path& file, const Json::exception& error) {

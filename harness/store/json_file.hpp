@@ -5,6 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/store/run_file.hpp"
+#include "harness/store/stored_files.hpp"
+
 namespace scanbench::harness {
 
 /// Loads what a file holds. Throws ConfigError with the file's name unless it is a regular file of at most 256 MiB that
@@ -13,6 +16,9 @@ nlohmann::ordered_json load_json(const std::filesystem::path& file);
 
 /// Loads an object; throws for any other JSON value too.
 nlohmann::ordered_json load_json_object(const std::filesystem::path& file);
+
+/// The same for a file of a cell or recording.
+nlohmann::ordered_json load_json_object(const StoredFiles& files, const RunFile& file);
 
 [[noreturn]] void refuse_json(const std::filesystem::path& file, const nlohmann::ordered_json::exception& error);
 
@@ -24,6 +30,15 @@ auto with_json_of(const std::filesystem::path& file, Use&& use) {
     return use(load_json_object(file));
   } catch (const nlohmann::ordered_json::exception& error) {
     refuse_json(file, error);
+  }
+}
+
+template <class Use>
+auto with_json_of(const StoredFiles& files, const RunFile& file, Use&& use) {
+  try {
+    return use(load_json_object(files, file));
+  } catch (const nlohmann::ordered_json::exception& error) {
+    refuse_json(files.path(file), error);
   }
 }
 

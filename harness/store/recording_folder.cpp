@@ -316,31 +316,31 @@ std::string save_recording(const fs::path& folder, const Recording& recording) {
   return hash;
 }
 
-Recording load_recording(const fs::path& folder) {
-  const fs::path scan_file = folder / kScanFile;
-  Json scan = load_json_object(scan_file);
+Recording load_recording(const StoredFiles& recorded) {
+  const fs::path scan_file = recorded.path(kScanFile);
+  Json scan = load_json_object(recorded, kScanFile);
   Recording recording;
   recording.observed.sensor = sensor_from(scan, scan_file);
   const auto beams = static_cast<std::size_t>(recording.observed.sensor.geometry.beams());
   Files files;
   const auto bytes_of = [&](const RunFile& file) -> const std::string& {
-    return files.emplace_back(file.name(), read_file(folder / file)).second;
+    return files.emplace_back(file.name(), recorded.read(file)).second;
   };
 
-  const CsvTable frames(bytes_of(kFramesFile), folder / kFramesFile,
+  const CsvTable frames(bytes_of(kFramesFile), recorded.path(kFramesFile),
                         {"frame", "t_s", "odom_x_m", "odom_y_m", "odom_yaw_rad"});
   const std::size_t count = frames.rows();
   if (scan.contains("frames") && number_of(scan, "frames", scan_file) != static_cast<double>(count))
     throw ConfigError(scan_file.string() + ": frames is " + scan["frames"].dump() + "; frames.csv has " +
                       std::to_string(count));
   NpyArray<double> rotations;
-  const bool exact = fs::exists(folder / kRotationsFile);
+  const bool exact = recorded.has(kRotationsFile);
   if (exact) {
-    rotations = parse_npy_float64(bytes_of(kRotationsFile), folder / kRotationsFile);
-    check_shape(rotations, count, 4, folder / kRotationsFile);
+    rotations = parse_npy_float64(bytes_of(kRotationsFile), recorded.path(kRotationsFile));
+    check_shape(rotations, count, 4, recorded.path(kRotationsFile));
   }
-  const auto ranges = parse_npy_float64(bytes_of(kRangesFile), folder / kRangesFile);
-  check_shape(ranges, count, beams, folder / kRangesFile);
+  const auto ranges = parse_npy_float64(bytes_of(kRangesFile), recorded.path(kRangesFile));
+  check_shape(ranges, count, beams, recorded.path(kRangesFile));
   for (std::size_t k = 0; k < count; ++k) {
     if (frames.index(k, "frame") != static_cast<int>(k)) frames.refuse(k, "frames must be numbered 0, 1, 2, ...");
     if (!std::isfinite(frames.number(k, "t_s"))) frames.refuse(k, "t_s is not finite");
@@ -351,36 +351,38 @@ Recording load_recording(const fs::path& folder) {
                                          pose_from(frames, k, "odom", exact ? rotation + 2 : nullptr),
                                          {}});
   }
-  if (fs::exists(folder / kGivenLinesFile))
-    read_lines({bytes_of(kGivenLinesFile), folder / kGivenLinesFile, {"frame", "line", "x1_m", "y1_m", "x2_m", "y2_m"}},
-               recording.observed);
-  if (fs::exists(folder / kReferencePosesFile)) {
-    const fs::path file = folder / kReferencePosesFile;
+  if (recorded.has(kGivenLinesFile))
+    read_lines(
+        {bytes_of(kGivenLinesFile), recorded.path(kGivenLinesFile), {"frame", "line", "x1_m", "y1_m", "x2_m", "y2_m"}},
+        recording.observed);
+  if (recorded.has(kReferencePosesFile)) {
+    const fs::path file = recorded.path(kReferencePosesFile);
     recording.reference.emplace().world_from_sensor =
         read_reference_poses({bytes_of(kReferencePosesFile), file, kReferenceColumns}, count, file);
   }
-  if (fs::exists(folder / kRelationsFile)) {
+  if (recorded.has(kRelationsFile)) {
     if (!recording.reference) recording.reference.emplace();
     recording.reference->relations =
-        read_relations({bytes_of(kRelationsFile), folder / kRelationsFile, kRelationColumns}, count);
+        read_relations({bytes_of(kRelationsFile), recorded.path(kRelationsFile), kRelationColumns}, count);
   }
-  if (fs::exists(folder / kWallsFile)) {
+  if (recorded.has(kWallsFile)) {
     Truth truth;
-    const CsvTable walls(bytes_of(kWallsFile), folder / kWallsFile, {"wall", "label", "x1_m", "y1_m", "x2_m", "y2_m"});
+    const CsvTable walls(bytes_of(kWallsFile), recorded.path(kWallsFile),
+                         {"wall", "label", "x1_m", "y1_m", "x2_m", "y2_m"});
     for (std::size_t i = 0; i < walls.rows(); ++i)
       truth.walls.push_back(
           {walls.text(i, "label"),
            {{walls.number(i, "x1_m"), walls.number(i, "y1_m")}, {walls.number(i, "x2_m"), walls.number(i, "y2_m")}}});
     for (std::size_t k = 0; k < count; ++k)
       truth.world_from_sensor.push_back(pose_from(frames, k, "true", exact ? &rotations.values[4 * k] : nullptr));
-    auto true_ranges = parse_npy_float64(bytes_of(kTrueRangesFile), folder / kTrueRangesFile);
-    check_shape(true_ranges, count, beams, folder / kTrueRangesFile);
+    auto true_ranges = parse_npy_float64(bytes_of(kTrueRangesFile), recorded.path(kTrueRangesFile));
+    check_shape(true_ranges, count, beams, recorded.path(kTrueRangesFile));
     truth.ranges = std::move(true_ranges.values);
-    auto ids = parse_npy_int32(bytes_of(kWallIdsFile), folder / kWallIdsFile);
-    check_shape(ids, count, beams, folder / kWallIdsFile);
+    auto ids = parse_npy_int32(bytes_of(kWallIdsFile), recorded.path(kWallIdsFile));
+    check_shape(ids, count, beams, recorded.path(kWallIdsFile));
     for (const std::int32_t id : ids.values)
       if (id < -1 || id >= static_cast<std::int32_t>(truth.walls.size()))
-        throw ConfigError((folder / kWallIdsFile).string() + ": wall " + std::to_string(id) +
+        throw ConfigError(recorded.path(kWallIdsFile).string() + ": wall " + std::to_string(id) +
                           " is not in walls.csv; allowed: -1 .. " + std::to_string(truth.walls.size()) + " - 1");
     truth.wall_ids = std::move(ids.values);
     recording.truth = std::move(truth);
@@ -389,14 +391,19 @@ Recording load_recording(const fs::path& folder) {
     const Json stated = scan["content_hash"];
     scan.erase("content_hash");
     if (stated != hash_of(files, scan))
-      throw ConfigError(folder.string() + ": the recording is damaged: its bytes do not have the content hash " +
-                        stated.dump() + " that scan.json states");
+      throw ConfigError(recorded.folder().string() +
+                        ": the recording is damaged: its bytes do not have the content hash " + stated.dump() +
+                        " that scan.json states");
   }
   return recording;
 }
 
-std::string stated_recording_hash(const fs::path& folder) {
-  return with_json_of(folder / kScanFile, [](const Json& json) { return json.value("content_hash", ""); });
+std::string stated_recording_hash(const StoredFiles& recording) {
+  return with_json_of(recording, kScanFile, [](const Json& json) { return json.value("content_hash", ""); });
+}
+
+double stated_scans(const StoredFiles& recording) {
+  return with_json_of(recording, kScanFile, [](const Json& json) { return json.value("frames", 0.0); });
 }
 
 }  // namespace scanbench::harness

@@ -8,6 +8,7 @@
 
 #include "core/recording.hpp"
 #include "harness/store/run_file.hpp"
+#include "harness/store/stored_files.hpp"
 
 namespace scanbench::harness {
 
@@ -33,9 +34,10 @@ std::string save_recording(const std::filesystem::path& folder, const Recording&
 
 /// Loads a recording. Throws ConfigError with the file's name if a file is missing or malformed, or if the bytes do not
 /// have the content hash of scan.json (which is optional).
-Recording load_recording(const std::filesystem::path& folder);
+Recording load_recording(const StoredFiles& files);
 
-/// The content hash that scan.json states.
-std::string stated_recording_hash(const std::filesystem::path& folder);
+/// The content hash and the number of scans that scan.json states; "" and 0 if it states none. Throws ConfigError.
+std::string stated_recording_hash(const StoredFiles& recording);
+double stated_scans(const StoredFiles& recording);
 
 }  // namespace scanbench::harness

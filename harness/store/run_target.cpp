@@ -7,10 +7,10 @@
 
 #include "core/error.hpp"
 #include "harness/files/system_error.hpp"
-#include "harness/store/archived_run.hpp"
 #include "harness/store/manifest.hpp"
 #include "harness/store/run_file.hpp"
 #include "harness/store/run_folder.hpp"
+#include "harness/store/run_store.hpp"
 
 namespace scanbench::harness {
 namespace fs = std::filesystem;
@@ -100,7 +100,7 @@ RunTarget::RunTarget(fs::path out, bool resume) : out_(fs::absolute(out).lexical
   resumed_ = resume && !empty;
   if (resumed_) {
     refuse_linked_folders(out_);
-    require_all_cells(out_);  // the files of its cells are what is resumed
+    RunStore(out_).require_folders();  // the files of its cells are what is resumed
   }
   if (resumed_ || empty) remove_temporaries(out_);
   if (empty || resume) return;

@@ -5,7 +5,6 @@
 #include <charconv>
 
 #include "core/number_text.hpp"
-#include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/files/text_file.hpp"
 
@@ -32,12 +31,11 @@ void Journal::write(std::string_view name, std::span<const double> values) {
   text_.push_back('\n');
 }
 
-TraceRows load_trace(const std::filesystem::path& cell, const TraceChoice& choice) {
-  const auto file = cell / kTraceFile;
+TraceRows load_trace(const StoredFiles& cell, const TraceChoice& choice) {
   TraceRows rows;
   std::vector<std::string_view> words;
-  if (choice.nothing() || !std::filesystem::exists(file)) return rows;
-  const CsvTable csv(read_file(file), file, {"slot", "frame", "stage", "name", "values"});
+  if (choice.nothing() || !cell.has(kTraceFile)) return rows;
+  const CsvTable csv = cell.table(kTraceFile, {"slot", "frame", "stage", "name", "values"});
   for (std::size_t r = 0; r < csv.rows(); ++r) {
     const std::string slot = csv.text(r, "slot"), name = csv.text(r, "name");
     if (!choice.wants(slot, name)) continue;

@@ -1,7 +1,6 @@
 // Traces of modules in the file trace.csv of a cell.
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include "core/trace/trace_rows.hpp"
 #include "harness/scenario/trace_choice.hpp"
 #include "harness/store/run_file.hpp"
+#include "harness/store/stored_files.hpp"
 
 namespace scanbench::harness {
 
@@ -36,6 +36,6 @@ class Journal {
 };
 
 /// The chosen rows of a cell's trace.csv; none if there is no such file. Throws ConfigError, naming file and line.
-TraceRows load_trace(const std::filesystem::path& cell, const TraceChoice& choice);
+TraceRows load_trace(const StoredFiles& cell, const TraceChoice& choice);
 
 }  // namespace scanbench::harness

@@ -5,13 +5,13 @@
 #include <charconv>
 #include <cstdlib>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 
 #include "core/error.hpp"
 #include "harness/run/make_recording.hpp"
 #include "harness/run/run_plan.hpp"
 #include "harness/run/summary_rows.hpp"
+#include "harness/sweep/archive_sink.hpp"
 #include "harness/sweep/shard_commit.hpp"
 #include "harness/sweep/sweep_plan.hpp"
 
@@ -32,14 +32,12 @@ class Shard {
                    {.ended = [this](std::size_t cell, CellResult result,
                                     const std::string& summary) { end_cell(cell, std::move(result), summary); },
                     .began_recording = [this](const std::string& what) { tell_progress(what, nullptr); },
-                    .pause = [] {},
-                    .copy_files = [this](std::size_t cell, const CellResult& result, const fs::path& files,
-                                         const fs::path& recording) { archive(cell, result, files, recording); }}) {
+                    .pause = [] {}}) {
     require_same_cells();
   }
 
   ShardResult run() {
-    const auto committed = committed_cells();
+    const auto committed = committed_addresses(sweep_.folder, options_.shard);
     for (std::size_t i = 0; i < sweep_.cells.size(); ++i) {
       if (sweep_.cells[i].shard != options_.shard) continue;
       ++result_.planned;
@@ -52,13 +50,14 @@ class Shard {
     sweep_.cells = {};  // each child would get a copy
     for (const std::size_t cell : waiting_) execution_.add(cell);
     results_.resize(waiting_.size());
-    committed_.resize(waiting_.size());
     summary_.emplace(waiting_.size());
     tell_progress("", nullptr);
-    writer_.emplace(sweep_.folder, options_.shard);
-    execution_.work(writer_->path(), kGraceSeconds);
-    result_.interrupted = execution_.interrupted() && !execution_.terminated();
-    commit();
+    {
+      ArchiveSink sink(plan_, sweep_.folder, options_.shard);
+      execution_.work(sink, kGraceSeconds);
+      result_.interrupted = execution_.interrupted() && !execution_.terminated();
+      commit(sink);
+    }  // an archive that was not committed is removed before an interrupt can come
     execution_.release();
     return std::move(result_);
   }
@@ -81,16 +80,6 @@ class Shard {
                         ": the cells of its scenarios are not those of its list; plan it again");
   }
 
-  /// Addresses of the cells that earlier attempts at this shard have committed.
-  std::unordered_set<std::string> committed_cells() const {
-    std::unordered_set<std::string> addresses;
-    CommitCheck check;
-    for (const ShardCommit& commit : load_commits(sweep_.folder, options_.shard).whole)
-      for (const CommittedCell& cell : commit.cells)
-        if (!addresses.contains(cell.address) && check.is_whole(commit, cell)) addresses.insert(cell.address);
-    return addresses;
-  }
-
   std::size_t place_of(std::size_t cell) const {
     return static_cast<std::size_t>(std::ranges::lower_bound(waiting_, cell) - waiting_.begin());
   }
@@ -103,44 +92,32 @@ class Shard {
     tell_progress(to_string(results_[at].key), &results_[at]);
   }
 
-  void archive(std::size_t cell, const CellResult& result, const fs::path& files, const fs::path& recording) {
-    const PlannedCell& planned = plan_.cells[cell];
-    const CellKey key = plan_.key(planned);
-    if (!recording.empty() && !writer_->has_recording(key.scenario, key.seed))
-      writer_->add_recording(key.scenario, key.seed, read_folder(recording));
-    committed_[place_of(cell)] =
-        writer_->add_cell(key, plan_.address(planned), result.record.outcome, read_folder(files));
-  }
-
   void tell_progress(const std::string& what, const CellResult* cell) const {
     if (options_.progress) options_.progress({done_, waiting_.size(), what, cell});
   }
 
-  void commit() {
-    std::vector<CommittedCell> cells;
+  void commit(ArchiveSink& sink) {
+    std::vector<ArchivedCell> cells;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       CellResult& result = results_[i];
       result.key = plan_.key(plan_.cells[waiting_[i]]);
       if (result.done) {
-        committed_[i].summary_size = summary_->size(i);
-        cells.push_back(std::move(committed_[i]));
+        cells.push_back(sink.take_cell(waiting_[i]));
+        cells.back().summary_size = summary_->size(i);
       } else if (result.record.outcome.message.empty()) {
         result.record.outcome.message = "stopped before it was run";
       }
       result_.cells.push_back(std::move(result));
     }
-    if (!cells.empty()) result_.committed = writer_->commit(cells, summary_->text());
-    writer_.reset();
+    if (!cells.empty()) result_.committed = sink.commit(cells, summary_->text());
   }
 
   SweepPlan sweep_;
   const ShardOptions& options_;
   RunPlan plan_;
   Execution execution_;
-  std::vector<std::size_t> waiting_;      ///< indices of the cells to run, ascending
-  std::vector<CellResult> results_;       ///< of those
-  std::vector<CommittedCell> committed_;  ///< of those; empty ones until they have ended
-  std::optional<CommitWriter> writer_;
+  std::vector<std::size_t> waiting_;  ///< indices of the cells to run, ascending
+  std::vector<CellResult> results_;   ///< of those
   std::optional<SummaryRows> summary_;
   ShardResult result_;
   std::size_t done_ = 0;

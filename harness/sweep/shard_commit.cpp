@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/special_values.hpp"
+#include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/files/folder.hpp"
 #include "harness/files/hash.hpp"
@@ -22,18 +23,9 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Columns = std::vector<std::string>;
 
 constexpr const char* kCommitFile = "commit.json";
 constexpr const char* kArchiveFile = "cells.tar";
-constexpr const char* kCellsFile = "cells.csv";
-constexpr const char* kRecordingsFile = "recordings.csv";
-constexpr const char* kTables[] = {kCellsFile, kRecordingsFile, "summary.csv"};
-
-const Columns kCellColumns{
-    "scenario",          "pipeline",     "seed",   "address",       "status", "message", "wall_seconds", "cpu_seconds",
-    "peak_memory_bytes", "scan_seconds", "result", "summary_bytes", "offset", "bytes",   "sha256"};
-const Columns kRecordingColumns{"scenario", "seed", "content_hash", "offset", "bytes", "sha256"};
 
 /// metrics.csv without the times.
 std::string without_times(const std::string& csv) {
@@ -66,13 +58,6 @@ std::string repeatable_hash(const FolderFiles& files) {
   return hash.hex();
 }
 
-double sum_of_seconds(const std::string& timing) {
-  const CsvTable table(timing, kTimingFile.name(), {"seconds"});
-  double sum = 0.0;
-  for (std::size_t row = 0; row < table.rows(); ++row) sum += table.number(row, "seconds");
-  return sum;
-}
-
 std::string host_name() {
   char name[256] = {};
   ::gethostname(name, sizeof name - 1);
@@ -96,52 +81,7 @@ StagedFolder stage_shard(const fs::path& sweep, int number) {
   return {target, shards_path(sweep) / ("." + std::to_string(number) + ".tmp-" + unique)};
 }
 
-void part_fields(CsvWriter& csv, const ArchivePart& part) {
-  csv.seed(part.offset).seed(part.bytes).text(part.sha256);
-}
-
-ArchivePart part_from(const CsvTable& csv, std::size_t row) {
-  return {static_cast<std::uint64_t>(csv.integer(row, "offset")), static_cast<std::uint64_t>(csv.integer(row, "bytes")),
-          csv.text(row, "sha256")};
-}
-
-std::string cells_csv(const std::vector<CommittedCell>& cells) {
-  CsvWriter csv(kCellColumns);
-  for (const auto& cell : cells) {
-    csv.text(cell.key.scenario).text(cell.key.pipeline).seed(cell.key.seed).text(cell.address);
-    csv.text(to_string(cell.outcome.status)).text(cell.outcome.message).number(cell.outcome.wall_seconds);
-    csv.number(cell.outcome.cpu_seconds).number(cell.outcome.peak_memory_bytes).number(cell.scan_seconds);
-    csv.text(cell.result).integer(static_cast<long long>(cell.summary_size));
-    part_fields(csv, cell.part);
-    csv.end_row();
-  }
-  return csv.str();
-}
-
-std::vector<CommittedCell> cells_from(const CsvTable& csv) {
-  std::vector<CommittedCell> cells;
-  cells.reserve(csv.rows());
-  std::size_t begin = summary_header().size();
-  for (std::size_t r = 0; r < csv.rows(); ++r) {
-    CommittedCell& cell = cells.emplace_back();
-    cell.key = {csv.text(r, "scenario"), csv.text(r, "pipeline"), static_cast<std::uint64_t>(csv.integer(r, "seed"))};
-    cell.address = csv.text(r, "address");
-    cell.outcome = {.status = cell_status_from(csv.text(r, "status")),
-                    .message = csv.text(r, "message"),
-                    .wall_seconds = csv.number(r, "wall_seconds"),
-                    .cpu_seconds = csv.number(r, "cpu_seconds"),
-                    .peak_memory_bytes = csv.number(r, "peak_memory_bytes")};
-    cell.scan_seconds = csv.number(r, "scan_seconds");
-    cell.result = csv.text(r, "result");
-    cell.part = part_from(csv, r);
-    cell.summary_begin = begin;
-    cell.summary_size = static_cast<std::size_t>(csv.integer(r, "summary_bytes"));
-    begin += cell.summary_size;
-  }
-  return cells;
-}
-
-std::string checked_table(const fs::path& folder, const char* name, const Json& commit) {
+std::string checked_table(const fs::path& folder, const std::string& name, const Json& commit) {
   std::string bytes = read_file(folder / name);
   if (sha256_hex(bytes) != commit.at(name).get<std::string>())
     throw ConfigError((folder / name).string() + " is cut off or has been changed since it was committed");
@@ -153,28 +93,14 @@ ShardCommit load_commit(const fs::path& folder) {
   return with_json_of(file, [&](const Json& json) {
     if (json.at("schema") != 2 || json.at("program") != "scanbench")
       throw ConfigError(file.string() + ": not the commit of a shard, or one of another version");
-    ShardCommit commit{folder, json.at("shard").get<int>(), json.at(kArchiveFile).get<std::string>(), {}, {}};
-    checked_table(folder, "summary.csv", json);
-    commit.cells = cells_from(CsvTable(checked_table(folder, kCellsFile, json), folder / kCellsFile, kCellColumns));
-    const CsvTable recordings(checked_table(folder, kRecordingsFile, json), folder / kRecordingsFile,
-                              kRecordingColumns);
-    for (std::size_t r = 0; r < recordings.rows(); ++r)
-      commit.recordings.push_back({recordings.text(r, "scenario"),
-                                   static_cast<std::uint64_t>(recordings.integer(r, "seed")),
-                                   recordings.text(r, "content_hash"), part_from(recordings, r)});
-    return commit;
+    checked_table(folder, kSummaryFile.name(), json);
+    return ShardCommit{folder, json.at("shard").get<int>(), json.at(kArchiveFile).get<std::string>(),
+                       parse_cell_table(checked_table(folder, kCellTable.name(), json),
+                                        checked_table(folder, kRecordingTable.name(), json), folder)};
   });
 }
 
 }  // namespace
-
-const CommittedRecording* ShardCommit::recording(const std::string& scenario, std::uint64_t seed) const {
-  const auto found = std::ranges::lower_bound(recordings, std::pair(scenario, seed), {}, [](const auto& recording) {
-    return std::pair(recording.scenario, recording.seed);
-  });
-  const bool is_listed = found != recordings.end() && found->scenario == scenario && found->seed == seed;
-  return is_listed ? &*found : nullptr;
-}
 
 CommitWriter::CommitWriter(const fs::path& sweep, int number)
     : number_(number), staged_(stage_shard(sweep, number)), archive_(staged_.path() / kArchiveFile) {}
@@ -185,37 +111,39 @@ void CommitWriter::add_recording(const std::string& scenario, std::uint64_t seed
   const auto scan = files.find(kScanFile.name());
   const Json json = Json::parse(scan == files.end() ? "{}" : scan->second, nullptr, false);
   if (json.is_object()) recording.scans = json.value("frames", 0.0);
-  recording.committed = {scenario, seed, json.is_object() ? json.value("content_hash", "") : "",
-                         archive_.add(recording_path("", scenario, seed), files)};
+  recording.archived = {scenario, seed, json.is_object() ? json.value("content_hash", "") : "", kArchiveFile,
+                        archive_.add(recording_path("", scenario, seed), files)};
   recordings_.emplace(std::pair(scenario, seed), std::move(recording));
 }
 
-CommittedCell CommitWriter::add_cell(const CellKey& key, const std::string& address, const WorkerOutcome& outcome,
-                                     const FolderFiles& files) {
-  CommittedCell cell{
-      .key = key, .address = address, .outcome = outcome, .scan_seconds = kNaN, .result = "", .part = {}};
+ArchivedCell CommitWriter::add_cell(const CellKey& key, const CellRecord& record, const FolderFiles& files) {
+  ArchivedCell cell{.key = key,
+                    .record = record,
+                    .scan_seconds = kNaN,
+                    .result = repeatable_hash(files),
+                    .summary_begin = 0,
+                    .summary_size = 0,
+                    .archive = kArchiveFile,
+                    .part = {}};
   const auto recording = recordings_.find({key.scenario, key.seed});
   const auto timing = files.find(kTimingFile.name());
   if (recording != recordings_.end() && recording->second.scans > 0 && timing != files.end())
-    cell.scan_seconds = sum_of_seconds(timing->second) / recording->second.scans;
-  cell.result = repeatable_hash(files);
+    cell.scan_seconds = stage_seconds({timing->second, kTimingFile.name(), {"seconds"}}) / recording->second.scans;
   cell.part = archive_.add(cell_path("", key), files);
   return cell;
 }
 
-fs::path CommitWriter::commit(const std::vector<CommittedCell>& cells, const std::string& summary) {
-  CsvWriter recordings(kRecordingColumns);
-  for (const auto& [key, recording] : recordings_) {
-    recordings.text(key.first).seed(key.second).text(recording.committed.content_hash);
-    part_fields(recordings, recording.committed.part);
-    recordings.end_row();
-  }
-  const std::string tables[] = {cells_csv(cells), recordings.str(), summary};
+fs::path CommitWriter::commit(const std::vector<ArchivedCell>& cells, const std::string& summary) {
+  std::vector<ArchivedRecording> recordings;
+  for (const auto& [key, recording] : recordings_) recordings.push_back(recording.archived);
+  const std::pair<std::string, std::string> tables[] = {{kCellTable.name(), cells_csv(cells)},
+                                                        {kRecordingTable.name(), recordings_csv(recordings)},
+                                                        {kSummaryFile.name(), summary}};
   Json json{{"schema", 2}, {"program", "scanbench"}, {"shard", number_}, {"host", host_name()}};
   json[kArchiveFile] = archive_.finish();
-  for (std::size_t i = 0; i < std::size(tables); ++i) {
-    write_staged_file(path() / kTables[i], tables[i]);
-    json[kTables[i]] = sha256_hex(tables[i]);
+  for (const auto& [name, bytes] : tables) {
+    write_staged_file(path() / name, bytes);
+    json[name] = sha256_hex(bytes);
   }
   write_staged_file(path() / kCommitFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   staged_.commit();
@@ -237,6 +165,16 @@ ShardCommits load_commits(const fs::path& sweep, int number) {
   return commits;
 }
 
+std::unordered_set<std::string> committed_addresses(const fs::path& sweep, int number) {
+  std::unordered_set<std::string> addresses;
+  CommitCheck check;
+  for (const ShardCommit& commit : load_commits(sweep, number).whole)
+    for (const ArchivedCell& cell : commit.table.cells)
+      if (!addresses.contains(cell.record.address) && check.is_whole(commit, cell))
+        addresses.insert(cell.record.address);
+  return addresses;
+}
+
 CommitCheck::Archive& CommitCheck::archive_of(const ShardCommit& commit) {
   const auto [known, is_new] = archives_.try_emplace(commit.folder.string());
   if (!is_new) return known->second;
@@ -249,16 +187,16 @@ CommitCheck::Archive& CommitCheck::archive_of(const ShardCommit& commit) {
   return known->second;
 }
 
-bool CommitCheck::is_whole(const ShardCommit& commit, const CommittedCell& cell) {
+bool CommitCheck::is_whole(const ShardCommit& commit, const ArchivedCell& cell) {
   const Archive& archive = archive_of(commit);
-  const bool has_recording = cell.outcome.status != CellStatus::skipped;
+  const bool has_recording = cell.record.outcome.status != CellStatus::skipped;
   if (has_recording && !is_whole(commit, cell.key.scenario, cell.key.seed)) return false;
   return archive.is_whole || (archive.reader && archive.reader->is_whole(cell.part));
 }
 
 bool CommitCheck::is_whole(const ShardCommit& commit, const std::string& scenario, std::uint64_t seed) {
   Archive& archive = archive_of(commit);
-  const CommittedRecording* recording = commit.recording(scenario, seed);
+  const ArchivedRecording* recording = commit.table.recording(scenario, seed);
   if (recording == nullptr || !archive.reader) return false;
   if (archive.is_whole) return true;
   const auto [known, is_new] = archive.recordings.try_emplace(recording->part.offset);

@@ -11,46 +11,25 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "harness/files/atomic_file.hpp"
 #include "harness/store/cell_archive.hpp"
-#include "harness/store/cell_status.hpp"
+#include "harness/store/cell_files.hpp"
+#include "harness/store/cell_table.hpp"
 #include "harness/store/run_folder.hpp"
 
 namespace scanbench::harness {
-
-struct CommittedCell {
-  CellKey key;
-  std::string address;
-  WorkerOutcome outcome;
-  double scan_seconds = 0.0;  ///< of all stages, per scan; NaN: not known
-  /// SHA-256 of what must be equal each time the cell is made: not timing.csv, the times and memory in status.json, and
-  /// the metrics t_*.
-  std::string result;
-  ArchivePart part;
-  std::size_t summary_begin = 0;
-  std::size_t summary_size = 0;  ///< of its lines in the summary.csv of the shard
-};
-
-struct CommittedRecording {
-  std::string scenario;
-  std::uint64_t seed = 0;
-  std::string content_hash;
-  ArchivePart part;
-};
 
 struct ShardCommit {
   std::filesystem::path folder;
   int shard = 0;
   std::string archive_sha256;
-  std::vector<CommittedCell> cells;
-  std::vector<CommittedRecording> recordings;  ///< by scenario and seed, ascending
+  CellTable table;
 
   std::filesystem::path archive() const { return folder / "cells.tar"; }
-  /// Null if it has none.
-  const CommittedRecording* recording(const std::string& scenario, std::uint64_t seed) const;
 };
 
 /// A commit under construction. Without commit() nothing remains.
@@ -63,19 +42,18 @@ class CommitWriter {
   const std::filesystem::path& path() const { return staged_.path(); }
   /// Adds a recording, before its cells, unless it is there already.
   void add_recording(const std::string& scenario, std::uint64_t seed, const FolderFiles& files);
-  /// Adds a cell. The result has no summary yet.
-  CommittedCell add_cell(const CellKey& key, const std::string& address, const WorkerOutcome& outcome,
-                         const FolderFiles& files);
+  /// Adds a cell. The size of its summary is not known yet.
+  ArchivedCell add_cell(const CellKey& key, const CellRecord& record, const FolderFiles& files);
   bool has_recording(const std::string& scenario, std::uint64_t seed) const {
     return recordings_.contains({scenario, seed});
   }
   /// Writes the tables and puts the folder in place; returns it. `cells` have the sizes of their lines in `summary`, in
   /// its order.
-  std::filesystem::path commit(const std::vector<CommittedCell>& cells, const std::string& summary);
+  std::filesystem::path commit(const std::vector<ArchivedCell>& cells, const std::string& summary);
 
  private:
   struct Recording {
-    CommittedRecording committed;
+    ArchivedRecording archived;
     double scans = 0.0;
   };
 
@@ -100,7 +78,7 @@ class CommitCheck {
   /// True if every byte of the archive is as it was committed.
   bool is_whole(const ShardCommit& commit) { return archive_of(commit).is_whole; }
   /// True if the files of the cell and of its recording are as they were committed.
-  bool is_whole(const ShardCommit& commit, const CommittedCell& cell);
+  bool is_whole(const ShardCommit& commit, const ArchivedCell& cell);
   bool is_whole(const ShardCommit& commit, const std::string& scenario, std::uint64_t seed);
 
  private:
@@ -113,6 +91,9 @@ class CommitCheck {
 
   std::map<std::string, Archive> archives_;  ///< by folder; those that have been read
 };
+
+/// Addresses of the cells that are committed with undamaged files, by all shards or by shard `number`.
+std::unordered_set<std::string> committed_addresses(const std::filesystem::path& sweep, int number = 0);
 
 /// The first file whose repeatable part differs between two folders, like "lines.csv".
 std::string differing_file(const FolderFiles& a, const FolderFiles& b);

@@ -59,8 +59,8 @@ class Merge {
                      (form == CellForm::automatic && plan.cells.size() > kMostCellsAsFiles)),
         commits_(load_commits(plan.folder)) {
     for (std::uint32_t c = 0; c < commits_.whole.size(); ++c)
-      for (std::uint32_t i = 0; i < commits_.whole[c].cells.size(); ++i)
-        sources_[commits_.whole[c].cells[i].address].push_back({c, i});
+      for (std::uint32_t i = 0; i < commits_.whole[c].table.cells.size(); ++i)
+        sources_[commits_.whole[c].table.cells[i].record.address].push_back({c, i});
   }
 
   MergeResult merge() {
@@ -84,7 +84,7 @@ class Merge {
   using RecordingKey = std::pair<std::string, std::uint64_t>;
 
   const ShardCommit& commit_of(const Source& source) const { return commits_.whole[source.commit]; }
-  const CommittedCell& cell_of(const Source& source) const { return commit_of(source).cells[source.cell]; }
+  const ArchivedCell& cell_of(const Source& source) const { return commit_of(source).table.cells[source.cell]; }
 
   /// Finds an undamaged commit of every cell; returns the cells that have none.
   std::optional<MissingCells> choose() {
@@ -127,14 +127,15 @@ class Merge {
 
   /// An attempt that was ok counts before one that the machine stopped.
   bool is_better(const Source& a, const Source& b) const {
-    const CellStatus first = cell_of(a).outcome.status, second = cell_of(b).outcome.status;
+    const CellStatus first = cell_of(a).record.outcome.status, second = cell_of(b).record.outcome.status;
     return first != second && depends_on_machine(second) && !depends_on_machine(first);
   }
 
   void require_equal(const SweepCell& cell, const Source& a, const Source& b) const {
-    const CommittedCell& first = cell_of(a);
-    const CommittedCell& second = cell_of(b);
-    const bool by_machine = first.outcome.status != second.outcome.status && depends_on_machine(second.outcome.status);
+    const ArchivedCell& first = cell_of(a);
+    const ArchivedCell& second = cell_of(b);
+    const CellStatus status = second.record.outcome.status;
+    const bool by_machine = first.record.outcome.status != status && depends_on_machine(status);
     if (by_machine || first.result == second.result) return;
     const fs::path folder = cell_path("", cell.key);
     throw ConfigError(
@@ -148,7 +149,7 @@ class Merge {
   void choose_recordings() {
     for (std::size_t i = 0; i < plan_.cells.size(); ++i) {
       const CellKey& key = plan_.cells[i].key;
-      if (cell_of(chosen_[i]).outcome.status == CellStatus::skipped) continue;
+      if (cell_of(chosen_[i]).record.outcome.status == CellStatus::skipped) continue;
       const auto [known, is_new] = recordings_.try_emplace({key.scenario, key.seed}, chosen_[i].commit);
       if (!is_new && known->second != chosen_[i].commit)
         require_equal_recordings(commits_.whole[known->second], commit_of(chosen_[i]), known->first);
@@ -156,8 +157,8 @@ class Merge {
   }
 
   static void require_equal_recordings(const ShardCommit& a, const ShardCommit& b, const RecordingKey& key) {
-    const ArchivePart& first = a.recording(key.first, key.second)->part;
-    const ArchivePart& second = b.recording(key.first, key.second)->part;
+    const ArchivePart& first = a.table.recording(key.first, key.second)->part;
+    const ArchivePart& second = b.table.recording(key.first, key.second)->part;
     if (first.sha256 == second.sha256) return;
     const fs::path folder = recording_path("", key.first, key.second);
     throw ConfigError("the recording " + key.first + "/" + std::to_string(key.second) +
@@ -211,32 +212,27 @@ class Merge {
       const auto recording = recordings_.find({key.scenario, key.seed});
       if (recording == recordings_.end() || !written.insert(recording->first).second) continue;
       const ShardCommit& commit = commits_.whole[recording->second];
-      write_folder(recording->second, commit.recording(key.scenario, key.seed)->part,
+      write_folder(recording->second, commit.table.recording(key.scenario, key.seed)->part,
                    recording_path("", key.scenario, key.seed));
     }
   }
 
   void write_archives(const fs::path& run) {
     make_folders(run / "archives");
-    ArchiveTables tables;
+    CellTable table;
     std::set<std::uint32_t> commits;
-    tables.cells.reserve(plan_.cells.size());
+    table.cells.reserve(plan_.cells.size());
     for (std::size_t i = 0; i < plan_.cells.size(); ++i) {
-      const CommittedCell& cell = cell_of(chosen_[i]);
       commits.insert(chosen_[i].commit);
-      tables.cells.push_back({plan_.cells[i].key,
-                              {cell.outcome, cell.address},
-                              cell.scan_seconds,
-                              archive_name(commit_of(chosen_[i])),
-                              cell.part});
+      table.cells.push_back(cell_of(chosen_[i]));
+      table.cells.back().archive = archive_name(commit_of(chosen_[i]));
     }
     for (const auto& [key, c] : recordings_) {
-      const CommittedRecording& recording = *commits_.whole[c].recording(key.first, key.second);
-      tables.recordings.push_back(
-          {key.first, key.second, recording.content_hash, archive_name(commits_.whole[c]), recording.part});
+      table.recordings.push_back(*commits_.whole[c].table.recording(key.first, key.second));
+      table.recordings.back().archive = archive_name(commits_.whole[c]);
     }
     for (const std::uint32_t c : commits) link_archive(run, commits_.whole[c]);
-    write_archive_tables(run, tables);
+    write_archive_tables(run, table);
     write_first_seeds(run);
   }
 
@@ -264,7 +260,7 @@ class Merge {
     std::map<std::uint32_t, InputFile> tables;  // by commit
     for (const Source& source : chosen_) {
       const auto table = tables.try_emplace(source.commit, commit_of(source).folder / kSummaryFile).first;
-      const CommittedCell& cell = cell_of(source);
+      const ArchivedCell& cell = cell_of(source);
       const std::size_t begin = text.size();
       text.resize(begin + cell.summary_size);
       if (table->second.read_at(cell.summary_begin, std::span(text).subspan(begin)) < cell.summary_size)
@@ -281,7 +277,7 @@ class Merge {
       CellResult& cell = result.cells.emplace_back();
       cell.key = plan_.cells[i].key;
       cell.done = true;
-      cell.record = {cell_of(chosen_[i]).outcome, plan_.cells[i].address};
+      cell.record = {cell_of(chosen_[i]).record.outcome, plan_.cells[i].address};
     }
     return result;
   }

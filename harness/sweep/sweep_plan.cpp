@@ -47,16 +47,6 @@ void require_sweep_or_nothing(const fs::path& folder) {
     throw ConfigError((folder / kSweepFile).string() + " is not the plan of a sweep");
 }
 
-/// Addresses of the cells that are committed, with undamaged files.
-std::unordered_set<std::string> committed_addresses(const fs::path& folder) {
-  std::unordered_set<std::string> addresses;
-  CommitCheck check;
-  for (const ShardCommit& commit : load_commits(folder).whole)
-    for (const CommittedCell& cell : commit.cells)
-      if (!addresses.contains(cell.address) && check.is_whole(commit, cell)) addresses.insert(cell.address);
-  return addresses;
-}
-
 /// Deals the recordings that have cells to run to the shards, one after the other, so that each shard gets a part of
 /// every scenario. Returns the number of shards.
 int deal(const RunPlan& plan, const SweepOptions& options, std::vector<SweepCell>& cells) {

@@ -13,7 +13,8 @@ SweepStatus sweep_status(const SweepPlan& plan) {
   ShardCommits commits = load_commits(plan.folder);
   std::unordered_map<std::string_view, bool> is_ok;  // by address
   for (const ShardCommit& commit : commits.whole)
-    for (const CommittedCell& cell : commit.cells) is_ok[cell.address] |= cell.outcome.status == CellStatus::ok;
+    for (const ArchivedCell& cell : commit.table.cells)
+      is_ok[cell.record.address] |= cell.record.outcome.status == CellStatus::ok;
   SweepStatus status;
   std::set<int> shards;
   for (const SweepCell& cell : plan.cells) {

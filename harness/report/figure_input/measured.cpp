@@ -1,11 +1,8 @@
 // Reads metrics.csv of the cells, and the descriptions of the metrics.
 #include "harness/report/figure_input/measured.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,10 +11,6 @@
 #include "core/special_values.hpp"
 #include "harness/analysis/statistics.hpp"
 #include "harness/scenario/modules.hpp"
-#include "harness/store/archived_run.hpp"
-#include "harness/store/cell_files.hpp"
-#include "harness/store/run_folder.hpp"
-#include "harness/store/summary.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::harness {
@@ -42,39 +35,19 @@ render::MetricLook look_of(const metrics::MetricDescription& metric) {
   return {.unit = metric.unit, .best = best, .target = metric.target, .tolerance = metric.tolerance};
 }
 
-/// The values over all lines or scans of one pipeline: from metrics.csv of its cells, or from summary.csv of an
-/// archived run.
-using AddValue = std::function<void(std::size_t seed, const std::string& metric, double value)>;
-
-void add_values(const std::filesystem::path& run, const Scenario& scenario, const std::string& pipeline,
-                const std::vector<SummaryRow>& archived, const AddValue& add) {
-  std::map<std::uint64_t, std::size_t> places;
-  for (std::size_t s = 0; s < scenario.seeds.size(); ++s) places.emplace(scenario.seeds[s], s);
-  for (const auto& row : archived) {
-    const auto place = places.find(row.seed);
-    if (row.scenario == scenario.name && row.pipeline == pipeline && row.subject == "all" && place != places.end())
-      add(place->second, row.metric, row.value);
-  }
-  if (!archived.empty()) return;
-  for (std::size_t s = 0; s < scenario.seeds.size(); ++s) {
-    const auto cell = cell_path(run, {scenario.name, pipeline, scenario.seeds[s]});
-    if (!std::filesystem::exists(cell / kMetricsFile)) continue;
-    for (const auto& row : load_metrics(cell))
-      if (row.subject == "all") add(s, row.metric, row.value);
-  }
-}
-
-render::MeasuredPipeline measured_pipeline(const std::filesystem::path& run, const Scenario& scenario,
-                                           const PipelineSpec& pipeline, const std::vector<SummaryRow>& archived) {
+render::MeasuredPipeline measured_pipeline(const RunStore& store, const Scenario& scenario,
+                                           const PipelineSpec& pipeline) {
   render::MeasuredPipeline measured{.pipeline = pipeline.name, .slots = {}, .units = {}, .metrics = {}};
   for (const auto& slot : pipeline.slots) {
     measured.slots[slot.kind + " " + slot.module] = slot.params;
     for (const auto& spec : entry_of(slot).params) measured.units[slot.kind + "." + spec.name] = spec.unit;
   }
-  add_values(run, scenario, pipeline.name, archived, [&](std::size_t s, const std::string& metric, double value) {
-    measured.by_seed.try_emplace(metric, scenario.seeds.size(), kNaN).first->second[s] = value;
-    if (std::isfinite(value)) measured.metrics[metric].push_back(value);
-  });
+  for (std::size_t s = 0; s < scenario.seeds.size(); ++s)
+    for (const auto& row : store.metrics({scenario.name, pipeline.name, scenario.seeds[s]})) {
+      if (row.subject != "all") continue;
+      measured.by_seed.try_emplace(row.metric, scenario.seeds.size(), kNaN).first->second[s] = row.value;
+      if (std::isfinite(row.value)) measured.metrics[row.metric].push_back(row.value);
+    }
   for (const auto& [metric, values] : measured.metrics) {
     const MeanInterval interval = mean_interval(values);
     measured.bands[metric] = {interval.mean, interval.low, interval.high};
@@ -84,11 +57,9 @@ render::MeasuredPipeline measured_pipeline(const std::filesystem::path& run, con
 
 }  // namespace
 
-std::vector<render::MeasuredPipeline> measured_pipelines(const std::filesystem::path& run, const Scenario& scenario) {
+std::vector<render::MeasuredPipeline> measured_pipelines(const RunStore& store, const Scenario& scenario) {
   std::vector<render::MeasuredPipeline> all;
-  std::vector<SummaryRow> archived;
-  if (has_archives(run)) archived = load_summary(run / kSummaryFile);
-  for (const auto& pipeline : scenario.pipelines) all.push_back(measured_pipeline(run, scenario, pipeline, archived));
+  for (const auto& pipeline : scenario.pipelines) all.push_back(measured_pipeline(store, scenario, pipeline));
   return all;
 }
 

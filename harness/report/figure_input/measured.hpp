@@ -1,18 +1,18 @@
 // The metrics of a run's cells, as figures read them.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "harness/scenario/scenario.hpp"
+#include "harness/store/run_store.hpp"
 #include "render/figure.hpp"
 
 namespace scanbench::harness {
 
 /// The values of metrics.csv of all cells of a scenario, by pipeline. Throws ConfigError for a damaged file.
-std::vector<render::MeasuredPipeline> measured_pipelines(const std::filesystem::path& run, const Scenario& scenario);
+std::vector<render::MeasuredPipeline> measured_pipelines(const RunStore& store, const Scenario& scenario);
 
 /// What the registered metric families say of their metrics, by name.
 std::map<std::string, render::MetricLook> metric_looks();

@@ -14,6 +14,7 @@
 #include "harness/store/cell_files.hpp"
 #include "harness/store/recording_folder.hpp"
 #include "harness/store/run_folder.hpp"
+#include "tests/support/archives.hpp"
 #include "tests/support/runs.hpp"
 
 namespace scanbench::harness {
@@ -77,6 +78,13 @@ TEST_F(PlayedRun, HasTheRangesAndLinesOfTheFirstSeedWithinHalfAStep) {
         EXPECT_NEAR(lines.at(k++) * step, value, 0.5001 * step);
   }
   EXPECT_EQ(k, lines.size());
+}
+
+TEST_F(PlayedRun, HasTheSameBytesWhenItsCellsAreInAnArchive) {
+  const auto expected = played_run(out_, scenarios_);
+  support::archive_cells(out_);
+  ASSERT_FALSE(std::filesystem::exists(out_ / "cells"));
+  EXPECT_EQ(played_run(out_, scenarios_), expected);
 }
 
 TEST_F(PlayedRun, CutByItsLimitsSaysSo) {

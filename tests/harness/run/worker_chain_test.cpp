@@ -158,29 +158,39 @@ TEST(WorkerReport, ComesBackFromItsBytesAndLeavesTheRest) {
                                .peak_memory_bytes = 4096.0,
                                .bad_input = message.empty(),
                                .system_error = !message.empty()};
-      std::string bytes = report_bytes(sent) + "rest";
+      TaskOutput output;
+      output.content_hash = "c0ffee";
+      output.summary = "s,a,1," + message + "\n";
+      output.file_hashes = message + message;
+      std::string bytes = report_bytes({sent, output}) + "rest";
       const auto received = take_report(bytes);
       ASSERT_TRUE(received);
-      EXPECT_EQ(received->status, status);
-      EXPECT_EQ(received->message, message);
-      EXPECT_EQ(received->cpu_seconds, 0.125);
-      EXPECT_EQ(received->peak_memory_bytes, 4096.0);
-      EXPECT_EQ(received->bad_input, sent.bad_input);
-      EXPECT_EQ(received->system_error, sent.system_error);
+      EXPECT_EQ(received->outcome.status, status);
+      EXPECT_EQ(received->outcome.message, message);
+      EXPECT_EQ(received->outcome.cpu_seconds, 0.125);
+      EXPECT_EQ(received->outcome.peak_memory_bytes, 4096.0);
+      EXPECT_EQ(received->outcome.bad_input, sent.bad_input);
+      EXPECT_EQ(received->outcome.system_error, sent.system_error);
+      EXPECT_EQ(received->output.content_hash, output.content_hash);
+      EXPECT_EQ(received->output.summary, output.summary);
+      EXPECT_EQ(received->output.file_hashes, output.file_hashes);
       EXPECT_EQ(bytes, "rest");
     }
 }
 
 TEST(WorkerReport, IsNotTakenBeforeItIsWholeNorFromOtherBytes) {
-  const std::string whole = report_bytes({.status = CellStatus::ok, .message = "message"});
+  const std::string whole = report_bytes({{.status = CellStatus::ok, .message = "message"}});
   for (std::size_t size = 0; size < whole.size(); ++size) {
     std::string part = whole.substr(0, size);
     EXPECT_FALSE(take_report(part)) << size;
     EXPECT_EQ(part.size(), size);
   }
-  for (std::string other : {"ok\n", "0 0 0 0 0\n", "99 0 0 0 0 0\n", "-1 0 0 0 0 0\n", "0 0 0 0 0 1e30\n",
-                            "0 0 0 nan 0 0\n", "\n\n\n\n", "0 0 0 0 0 x\nyyy"})
+  for (std::string other : {"ok\n", "0 0 0 0 0 0 0 0\n", "99 0 0 0 0 0 0 0 0\n", "-1 0 0 0 0 0 0 0 0\n",
+                            "0 0 0 0 0 1e30 0 0 0\n", "0 0 0 0 0 0 0 0 inf\n", "0 0 0 nan 0 0 0 0 0\n", "\n\n\n\n",
+                            "0 0 0 0 0 x 0 0 0\nyyy", "0 0 0 0 0 2 2 2 2\nsevenby"})
     EXPECT_FALSE(take_report(other)) << other;
+  std::string without_a_line(1 << 20, ' ');
+  EXPECT_FALSE(take_report(without_a_line));
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ TEST(Runner, KeepsTheRowsThatTheFiguresDrawFromForTheFirstSeed) {
   EXPECT_EQ(rows.at("extract.line").size(), 5u);
 
   scenarios[0].input = RecordedInput{};  // these random scans have no world to show
-  const auto drawn = draw_figures(out, scenarios[0]);
+  const auto drawn = draw_figures(RunStore(out), scenarios[0]);
   ASSERT_EQ(drawn.size(), 1u);
   EXPECT_THAT(drawn[0].caption, ::testing::StartsWith("5 rows of a"));
 }

@@ -18,6 +18,7 @@
 #include "harness/run/runner.hpp"
 #include "harness/store/archived_run.hpp"
 #include "harness/store/manifest.hpp"
+#include "harness/store/run_store.hpp"
 #include "harness/sweep/shard.hpp"
 #include "harness/sweep/shard_commit.hpp"
 #include "harness/sweep/sweep_merge.hpp"
@@ -78,11 +79,11 @@ fs::path commit_again(const SweepPlan& plan, const fs::path& folder, const std::
     return files;
   };
   CommitWriter writer(plan.folder, old->shard);
-  for (const auto& r : old->recordings)
+  for (const auto& r : old->table.recordings)
     writer.add_recording(r.scenario, r.seed, edited(r.part, recording_path("", r.scenario, r.seed)));
-  std::vector<CommittedCell> cells;
-  for (const auto& cell : old->cells) {
-    cells.push_back(writer.add_cell(cell.key, cell.address, cell.outcome, edited(cell.part, cell_path("", cell.key))));
+  std::vector<ArchivedCell> cells;
+  for (const auto& cell : old->table.cells) {
+    cells.push_back(writer.add_cell(cell.key, cell.record, edited(cell.part, cell_path("", cell.key))));
     cells.back().summary_size = cell.summary_size;
   }
   fs::path made = writer.commit(cells, read_file(folder / "summary.csv"));
@@ -138,7 +139,7 @@ TEST(SweepMerge, AChangedByteOfAnArchiveCostsOneCellOnly) {
   run_all(plan);
   const ShardCommit commit = load_commits(plan.folder).whole[0];
   std::string bytes = read_file(commit.archive());
-  bytes[commit.cells[1].part.offset + 600] ^= 1;
+  bytes[commit.table.cells[1].part.offset + 600] ^= 1;
   write_file_atomically(commit.archive(), bytes);
   const MergeResult result = merge_sweep(plan, {.out = folder.path() / "run"});
   ASSERT_TRUE(result.missing);
@@ -201,8 +202,8 @@ TEST(SweepMerge, MergedAsArchivesBecomesTheRunWhenItIsUnpacked) {
   EXPECT_EQ(result.run.exit_code(), 0);
   EXPECT_EQ(read_file(merged / "summary.csv"), read_file(folder.path() / "local/summary.csv"));
   EXPECT_EQ(load_manifest(merged).cells, load_manifest(folder.path() / "local").cells);
-  EXPECT_EQ(load_archive_tables(merged).cells.size(), 8u);
-  EXPECT_EQ(load_archive_tables(merged).recordings.size(), 5u);
+  EXPECT_EQ(RunArchives(merged).table().cells.size(), 8u);
+  EXPECT_EQ(RunArchives(merged).table().recordings.size(), 5u);
   EXPECT_TRUE(fs::exists(cell_path(merged, {"one", "line", 3}))) << "figures show the first seed";
   EXPECT_FALSE(fs::exists(cell_path(merged, {"one", "line", 1})));
   for (const auto& [path, hash] : listed_hashes(merged)) EXPECT_EQ(sha256_of_file(merged / path), hash) << path;
@@ -210,11 +211,9 @@ TEST(SweepMerge, MergedAsArchivesBecomesTheRunWhenItIsUnpacked) {
 
   EXPECT_EQ(unpack_cells(merged, {{"one", "line", 1}}), 1u);
   EXPECT_TRUE(has_archives(merged));
-  EXPECT_NO_THROW(require_cell(merged, {"one", "line", 1}));
-  EXPECT_THAT(config_refusal([&] {
-                require_cell(merged, {"one", "line", 2});
-              }),
-              HasSubstr("`scanbench unpack " + merged.string() + " one/line/2` writes its files"));
+  EXPECT_TRUE(fs::exists(cell_path(merged, {"one", "line", 1})));
+  EXPECT_THAT(config_refusal([&] { RunStore(merged).require_folders(); }),
+              HasSubstr("`scanbench unpack " + merged.string() + "` writes all of their files"));
   EXPECT_EQ(unpack_cells(merged, load_manifest(merged).cells), 4u);
   EXPECT_FALSE(has_archives(merged));
   EXPECT_EQ(fixtures::artefacts(merged), fixtures::artefacts(folder.path() / "local"));
@@ -229,16 +228,16 @@ TEST(SweepMerge, AnArchivedRunHasTheRecordsAndValuesOfTheRun) {
   for (const int shard : {1, 2}) run_shard(plan.folder, {.shard = shard, .recording = with_time_two});
   for (const auto& [name, form] : {std::pair("files", CellForm::files), std::pair("archives", CellForm::archives)})
     merge_sweep(plan, {.out = folder.path() / name}, form);
-  const CellRecords of_files(folder.path() / "files"), archived(folder.path() / "archives");
+  const RunStore of_files(folder.path() / "files"), archived(folder.path() / "archives");
   for (const auto& cell : plan.cells) {
-    const auto expected = of_files.of(cell.key), found = archived.of(cell.key);
+    const auto expected = of_files.record(cell.key), found = archived.record(cell.key);
     ASSERT_TRUE(expected && found);
     EXPECT_EQ(found->address, expected->address);
     EXPECT_EQ(found->outcome.status, expected->outcome.status);
     EXPECT_EQ(found->outcome.message, expected->outcome.message);
     EXPECT_EQ(found->outcome.cpu_seconds, expected->outcome.cpu_seconds);
   }
-  EXPECT_FALSE(archived.of({"one", "line", 3}));
+  EXPECT_FALSE(archived.record({"one", "line", 3}));
 }
 
 TEST(SweepMerge, UnpackingRefusesDamagedArchivesAndUnknownCells) {
@@ -248,7 +247,7 @@ TEST(SweepMerge, UnpackingRefusesDamagedArchivesAndUnknownCells) {
   const fs::path merged = folder.path() / "merged";
   merge_sweep(plan, {.out = merged}, CellForm::archives);
   EXPECT_THAT(config_refusal([&] { unpack_cells(merged, {{"one", "line", 7}}); }), HasSubstr("has no cell one/line/7"));
-  const ArchivedCell cell = load_archive_tables(merged).cells[1];
+  const ArchivedCell cell = RunArchives(merged).table().cells[1];
   fs::resize_file(archive_path(merged, cell.archive), cell.part.offset + 700);
   EXPECT_THAT(config_refusal([&] { unpack_cells(merged, {cell.key}); }), HasSubstr("is cut off or has been changed"));
   EXPECT_FALSE(fs::exists(cell_path(merged, cell.key)));
