@@ -1,4 +1,4 @@
-// Declares, reads and checks options with CLI11, which each unit that includes it compiles in eight seconds.
+// Declares, reads and checks options with CLI11, which costs eight seconds of compile time in each unit that uses it.
 #include "app/options.hpp"
 
 #include <fmt/format.h>

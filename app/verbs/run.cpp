@@ -15,6 +15,7 @@
 #include "app/terminal/running.hpp"
 #include "app/verbs/sweep.hpp"
 #include "core/error.hpp"
+#include "harness/files/json.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/run/run_options.hpp"
@@ -44,7 +45,7 @@ void print_json(const harness::RunResult& result) {
                      {"message", harness::plain_line(cell.record.outcome.message)},
                      {"reused", cell.reused}});
   const nlohmann::ordered_json json{{"out", result.out.string()}, {"exit_code", result.exit_code()}, {"cells", cells}};
-  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  fmt::print("{}\n", harness::json_text(json));
 }
 
 int run(const RunVerbOptions& options, const std::vector<std::string>& argv) {

@@ -23,6 +23,7 @@
 #include "app/terminal/running.hpp"
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/json.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/store/cell_status.hpp"
@@ -93,7 +94,7 @@ void print_json(const harness::SweepPlan& plan, const harness::SweepStatus& stat
                                     {"lost", status.lost},
                                     {"damaged", damaged},
                                     {"unfinished", status.unfinished}};
-  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  fmt::print("{}\n", harness::json_text(json));
 }
 
 int status(const SweepVerbOptions& options) {

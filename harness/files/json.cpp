@@ -8,9 +8,8 @@ namespace {
 
 constexpr int kOneLine = -1;
 
-template <class Json>
-std::string printed_json(const Json& json, int indent, bool is_ascii) {
-  return json.dump(indent, ' ', is_ascii, Json::error_handler_t::replace);
+std::string printed_json(const nlohmann::ordered_json& json, int indent, bool is_ascii) {
+  return json.dump(indent, ' ', is_ascii, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -24,7 +23,7 @@ std::string json_line(const nlohmann::ordered_json& json) {
 }
 
 std::string json_line(const nlohmann::json& json) {
-  return printed_json(json, kOneLine, false);
+  return json.dump();
 }
 
 std::string json_ascii_line(const nlohmann::ordered_json& json) {

@@ -12,6 +12,7 @@
 #include "harness/files/csv.hpp"
 #include "harness/files/folder.hpp"
 #include "harness/files/hash.hpp"
+#include "harness/files/json.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/json_file.hpp"
 #include "harness/store/recording_folder.hpp"
@@ -48,7 +49,7 @@ std::string without_times(const std::string& csv) {
 }
 
 std::string status_in(const std::string& bytes) {
-  const Json json = Json::parse(bytes, nullptr, false);
+  const nlohmann::json json = parsed_json(bytes);
   return json.is_object() ? json.value("status", "") : "";
 }
 
@@ -183,7 +184,7 @@ void CommitWriter::add_recording(const std::string& scenario, std::uint64_t seed
   if (has_recording(scenario, seed)) return;
   Recording recording;
   const auto scan = files.find(kScanFile.name());
-  const Json json = Json::parse(scan == files.end() ? "{}" : scan->second, nullptr, false);
+  const nlohmann::json json = parsed_json(scan == files.end() ? "{}" : scan->second);
   if (json.is_object()) recording.scans = json.value("frames", 0.0);
   recording.committed = {scenario, seed, json.is_object() ? json.value("content_hash", "") : "",
                          archive_.add(recording_path("", scenario, seed), files)};
@@ -217,7 +218,7 @@ fs::path CommitWriter::commit(const std::vector<CommittedCell>& cells, const std
     write_staged_file(path() / kTables[i], tables[i]);
     json[kTables[i]] = sha256_hex(tables[i]);
   }
-  write_staged_file(path() / kCommitFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_staged_file(path() / kCommitFile, json_text(json) + "\n");
   staged_.commit();
   return staged_.target();
 }

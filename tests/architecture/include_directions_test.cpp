@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -207,6 +208,21 @@ TEST(Architecture, LibrariesAppearInOneFolderEach) {
           EXPECT_TRUE(path == owner || path.starts_with(owner + "/")) << file << " includes " << header;
         }
     });
+  }
+}
+
+TEST(Architecture, JsonIsPrintedAndParsedInOneUnit) {
+  // The others read files that are too large for a plain parse.
+  const std::set<std::string> allowed_files{"json.cpp", "json_file.cpp", "manifest.cpp"};
+  const std::regex costly(R"((\.|->)dump\(|[Jj]son::(sax_)?parse\()");
+  for (const auto& [folder, allowed] : kAllowed) {
+    for (const auto& entry : fs::recursive_directory_iterator(scanbench::places::source_dir() / folder)) {
+      const auto ending = entry.path().extension();
+      if ((ending != ".cpp" && ending != ".hpp") || allowed_files.contains(entry.path().filename().string())) continue;
+      std::ifstream file(entry.path());
+      const std::string text((std::istreambuf_iterator<char>(file)), {});
+      EXPECT_FALSE(std::regex_search(text, costly)) << entry.path() << ": use harness/files/json.hpp";
+    }
   }
 }
 
