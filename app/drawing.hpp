@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/progress.hpp"
+#include "app/terminal/progress.hpp"
 #include "harness/report/figures.hpp"
 #include "harness/scenario/scenario.hpp"
 

@@ -18,12 +18,10 @@ std::string quoted(const std::string& path) {
 
 }  // namespace
 
-void add_foreign_options(CLI::App& verb, ForeignOptions& options, bool programs) {
-  verb.add_option("--plugin", options.plugins, "a shared library of modules (docs/plugins.md)")
-      ->allow_extra_args(false)
-      ->take_all();
+void add_foreign_options(Verb& verb, ForeignOptions& options, bool programs) {
+  verb.option("--plugin", options.plugins, "a shared library of modules (docs/plugins.md)").one_value_each();
   if (programs)
-    verb.add_option("--program", options.program, "a program that is a module, and its arguments")->expected(1, 100);
+    verb.option("--program", options.program, "a program that is a module, and its arguments").values(1, 100);
 }
 
 std::vector<std::string> with_foreign(std::vector<std::string> sets, const ForeignOptions& options, bool sandbox) {

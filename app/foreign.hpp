@@ -1,10 +1,10 @@
 // Options of the command line about modules that are not part of this program.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "app/options.hpp"
 #include "harness/foreign/source.hpp"
 #include "harness/report/catalog.hpp"
 
@@ -15,7 +15,7 @@ struct ForeignOptions {
   std::vector<std::string> plugins;
   std::vector<std::string> program;
 };
-void add_foreign_options(CLI::App& verb, ForeignOptions& options, bool programs);
+void add_foreign_options(Verb& verb, ForeignOptions& options, bool programs);
 
 /// The overrides of a scenario that mean the same: --plugin adds the key `plugins`, `sandbox` sets limits.sandbox.
 std::vector<std::string> with_foreign(std::vector<std::string> sets, const ForeignOptions& options, bool sandbox);

@@ -33,6 +33,18 @@ void check_exists(const std::string& file) {
 
 }  // namespace
 
+void add_seed_option(Verb& verb, std::vector<std::string>& seeds) {
+  verb.option("--seed", seeds, "seeds, separated by commas, that replace the file's").separated_by_commas();
+}
+
+void add_set_option(Verb& verb, std::vector<std::string>& sets) {
+  verb.option("--set", sets, "KEY=VALUE: replaces a value of the file (dotted keys)").repeatable();
+}
+
+void add_jobs_option(Verb& verb, int& jobs, const std::string& help, const std::string& what) {
+  verb.option("-j,--jobs", jobs, help).whole_number(what, 1, 1024).shows_default();
+}
+
 std::string nearest_file(const fs::path& path) {
   const bool bare = !path.has_parent_path();
   const std::string name = path.filename().string();

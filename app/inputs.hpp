@@ -1,14 +1,24 @@
-// The scenarios and seeds that the command line names.
+// The scenarios and seeds that the command line names, and the options that several verbs have for them.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "app/options.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/scenario/suite_rules.hpp"
 
 namespace scanbench::app {
+
+/// --seed: the texts that give_seeds() reads.
+void add_seed_option(Verb& verb, std::vector<std::string>& seeds);
+
+/// --set: the overrides that load_inputs() applies.
+void add_set_option(Verb& verb, std::vector<std::string>& sets);
+
+/// --jobs: how many of them at the same time; `help` says of what.
+void add_jobs_option(Verb& verb, int& jobs, const std::string& help, const std::string& what = "number of cells");
 
 /// The path that a misspelt one probably means: the nearest name in the same folder; for a bare name like `abcdef`,
 /// also a file below scenarios/ or a folder of out/ of that name. Empty if nothing is near.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/foreign.hpp"
+#include "app/terminal/progress.hpp"
 #include "core/error.hpp"
 #include "core/modules.hpp"
 #include "harness/conform/aligner_checks.hpp"
@@ -25,7 +26,7 @@
 namespace scanbench::app {
 namespace {
 
-constexpr harness::WorkerLimits kLimits{.seconds = 60.0, .memory_bytes = 2e9, .threads = 1};
+constexpr harness::WorkerLimits kCheckLimits{.seconds = 60.0, .memory_bytes = 2e9, .threads = 1};
 
 /// What went wrong in a check, run in a child process; empty if nothing did.
 std::string faults_of(const std::function<void(conform::Findings&)>& check) {
@@ -39,7 +40,7 @@ std::string faults_of(const std::function<void(conform::Findings&)>& check) {
         for (const auto& fault : findings.faults()) text += (text.empty() ? "" : "; ") + fault;
         return text;
       },
-      kLimits);
+      kCheckLimits);
   const auto finished = pool.wait();
   if (finished.empty()) throw ConfigError("interrupted");
   const harness::WorkerOutcome& outcome = finished.front().outcome;
@@ -91,19 +92,19 @@ int conform_verb(const ForeignOptions& options) {
   if (sources.empty()) throw ConfigError("conform needs --plugin FILE or --program WORD...");
   int failures = 0;
   for (const auto& source : sources) failures += check_module(source);
-  if (failures > 0) fmt::print("{} check{} failed\n", failures, failures == 1 ? "" : "s");
+  if (failures > 0) fmt::print("{} failed\n", counted(static_cast<std::size_t>(failures), "check"));
   return failures == 0 ? kGood : kGateFailed;
 }
 
 }  // namespace
 
-void add_conform(Context& context) {
+void add_conform(CommandLine& line) {
   auto options = std::make_shared<ForeignOptions>();
-  auto* verb = context.app.add_subcommand(
+  Verb verb = line.add_verb(
       "conform",
       "Checks the modules of a shared library, or a program, as the tests check the modules of this program");
-  add_foreign_options(*verb, *options, true);
-  verb->callback([&context, options] { context.action = [options] { return conform_verb(*options); }; });
+  add_foreign_options(verb, *options, true);
+  verb.runs([options] { return conform_verb(*options); });
 }
 
 }  // namespace scanbench::app

@@ -1,10 +1,10 @@
 // The verb conform.
 #pragma once
 
-#include "app/context.hpp"
+#include "app/options.hpp"
 
 namespace scanbench::app {
 
-void add_conform(Context& context);
+void add_conform(CommandLine& line);
 
 }  // namespace scanbench::app

@@ -57,20 +57,19 @@ int write_module(const std::string& kind, const std::string& name, const fs::pat
   return kGood;
 }
 
+struct NewModuleOptions {
+  std::string kind, name, sources = ".";
+};
+
 }  // namespace
 
-void add_new_module(Context& context) {
-  struct Options {
-    std::string kind, name, sources = ".";
-  };
-  auto options = std::make_shared<Options>();
-  auto* verb = context.app.add_subcommand("new", "Writes the file of a new module, to be changed by its author");
-  context.words[verb->add_option("KIND", options->kind, join(template_kinds()))->required()] = template_kinds;
-  verb->add_option("NAME", options->name, "the module's name in small letters, digits and _")->required();
-  verb->add_option("--sources", options->sources, "the folder of scanbench's sources")->capture_default_str();
-  verb->callback([&context, options] {
-    context.action = [options] { return write_module(options->kind, options->name, options->sources); };
-  });
+void add_new_module(CommandLine& line) {
+  auto options = std::make_shared<NewModuleOptions>();
+  Verb verb = line.add_verb("new", "Writes the file of a new module, to be changed by its author");
+  verb.option("KIND", options->kind, join(template_kinds())).required().completed_by(template_kinds);
+  verb.option("NAME", options->name, "the module's name in small letters, digits and _").required();
+  verb.option("--sources", options->sources, "the folder of scanbench's sources").shows_default();
+  verb.runs([options] { return write_module(options->kind, options->name, options->sources); });
 }
 
 }  // namespace scanbench::app

@@ -1,10 +1,10 @@
 // The verb new.
 #pragma once
 
-#include "app/context.hpp"
+#include "app/options.hpp"
 
 namespace scanbench::app {
 
-void add_new_module(Context& context);
+void add_new_module(CommandLine& line);
 
 }  // namespace scanbench::app

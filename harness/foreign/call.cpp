@@ -5,8 +5,11 @@
 
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 #include "core/error.hpp"
 #include "core/special_values.hpp"
+#include "harness/files/json.hpp"
 #include "harness/foreign/fault.hpp"
 #include "harness/foreign/hello.hpp"
 
@@ -74,7 +77,7 @@ Call& Call::own(std::string_view name, std::vector<double> numbers) {
 }
 
 Call& Call::key(std::string_view name, const nlohmann::json& value) {
-  header_ += fmt::format(",\"{}\":{}", name, value.dump());
+  header_ += fmt::format(",\"{}\":{}", name, json_line(value));
   return *this;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "harness/files/json.hpp"
 #include "harness/foreign/fault.hpp"
 
 namespace scanbench::harness {
@@ -50,7 +51,7 @@ FrameHead decode_head(std::span<const char, kFrameHead> bytes) {
 }
 
 Answer::Answer(std::string_view header, std::vector<double> numbers)
-    : header_(nlohmann::json::parse(header, nullptr, false)), numbers_(std::move(numbers)) {
+    : header_(parsed_json(header)), numbers_(std::move(numbers)) {
   if (!header_.is_object()) throw ForeignFault("sent a header that is no JSON object");
   std::size_t used = 0;
   const auto arrays = header_.find("arrays");

@@ -9,9 +9,12 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "core/error.hpp"
 #include "core/modules.hpp"
 #include "core/names.hpp"
+#include "harness/files/json.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/foreign/fault.hpp"
 #include "harness/foreign/frame.hpp"
@@ -82,7 +85,8 @@ ParamValue typed(const json& value, ParamType type) {
       return value.get<bool>();
     case ParamType::integer:
       if (!value.is_number_integer() || (value.is_number_unsigned() && value.get<std::uint64_t>() > kLargestInteger))
-        refuse("the default of an integer is " + value.dump().substr(0, 60) + "; allowed: a whole number of 64 bits");
+        refuse("the default of an integer is " + json_line(value).substr(0, 60) +
+               "; allowed: a whole number of 64 bits");
       return value.get<std::int64_t>();
     case ParamType::number:
       return value.get<double>();
@@ -108,7 +112,7 @@ ParamValue default_of(const json& object, const ParamSpec& spec) {
   try {
     return checked(spec, typed(*found, spec.type));
   } catch (const json::exception&) {
-    refuse("`default` of " + spec.name + " is " + found->dump().substr(0, 60) +
+    refuse("`default` of " + spec.name + " is " + json_line(*found).substr(0, 60) +
            "; allowed: " + std::string(to_string(spec.type)));
   } catch (const ParamError& error) {
     refuse("the default of " + std::string(error.what()));
@@ -177,7 +181,7 @@ ForeignModule read_hello(const json& hello) {
   if (protocol == hello.end() || !protocol->is_number_integer())
     throw ForeignFault("does not say which version of the protocol it speaks (key `protocol`)");
   if (protocol->get<std::int64_t>() != kProtocolVersion)
-    throw ForeignFault("speaks version " + protocol->dump() + " of the protocol; this program speaks version " +
+    throw ForeignFault("speaks version " + json_line(*protocol) + " of the protocol; this program speaks version " +
                        std::to_string(kProtocolVersion));
   return read_checked(hello);
 }

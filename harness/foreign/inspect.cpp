@@ -16,7 +16,10 @@
 #include <map>
 #include <variant>
 
+#include <nlohmann/json.hpp>
+
 #include "harness/files/hash.hpp"
+#include "harness/files/json.hpp"
 #include "harness/foreign/call.hpp"
 #include "harness/foreign/confine.hpp"
 #include "harness/foreign/fault.hpp"
@@ -46,9 +49,9 @@ constexpr std::size_t kLongestText = 4U << 20;  // of a description
   try {
     nlohmann::json list = nlohmann::json::array();
     for (const ForeignModule& module : load_library(library)) list.push_back(to_hello(module));
-    text = list.dump();
+    text = json_line(list);
   } catch (const std::exception& error) {
-    text = nlohmann::json{{"error", error.what()}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    text = json_line(nlohmann::ordered_json{{"error", error.what()}});
   }
   std::fflush(nullptr);
   for (std::size_t done = 0; done < text.size();) {
@@ -146,7 +149,7 @@ void inspect_program(ForeignSource& source, bool sandbox) {
 
 std::vector<ForeignSource> inspect_library(const fs::path& library) {
   check_stamp(library);
-  const nlohmann::json list = nlohmann::json::parse(described_by_child(library), nullptr, false);
+  const nlohmann::json list = parsed_json(described_by_child(library));
   if (list.is_object() && list.contains("error")) throw ForeignFault(list["error"].get<std::string>());
   if (!list.is_array() || list.empty())
     throw ForeignFault("the library " + library.filename().string() + " has no module");

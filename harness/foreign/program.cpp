@@ -22,6 +22,7 @@
 #include <fstream>
 
 #include "core/number_text.hpp"
+#include "harness/files/json.hpp"
 #include "harness/foreign/confine.hpp"
 #include "harness/foreign/fault.hpp"
 #include "harness/foreign/output_tail.hpp"
@@ -325,12 +326,12 @@ Answer Program::exchange(const std::string& header, std::span<const std::span<co
   Answer answer(text, std::move(numbers));
   if (const auto error = answer.header().find("error"); error != answer.header().end())
     throw ForeignFault(
-        "reports an error: " + output_tail(error->is_string() ? error->get<std::string>() : error->dump()),
+        "reports an error: " + output_tail(error->is_string() ? error->get<std::string>() : json_line(*error)),
         answer.header().value("reason", nlohmann::json()) == "out_of_memory" ? ForeignFault::Kind::memory
                                                                              : ForeignFault::Kind::other);
   const auto id = answer.header().find("id");
   if (id == answer.header().end() || !id->is_number_integer() || id->get<long>() != id_)
-    throw ForeignFault("answered to call " + (id == answer.header().end() ? "(none)" : id->dump()) +
+    throw ForeignFault("answered to call " + (id == answer.header().end() ? "(none)" : json_line(*id)) +
                        " instead of call " + std::to_string(id_));
   return answer;
 }

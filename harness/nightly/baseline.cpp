@@ -16,6 +16,7 @@
 #include "harness/analysis/statistics.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
+#include "harness/files/json.hpp"
 #include "harness/store/json_file.hpp"
 
 namespace scanbench::harness {
@@ -68,7 +69,7 @@ std::string hash_of(const Group& group) {
   Json values = Json::array();
   for (const auto* cell : group.cells)
     for (const auto& row : cell->rows) values.push_back({cell->key.seed, row.metric, number(row.value)});
-  return sha256_hex(values.dump());
+  return sha256_hex(json_line(values));
 }
 
 Json metric_json(const Group& group, const MetricRow& example) {
@@ -194,7 +195,7 @@ Baseline load_baseline(const fs::path& file) {
     if (json.value("program", Json()) != "scanbench" || json.value("kind", Json()) != "baseline")
       throw ConfigError(file.string() + ": not a baseline of scanbench");
     if (json.at("schema") != 1)
-      throw ConfigError(file.string() + ": schema is " + json.at("schema").dump() + "; allowed: 1");
+      throw ConfigError(file.string() + ": schema is " + json_line(json.at("schema")) + "; allowed: 1");
     Baseline baseline{file, json.at("accepted"), json.at("reason"), {}};
     baseline.results.name = "baseline " + file.stem().string();
     baseline.results.provenance.commit = json.at("commit");
@@ -237,7 +238,7 @@ fs::path accept_baseline(const fs::path& baselines, const std::string& suite, co
   const std::size_t number_of_newest = files.empty() ? 0 : std::strtoul(files.back().stem().c_str(), nullptr, 10);
   const fs::path file = baselines / suite / fmt::format("{:04}.json", number_of_newest + 1);
   make_folders(file.parent_path());
-  write_file_atomically(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(file, json_text(json, 1) + "\n");
   return file;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/analysis/verdict.hpp"
+#include "harness/files/json.hpp"
 #include "harness/nightly/comparison_tables.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/page/table.hpp"
@@ -104,7 +105,7 @@ std::string comparison_json(const Comparison& comparison) {
                   {"absent_metrics", comparison.absent},
                   {"added", cells_json(comparison.added)},
                   {"changes", std::move(changes)}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string comparison_markdown(const Comparison& comparison) {

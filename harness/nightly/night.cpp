@@ -16,6 +16,7 @@
 #include "harness/analysis/run_results.hpp"
 #include "harness/analysis/verdict.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/json.hpp"
 #include "harness/nightly/baseline.hpp"
 #include "harness/nightly/comparison_files.hpp"
 #include "harness/nightly/night_page.hpp"
@@ -214,7 +215,7 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
   input.rankings = rank_methods(input.now.cells, load_scan_seconds(RunStore(plan.run), input.now.cells), conditions);
   input.worst = worst_scans(plan.run, input.now, kWorstScans);
   input.files = {kSummaryFile.name(), kManifestFile.name()};
-  write_file_atomically(plan.run / kNightFile, nlohmann::ordered_json{{"suite", plan.suite}}.dump() + "\n");
+  write_file_atomically(plan.run / kNightFile, json_line(nlohmann::ordered_json{{"suite", plan.suite}}) + "\n");
   const std::int64_t tonight = store.add(plan.suite, plan.run, input.now);
 
   NightOutcome outcome;

@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "core/recording.hpp"
 #include "core/result.hpp"
 #include "harness/files/base64.hpp"

@@ -5,7 +5,10 @@
 
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "core/error.hpp"
+#include "harness/files/json.hpp"
 #include "harness/page/html_page.hpp"
 
 namespace scanbench::harness {
@@ -203,7 +206,8 @@ go(Math.max(0, rec.frames.indexOf(+frame)));
 
 /// JSON that cannot end the script element it is in.
 std::string script_data(const nlohmann::ordered_json& json) {
-  std::string text = json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace), out;
+  const std::string text = json_ascii_line(json);
+  std::string out;
   out.reserve(text.size());
   for (const char c : text) {
     if (c == '<')

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/modules.hpp"
 #include "core/names.hpp"
+#include "harness/files/json.hpp"
 #include "harness/page/table.hpp"
 #include "harness/scenario/sections.hpp"
 #include "metrics/metric.hpp"
@@ -218,7 +219,7 @@ std::string catalog_json(const std::vector<CatalogEntry>& entries) {
                     {"notes", entry.notes},
                     {"params", params}});
   }
-  return list.dump(2) + "\n";
+  return json_text(list) + "\n";
 }
 
 }  // namespace scanbench::harness

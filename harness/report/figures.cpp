@@ -15,6 +15,7 @@
 #include "core/names.hpp"
 #include "core/registry.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/json.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/report/figure_input/line_difference.hpp"
 #include "harness/report/figure_input/measured.hpp"
@@ -237,7 +238,7 @@ void save_figure_index(const fs::path& folder, const std::vector<FigureFile>& fi
   for (const auto& figure : figures)
     list.push_back({{"scenario", figure.scenario}, {"name", figure.name}, {"caption", figure.caption}});
   make_folders(folder);
-  write_file_atomically(folder / kIndexFile, list.dump(2) + "\n");
+  write_file_atomically(folder / kIndexFile, json_text(list) + "\n");
 }
 
 std::vector<FigureFile> load_figure_index(const fs::path& folder) {

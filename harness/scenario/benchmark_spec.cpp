@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/json.hpp"
 #include "harness/scenario/chain.hpp"
 #include "harness/yaml/reader.hpp"
 
@@ -132,7 +133,7 @@ std::string benchmark_json(const BenchmarkSpec& spec) {
   auto& levels = json["levels"] = nlohmann::ordered_json::array();
   for (const auto& level : spec.levels)
     levels.push_back({{"factor", level.factor}, {"level", level.level}, {"scenarios", level.scenarios}});
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace scanbench::harness

@@ -8,6 +8,7 @@
 
 #include "core/names.hpp"
 #include "core/registry.hpp"
+#include "harness/files/json.hpp"
 #include "harness/yaml/reader.hpp"
 #include "metrics/metric.hpp"
 
@@ -43,7 +44,7 @@ GateSpec read_gates(const YamlNode& node) {
 std::string gates_json(const GateSpec& spec) {
   nlohmann::ordered_json tolerances = nlohmann::ordered_json::object();
   for (const auto& [metric, tolerance] : spec.tolerances) tolerances[metric] = tolerance;
-  return nlohmann::ordered_json{{"schema", 1}, {"gates", tolerances}}.dump(2) + "\n";
+  return json_text({{"schema", 1}, {"gates", tolerances}}) + "\n";
 }
 
 }  // namespace scanbench::harness

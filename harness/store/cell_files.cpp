@@ -10,6 +10,7 @@
 #include "core/index.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
+#include "harness/files/json.hpp"
 #include "harness/files/npy.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/scenario/chain.hpp"
@@ -193,7 +194,7 @@ std::string status_json(const CellRecord& record) {
                   {"peak_memory_bytes", record.outcome.peak_memory_bytes},
                   {"address", record.address}};
   // Output of a module may not be valid UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 CellRecord load_status(const StoredFiles& cell) {

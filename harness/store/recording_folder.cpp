@@ -11,6 +11,7 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/files/hash.hpp"
+#include "harness/files/json.hpp"
 #include "harness/files/npy.hpp"
 #include "harness/store/json_file.hpp"
 
@@ -65,7 +66,7 @@ double number_of(const Json& json, const char* key, const fs::path& file) {
   if (found != json.end() && *found == "inf") return std::numeric_limits<double>::infinity();
   if (found != json.end() && *found == "-inf") return -std::numeric_limits<double>::infinity();
   throw ConfigError(file.string() + ": '" + key + "' must be a number; found " +
-                    (found == json.end() ? "nothing" : found->dump()));
+                    (found == json.end() ? "nothing" : json_line(*found)));
 }
 
 Json scan_json(const Recording& recording) {
@@ -235,7 +236,7 @@ Files data_files(const Recording& recording) {
 std::string hash_of(const Files& data, const Json& scan_without_hash) {
   Sha256 hash;
   for (const auto& [name, bytes] : data) hash.part(name, bytes);
-  return hash.part(kScanFile.name(), scan_without_hash.dump()).hex();
+  return hash.part(kScanFile.name(), json_line(scan_without_hash)).hex();
 }
 
 void check_truth(const Recording& recording) {
@@ -287,15 +288,20 @@ Pose2 pose_from(const CsvTable& csv, std::size_t row, const std::string& prefix,
   return Pose2::from_unit(t, {rotation[0], rotation[1]});
 }
 
-}  // namespace
-
-Files recording_files(const Recording& recording) {
+std::pair<Files, std::string> files_and_hash(const Recording& recording) {
   check_truth(recording);
   Files files = data_files(recording);
   Json scan = scan_json(recording);
-  scan["content_hash"] = hash_of(files, scan);
-  files.emplace_back(kScanFile.name(), scan.dump(2) + "\n");
-  return files;
+  std::string hash = hash_of(files, scan);
+  scan["content_hash"] = hash;
+  files.emplace_back(kScanFile.name(), json_text(scan) + "\n");
+  return {std::move(files), std::move(hash)};
+}
+
+}  // namespace
+
+Files recording_files(const Recording& recording) {
+  return files_and_hash(recording).first;
 }
 
 std::string recording_hash(const Recording& recording) {
@@ -304,9 +310,9 @@ std::string recording_hash(const Recording& recording) {
 }
 
 std::string write_recording(const fs::path& folder, const Recording& recording) {
-  const Files files = recording_files(recording);
+  const auto [files, hash] = files_and_hash(recording);
   for (const auto& [name, bytes] : files) write_staged_file(folder / name, bytes);
-  return Json::parse(files.back().second)["content_hash"];
+  return hash;
 }
 
 std::string save_recording(const fs::path& folder, const Recording& recording) {
@@ -331,7 +337,7 @@ Recording load_recording(const StoredFiles& recorded) {
                         {"frame", "t_s", "odom_x_m", "odom_y_m", "odom_yaw_rad"});
   const std::size_t count = frames.rows();
   if (scan.contains("frames") && number_of(scan, "frames", scan_file) != static_cast<double>(count))
-    throw ConfigError(scan_file.string() + ": frames is " + scan["frames"].dump() + "; frames.csv has " +
+    throw ConfigError(scan_file.string() + ": frames is " + json_line(scan["frames"]) + "; frames.csv has " +
                       std::to_string(count));
   NpyArray<double> rotations;
   const bool exact = recorded.has(kRotationsFile);
@@ -392,7 +398,7 @@ Recording load_recording(const StoredFiles& recorded) {
     scan.erase("content_hash");
     if (stated != hash_of(files, scan))
       throw ConfigError(recorded.folder().string() +
-                        ": the recording is damaged: its bytes do not have the content hash " + stated.dump() +
+                        ": the recording is damaged: its bytes do not have the content hash " + json_line(stated) +
                         " that scan.json states");
   }
   return recording;

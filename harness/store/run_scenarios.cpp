@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
+#include "harness/files/json.hpp"
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/scenario/wall_table.hpp"
 #include "harness/store/json_file.hpp"
@@ -85,7 +86,7 @@ StoredInputs store_inputs(const fs::path& run, const Scenario& scenario, const s
   }
   if (sources.empty()) return stored;
   make_folders(folder);
-  write_file_atomically(folder / kSourcesFile, sources.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(folder / kSourcesFile, json_text(sources) + "\n");
   return stored;
 }
 

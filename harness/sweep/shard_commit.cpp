@@ -13,6 +13,7 @@
 #include "harness/files/csv.hpp"
 #include "harness/files/folder.hpp"
 #include "harness/files/hash.hpp"
+#include "harness/files/json.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/json_file.hpp"
 #include "harness/store/recording_folder.hpp"
@@ -40,7 +41,7 @@ std::string without_times(const std::string& csv) {
 }
 
 std::string status_in(const std::string& bytes) {
-  const Json json = Json::parse(bytes, nullptr, false);
+  const nlohmann::json json = parsed_json(bytes);
   return json.is_object() ? json.value("status", "") : "";
 }
 
@@ -109,7 +110,7 @@ void CommitWriter::add_recording(const std::string& scenario, std::uint64_t seed
   if (has_recording(scenario, seed)) return;
   Recording recording;
   const auto scan = files.find(kScanFile.name());
-  const Json json = Json::parse(scan == files.end() ? "{}" : scan->second, nullptr, false);
+  const nlohmann::json json = parsed_json(scan == files.end() ? "{}" : scan->second);
   if (json.is_object()) recording.scans = json.value("frames", 0.0);
   recording.archived = {scenario, seed, json.is_object() ? json.value("content_hash", "") : "", kArchiveFile,
                         archive_.add(recording_path("", scenario, seed), files)};
@@ -145,7 +146,7 @@ fs::path CommitWriter::commit(const std::vector<ArchivedCell>& cells, const std:
     write_staged_file(path() / name, bytes);
     json[name] = sha256_hex(bytes);
   }
-  write_staged_file(path() / kCommitFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_staged_file(path() / kCommitFile, json_text(json) + "\n");
   staged_.commit();
   return staged_.target();
 }

@@ -14,6 +14,7 @@
 #include "harness/files/csv.hpp"
 #include "harness/files/folder.hpp"
 #include "harness/files/hash.hpp"
+#include "harness/files/json.hpp"
 #include "harness/run/run_plan.hpp"
 #include "harness/scenario/effective.hpp"
 #include "harness/store/json_file.hpp"
@@ -75,7 +76,7 @@ std::string cells_csv(const std::vector<SweepCell>& cells) {
 
 std::string seal_of(Json json) {
   json.erase("seal");
-  return sha256_hex(json.dump());
+  return sha256_hex(json_line(json));
 }
 
 void write_plan(const SweepPlan& plan, const SweepOptions& options) {
@@ -97,7 +98,7 @@ void write_plan(const SweepPlan& plan, const SweepOptions& options) {
             {"trace", plan.journal},
             {"files", files}};
   json["seal"] = seal_of(json);
-  write_file_atomically(plan.folder / kSweepFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(plan.folder / kSweepFile, json_text(json) + "\n");
 }
 
 [[noreturn]] void refuse_changed(const fs::path& file) {
@@ -151,7 +152,7 @@ SweepPlan load_sweep(const fs::path& folder) {
   with_json_of(file, [&](const Json& json) {
     if (json.at("program") != "scanbench") throw ConfigError(file.string() + " is not the plan of a sweep");
     if (json.at("schema") != 1)
-      throw ConfigError(file.string() + ": schema is " + json.at("schema").dump() + "; allowed: 1");
+      throw ConfigError(file.string() + ": schema is " + json_line(json.at("schema")) + "; allowed: 1");
     if (json.at("seal").get<std::string>() != seal_of(json)) refuse_changed(file);
     for (const auto& entry : json.at("files")) {
       const fs::path listed = folder / entry.at("path").get<std::string>();

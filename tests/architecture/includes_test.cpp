@@ -35,7 +35,7 @@ const Supplied kSupplied[] = {
     {R"(std::(string|to_string)\b)", "string"},
     {R"(std::vector<)", "vector"},
     {R"(fmt::(format|join|print)\b)", "fmt/"},
-    {R"(nlohmann::)", "nlohmann/json.hpp"},
+    {R"(nlohmann::)", "nlohmann/json"},  // json.hpp, or json_fwd.hpp in headers
     {R"(CLI::)", "CLI/"},
 };
 

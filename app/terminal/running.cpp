@@ -1,0 +1,111 @@
+// Runs with progress and writes reports.
+#include "app/terminal/running.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/drawing.hpp"
+#include "app/exit_code.hpp"
+#include "app/terminal/fault_notes.hpp"
+#include "app/terminal/progress.hpp"
+#include "core/error.hpp"
+#include "harness/page/plain_text.hpp"
+#include "harness/report/run_report.hpp"
+#include "harness/report/scenario_tables.hpp"
+#include "harness/run/runner.hpp"
+#include "harness/store/cell_status.hpp"
+#include "harness/store/run_scenarios.hpp"
+
+namespace scanbench::app {
+namespace {
+
+void note_cell(Progress& progress, FaultNotes& faults, const harness::CellResult& cell) {
+  if (cell.record.outcome.status == harness::CellStatus::ok) return;
+  progress.failure();
+  if (const std::string note = faults.note(cell); !note.empty()) progress.note(note);
+}
+
+/// Draws the figures of a run, unless the user wants none, and writes its report. `failure`: why they were not drawn.
+harness::ReportInput write_report(const harness::RunResult& result, bool figures, Progress& progress,
+                                  std::string& failure) {
+  const auto scenarios = harness::load_run_scenarios(result.out);
+  if (figures) failure = draw_within_limits(result.out, scenarios, {}, progress);
+  auto report = harness::load_report_input(result.out, scenarios);
+  harness::write_reports(result.out, report);
+  return report;
+}
+
+/// The message about missing cells: their number, the reason of the first, and whether an earlier run remains.
+std::string missing_text(const harness::RunResult& result) {
+  const auto is_missing = [](const harness::CellResult& cell) { return !cell.done; };
+  const auto first = std::ranges::find_if(result.cells, is_missing);
+  return fmt::format("scanbench: {} of {} cells are missing; {}: {}{}\n",
+                     std::ranges::count_if(result.cells, is_missing), result.cells.size(),
+                     harness::to_string(first->key), harness::plain_line(first->record.outcome.message),
+                     result.old_run_kept ? "; the earlier run in " + result.out.string() + " is unchanged" : "");
+}
+
+}  // namespace
+
+void print_tables(const harness::ReportInput& input) {
+  for (const auto& table : harness::closing_tables(input))
+    fmt::print("{}\n", harness::to_terminal(table, use_color(), terminal_width()));
+}
+
+void note_absent_figures(const harness::ReportInput& report) {
+  for (const auto& figure : report.figures)
+    if (figure.name.empty()) say(fmt::format("{}: note: {}\n", figure.scenario, figure.caption));
+}
+
+std::string failed_text(const std::vector<harness::CellResult>& cells) {
+  const auto has_failed = [](const harness::CellResult& cell) {
+    return cell.done && cell.record.outcome.status != harness::CellStatus::ok;
+  };
+  const auto first = std::ranges::find_if(cells, has_failed);
+  if (first == cells.end()) return "";
+  return fmt::format("scanbench: {} of {} cells failed; {}: {}: {}\n", std::ranges::count_if(cells, has_failed),
+                     cells.size(), harness::to_string(first->key), to_string(first->record.outcome.status),
+                     harness::plain_line(first->record.outcome.message));
+}
+
+FinishedRun run_and_report(const std::vector<harness::Scenario>& scenarios, const harness::RunOptions& options,
+                           const Presentation& presentation) {
+  return make_and_report([&](const harness::RunOptions& ready) { return harness::run(scenarios, ready); }, options,
+                         presentation);
+}
+
+FinishedRun make_and_report(const MakeRun& make, harness::RunOptions options, const Presentation& presentation) {
+  Progress progress(progress_style(presentation.quiet));
+  FaultNotes faults;
+  options.progress = [&](const harness::RunProgress& now) {
+    if (now.cell != nullptr) note_cell(progress, faults, *now.cell);
+    const auto total = static_cast<double>(now.total);
+    progress.update(total > 0 ? 0.95 * static_cast<double>(now.done) / total : 0.0, now.what);
+  };
+  FinishedRun finished;
+  options.finish = {};
+  if (presentation.report)
+    options.finish = [&](const harness::RunResult& result) {
+      const InterruptGuard guard;
+      try {
+        finished.report = write_report(result, presentation.figures, progress, finished.figure_failure);
+      } catch (const ConfigError& error) {
+        if (result.exit_code() != kIncomplete) throw;  // else the report fails for the same reason
+        say(fmt::format("scanbench: {}\n", error.what()));
+      }
+    };
+  finished.result = make(options);
+  for (const auto& line : faults.repeated()) progress.note(line);
+  progress.finish();
+  return finished;
+}
+
+std::string unfinished_text(const harness::RunResult& result, const std::string& how) {
+  if (result.interrupted)
+    return fmt::format("scanbench: interrupted; the finished cells of a new run stay in {} ({})\n", result.out.string(),
+                       how);
+  return result.exit_code() == kIncomplete ? missing_text(result) : "";
+}
+
+}  // namespace scanbench::app

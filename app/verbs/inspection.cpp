@@ -1,0 +1,169 @@
+// The verbs check, list and describe, which run and write nothing.
+#include "app/verbs/inspection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/foreign.hpp"
+#include "app/inputs.hpp"
+#include "app/terminal/progress.hpp"
+#include "harness/gallery/catalogue.hpp"
+#include "harness/page/plain_text.hpp"
+#include "harness/report/catalog.hpp"
+#include "harness/run/make_recording.hpp"
+#include "harness/run/run_plan.hpp"
+#include "harness/scenario/effective.hpp"
+#include "harness/scenario/suite.hpp"
+
+namespace scanbench::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Text of foreign modules must not control the terminal.
+void print(const std::string& text) {
+  fmt::print("{}", harness::plain_text(text));
+}
+
+/// The scenarios of one file, which have been checked. Those of a suite are named: its conditions.
+void print_good(const std::string& file, const std::vector<harness::Scenario>& scenarios) {
+  std::size_t cells = 0;
+  for (const auto& scenario : scenarios) cells += scenario.pipelines.size() * scenario.seeds.size();
+  const bool suite = harness::is_suite(file);
+  if (suite) fmt::print("{}: good: {}, {}\n", file, counted(scenarios.size(), "scenario"), counted(cells, "cell"));
+  for (const auto& scenario : scenarios) {
+    fmt::print("{}: {}{} on {}\n", suite ? "  " + scenario.name : file,
+               suite ? "" : "good: ", counted(scenario.pipelines.size(), "pipeline"),
+               counted(scenario.seeds.size(), "seed"));
+    for (const auto& note : scenario.notes) fmt::print("{}  note: {}\n", suite ? "  " : "", note);
+  }
+}
+
+/// Checks the catalogues of figures and removes them from the list of files.
+void check_catalogues(std::vector<std::string>& files) {
+  std::erase_if(files, [](const std::string& file) {
+    if (!fs::is_regular_file(file) || !harness::is_catalogue(file)) return false;
+    const harness::Catalogue catalogue = harness::load_catalogue(file);
+    fmt::print("{}: good: {} figures and tables of {}\n", file, catalogue.entries.size(),
+               counted(catalogue.scenarios.size(), "scenario"));
+    return true;
+  });
+}
+
+struct CheckOptions {
+  std::vector<std::string> files, sets;
+  ForeignOptions foreign;
+  bool effective = false, for_simulate = false;
+};
+
+int check(const CheckOptions& options) {
+  std::vector<std::string> files = options.files;
+  check_catalogues(files);
+  if (files.empty()) return kGood;
+  const std::vector<std::string> sets = with_foreign(options.sets, options.foreign, false);
+  const auto all = load_inputs(files, sets);
+  // What run refuses, check refuses too, in the same words.
+  if (!options.for_simulate && !options.effective) harness::plan_run(all, {.out = {}});
+  for (const auto& scenario : all) {
+    harness::check_scenario(scenario);
+    if (options.effective) print(harness::effective_yaml(scenario));
+  }
+  if (options.effective) return kGood;
+  for (const auto& file : files) print_good(file, files.size() == 1 ? all : load_inputs({file}, sets));
+  return kGood;
+}
+
+struct ListOptions {
+  std::string kind;
+  bool json = false;
+};
+
+int list(const ListOptions& options) {
+  const auto entries = harness::catalog_of_kind(options.kind);
+  print(options.json ? harness::catalog_json(entries) : harness::catalog_text(entries));
+  return kGood;
+}
+
+struct DescribeOptions {
+  std::string name;
+  ForeignOptions foreign;
+  bool json = false, all = false, markdown = false;
+};
+
+int describe(const DescribeOptions& options) {
+  const bool is_foreign = !options.foreign.plugins.empty() || !options.foreign.program.empty();
+  if (options.name.empty() && !options.all && !is_foreign)
+    throw ConfigError("describe needs a name, or --all (`scanbench list` shows the names)");
+  const auto entries = is_foreign    ? foreign_entries(options.foreign)
+                       : options.all ? harness::catalog()
+                                     : harness::find_in_catalog(options.name);
+  if (options.json) {
+    print(harness::catalog_json(entries));
+  } else if (options.markdown) {
+    print(harness::catalog_markdown(entries));
+  } else {
+    for (const auto& entry : entries) print(harness::describe_text(entry) + (&entry == &entries.back() ? "" : "\n"));
+  }
+  return kGood;
+}
+
+/// For completion on the command line.
+std::vector<std::string> kind_words() {
+  std::vector<std::string> words{"modules"};
+  for (const auto& entry : harness::catalog())
+    if (words.back() != entry.kind) words.push_back(entry.kind);
+  return words;
+}
+
+std::vector<std::string> name_words() {
+  std::vector<std::string> words;
+  for (const auto& entry : harness::catalog()) words.push_back(entry.info.name);
+  return words;
+}
+
+void add_check(CommandLine& line) {
+  auto options = std::make_shared<CheckOptions>();
+  Verb verb = line.add_verb("check", "Checks scenario or suite files, or catalogues of figures, without running them");
+  verb.option("FILE", options->files, "scenario or suite files, catalogues of figures").required();
+  add_set_option(verb, options->sets);
+  add_foreign_options(verb, options->foreign, false);
+  verb.flag("--effective", options->effective, "print the scenario with every default filled in");
+  verb.flag("--simulate", options->for_simulate, "check for `simulate`, which needs no pipelines");
+  verb.runs([options] { return check(*options); });
+}
+
+void add_list(CommandLine& line) {
+  auto options = std::make_shared<ListOptions>();
+  Verb verb = line.add_verb("list", "Lists modules, metrics, figures, trajectories and sensors");
+  verb.option("KIND", options->kind,
+              "only this kind: modules, extract, merge, metrics, figures, trajectories, sensors, ...")
+      .completed_by(kind_words);
+  verb.flag("--json", options->json, "as JSON");
+  verb.runs([options] { return list(*options); });
+}
+
+void add_describe(CommandLine& line) {
+  auto options = std::make_shared<DescribeOptions>();
+  Verb verb = line.add_verb("describe", "Shows what a module does, its parameters, defaults and bounds");
+  verb.option("NAME", options->name, "a name from `list`, or a metric, like f1").completed_by(name_words);
+  verb.flag("--all", options->all, "describe everything");
+  verb.flag("--markdown", options->markdown, "as Markdown (docs/modules.md is made with --all --markdown)");
+  add_foreign_options(verb, options->foreign, true);
+  verb.flag("--json", options->json, "as JSON");
+  verb.runs([options] { return describe(*options); });
+}
+
+}  // namespace
+
+void add_inspection(CommandLine& line) {
+  add_check(line);
+  add_list(line);
+  add_describe(line);
+}
+
+}  // namespace scanbench::app

@@ -1,0 +1,148 @@
+// The verbs score, report and unpack, which work on existing run folders.
+#include "app/verbs/results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+
+#include "app/inputs.hpp"
+#include "app/terminal/progress.hpp"
+#include "core/error.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/player/player_page.hpp"
+#include "harness/report/run_report.hpp"
+#include "harness/run/runner.hpp"
+#include "harness/run/score.hpp"
+#include "harness/store/archived_run.hpp"
+#include "harness/store/manifest.hpp"
+#include "harness/store/run_folder.hpp"
+#include "harness/store/run_lock.hpp"
+#include "harness/store/run_scenarios.hpp"
+#include "harness/store/run_store.hpp"
+
+namespace scanbench::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+int score(const fs::path& run, const std::vector<std::string>& files, bool quiet) {
+  const auto scenarios = scenarios_for(run, files);
+  const harness::RunLock lock(run);
+  harness::refuse_linked_folders(run);
+  const InterruptGuard guard;
+  Progress progress(progress_style(quiet));
+  const std::size_t cells = harness::score_run(
+      run, scenarios, [&](double share, const std::string& what) { progress.update(share, "score " + what); });
+  progress.finish();
+  harness::write_reports(run, harness::load_report_input(run, scenarios));
+  if (!quiet) fmt::print("{} scored: {}\n", counted(cells, "cell"), (run / harness::kSummaryFile).string());
+  const harness::RunStore store(run);
+  const auto planned = store.keys();
+  const auto missing = std::ranges::count_if(planned, [&](const auto& key) { return !store.record(key); });
+  if (missing == 0) return kGood;
+  fmt::print("INCOMPLETE: {} of {} cells are missing\n", missing, planned.size());
+  return kIncomplete;
+}
+
+int report(const fs::path& run, bool scans) {
+  const auto scenarios = scenarios_for(run, {});
+  const harness::RunLock lock(run);
+  harness::refuse_linked_folders(run);
+  harness::write_reports(run, harness::load_report_input(run, scenarios));
+  fmt::print("{}\n{}\n", (run / harness::kReportPage).string(), (run / harness::kReportMarkdown).string());
+  if (!scans) return kGood;
+  harness::write_file_atomically(run / harness::kPlayerPage, harness::player_page(run, scenarios));
+  harness::refresh_manifest(run);
+  fmt::print("{}\n", (run / harness::kPlayerPage).string());
+  return kGood;
+}
+
+/// "room/iepf/7".
+harness::CellKey cell_from(const std::string& text) {
+  const std::size_t second = text.rfind('/'), first = text.find('/');
+  const char* end = text.data() + text.size();
+  harness::CellKey key;
+  const char* seed = second == std::string::npos ? end : text.data() + second + 1;
+  const auto [stop, error] = std::from_chars(seed, end, key.seed);
+  if (first == second || seed == end || error != std::errc() || stop != end)
+    throw ConfigError("'" + text + "' names no cell; allowed: SCENARIO/PIPELINE/SEED");
+  key.scenario = text.substr(0, first);
+  key.pipeline = text.substr(first + 1, second - first - 1);
+  return key;
+}
+
+int unpack(const fs::path& run, const std::vector<std::string>& names, bool quiet) {
+  check_run_exists(run);
+  std::vector<harness::CellKey> cells;
+  for (const auto& name : names) cells.push_back(cell_from(name));
+  if (names.empty()) cells = harness::RunStore(run).keys();
+  const harness::RunLock lock(run);
+  harness::refuse_linked_folders(run);
+  const InterruptGuard guard;
+  Progress progress(progress_style(quiet));
+  const std::size_t written =
+      harness::unpack_cells(run, cells, [&](double share) { progress.update(share, "unpack"); });
+  progress.finish();
+  if (!quiet) fmt::print("{} unpacked: {}\n", counted(written, "cell"), (run / "cells").string());
+  return kGood;
+}
+
+struct ScoreOptions {
+  std::string run;
+  std::vector<std::string> files;
+  bool quiet = false;
+};
+
+void add_score(CommandLine& line) {
+  auto options = std::make_shared<ScoreOptions>();
+  Verb verb = line.add_verb("score", "Computes the metrics of a run again, from its files");
+  verb.option("RUN", options->run, "a run folder").required();
+  verb.option("--with", options->files, "scenario files whose metrics replace the run's own");
+  verb.flag("-q,--quiet", options->quiet, "print only errors and missing cells");
+  verb.runs([options] { return score(options->run, options->files, options->quiet); });
+}
+
+struct ReportVerbOptions {
+  std::string run;
+  bool scans = false;
+};
+
+void add_report(CommandLine& line) {
+  auto options = std::make_shared<ReportVerbOptions>();
+  Verb verb =
+      line.add_verb("report", "Writes report.html and report.md of a run again, and a page that plays its scans");
+  verb.option("RUN", options->run, "a run folder").required();
+  verb.flag("--scans", options->scans,
+            "also scans.html, a page that plays the scans with the lines found in them, in order or worst "
+            "first; it holds at most 2000 scans of a recording and 24 MiB");
+  verb.runs([options] { return report(options->run, options->scans); });
+}
+
+struct UnpackOptions {
+  std::string run;
+  std::vector<std::string> cells;
+  bool quiet = false;
+};
+
+void add_unpack(CommandLine& line) {
+  auto options = std::make_shared<UnpackOptions>();
+  Verb verb =
+      line.add_verb("unpack", "Writes the files of cells that a merged run keeps in archives (docs/cluster.md)");
+  verb.option("RUN", options->run, "a run folder").required();
+  verb.option("CELL", options->cells,
+              "SCENARIO/PIPELINE/SEED: only these; without any all, and the archives are removed");
+  verb.flag("-q,--quiet", options->quiet, "print only errors");
+  verb.runs([options] { return unpack(options->run, options->cells, options->quiet); });
+}
+
+}  // namespace
+
+void add_results(CommandLine& line) {
+  add_score(line);
+  add_report(line);
+  add_unpack(line);
+}
+
+}  // namespace scanbench::app

@@ -1,0 +1,120 @@
+// The verb run, which runs scenarios and suites into a run folder with tables, figures and a report.
+#include "app/verbs/run.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "app/foreign.hpp"
+#include "app/inputs.hpp"
+#include "app/options.hpp"
+#include "app/terminal/forecast.hpp"
+#include "app/terminal/progress.hpp"
+#include "app/terminal/running.hpp"
+#include "app/verbs/sweep.hpp"
+#include "core/error.hpp"
+#include "harness/files/json.hpp"
+#include "harness/page/plain_text.hpp"
+#include "harness/report/run_report.hpp"
+#include "harness/run/run_options.hpp"
+#include "harness/store/cell_status.hpp"
+
+namespace scanbench::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunVerbOptions {
+  std::vector<std::string> files, sets, seeds, only;
+  std::string out, plan, shard;
+  int jobs = 1;
+  bool sandbox = false;
+  ForeignOptions foreign;
+  bool resume = false, quiet = false, json = false, journal = false, no_figures = false, dry_run = false;
+};
+
+void print_json(const harness::RunResult& result) {
+  auto cells = nlohmann::ordered_json::array();
+  for (const auto& cell : result.cells)
+    cells.push_back({{"scenario", cell.key.scenario},
+                     {"pipeline", cell.key.pipeline},
+                     {"seed", cell.key.seed},
+                     {"status", cell.done ? to_string(cell.record.outcome.status) : "missing"},
+                     {"message", harness::plain_line(cell.record.outcome.message)},
+                     {"reused", cell.reused}});
+  const nlohmann::ordered_json json{{"out", result.out.string()}, {"exit_code", result.exit_code()}, {"cells", cells}};
+  fmt::print("{}\n", harness::json_text(json));
+}
+
+int run(const RunVerbOptions& options, const std::vector<std::string>& argv) {
+  if (!options.plan.empty()) return run_shard_of(options.plan, options.shard, options.jobs, options.quiet);
+  if (!options.shard.empty()) throw ConfigError("--shard needs --plan SWEEP, the folder of a sweep");
+  if (options.files.empty()) throw ConfigError("'run' needs FILE: scenario or suite files");
+  std::string name;
+  harness::RunOptions run_options;
+  auto scenarios = load_inputs(options.files, with_foreign(options.sets, options.foreign, options.sandbox), &name,
+                               &run_options.rules);
+  give_seeds(scenarios, options.seeds);
+  for (const auto& scenario : scenarios)
+    for (const auto& note : scenario.notes)
+      if (!options.quiet) say(fmt::format("{}: note: {}\n", scenario.name, note));
+
+  run_options.out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
+  run_options.jobs = options.jobs;
+  run_options.only = options.only;
+  run_options.resume = options.resume;
+  run_options.journal = options.journal;
+  run_options.argv = argv;
+  if (options.dry_run) return print_forecast(scenarios, run_options, options.quiet);
+  const auto [result, report, figure_failure] =
+      run_and_report(scenarios, run_options, {.quiet = options.quiet, .figures = !options.no_figures});
+  say(unfinished_text(result));
+  if (result.interrupted) return kInterrupted;
+  if (options.quiet) say(failed_text(result.cells));
+  if (!figure_failure.empty()) say("scanbench: " + figure_failure + "\n");
+
+  if (!options.quiet && report) note_absent_figures(*report);
+  if (options.json) {
+    print_json(result);
+  } else if (!options.quiet && report) {
+    print_tables(*report);
+    fmt::print("{}\n", (result.out / harness::kReportPage).string());
+  }
+  return result.exit_code() == kGood && !figure_failure.empty() ? kCellsFailed : result.exit_code();
+}
+
+}  // namespace
+
+void add_run(CommandLine& line) {
+  auto options = std::make_shared<RunVerbOptions>();
+  Verb verb = line.add_verb("run", "Runs scenario or suite files: scans, algorithms, metrics, figures, report");
+  verb.option("FILE", options->files, "scenario or suite files");
+  Option plan = verb.option("--plan", options->plan, "run one shard of this sweep (a folder that `plan` has made)");
+  verb.option("--shard", options->shard,
+              "its number; default: SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX + 1 or PARALLEL_SEQ");
+  verb.option("-o,--out", options->out, "the run folder (default: out/<name of the first file>)");
+  add_seed_option(verb, options->seeds);
+  add_jobs_option(verb, options->jobs, "number of cells that run at the same time");
+  add_set_option(verb, options->sets);
+  verb.option("--only", options->only,
+              "only these scenarios, pipelines or scenario/pipeline; the other cells of an earlier run stay")
+      .separated_by_commas();
+  verb.flag("--resume", options->resume, "reuse the cells of an earlier run that have not changed");
+  verb.flag("--trace", options->journal, "write the intermediate results of the algorithms (trace.csv)");
+  verb.flag("--dry-run", options->dry_run,
+            "print how many cells, rays, bytes and seconds the run would take, from a trial of a few scans; write "
+            "nothing");
+  verb.flag("--no-figures", options->no_figures, "draw no figures");
+  add_foreign_options(verb, options->foreign, false);
+  verb.flag("--sandbox", options->sandbox,
+            "run programs under bubblewrap (no network, read-only but for the cell's folder) and libraries without "
+            "network");
+  verb.flag("-q,--quiet", options->quiet, "print only errors");
+  verb.flag("--json", options->json, "print the cells' outcomes as JSON");
+  plan.excludes_all_but({"shard", "jobs", "quiet"});
+  verb.runs([&line, options] { return run(*options, line.argv()); });
+}
+
+}  // namespace scanbench::app

@@ -1,0 +1,66 @@
+// show: one scan of a run and the lines that a pipeline found in it, as a picture.
+#include "app/verbs/show.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/files/atomic_file.hpp"
+#include "harness/report/shown_scan.hpp"
+#include "harness/store/manifest.hpp"
+#include "harness/store/run_folder.hpp"
+#include "harness/store/run_lock.hpp"
+
+namespace scanbench::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ShowOptions {
+  std::string run, out;
+  harness::ScanChoice choice;
+};
+
+/// A picture beside the figures of the run is one of its files: the folder is locked, and the manifest lists it.
+fs::path keep_in_run(const fs::path& run, const harness::ShownScan& shown) {
+  const harness::RunLock lock(run);
+  harness::refuse_linked_folders(run);
+  const fs::path path = run / "figures" / (shown.name + ".png");
+  harness::make_folders(path.parent_path());
+  harness::write_file_atomically(path, harness::picture_bytes(shown.scene, path));
+  harness::refresh_manifest(run);
+  return path;
+}
+
+int show(const ShowOptions& options) {
+  const harness::ShownScan shown = harness::show_scan(options.run, options.choice);
+  fs::path path = options.out;
+  if (path.empty())
+    path = keep_in_run(options.run, shown);
+  else
+    harness::write_file_atomically(path, harness::picture_bytes(shown.scene, path));
+  fmt::print("{}\n{}\n", shown.text, path.string());
+  return kGood;
+}
+
+}  // namespace
+
+void add_show(CommandLine& line) {
+  auto options = std::make_shared<ShowOptions>();
+  harness::ScanChoice& choice = options->choice;
+  Verb verb = line.add_verb("show", "Draws one scan of a run with the lines that a pipeline found in it");
+  verb.option("RUN", options->run, "a run folder").required();
+  verb.option("--pipeline", choice.pipeline, "whose lines (not needed if the run has one pipeline)");
+  verb.option("--frame", choice.frame, "number of the scan, from 0, or `worst`: the lowest F1 in scans.csv")
+      .shows_default();
+  verb.option("--scenario", choice.scenario, "of which scenario (not needed if the run has one)");
+  verb.option("--seed", choice.seed, "of which seed (default: the first)");
+  verb.option("-o,--out", options->out,
+              "the picture: a name that ends in .png, .svg or .pdf (default: a .png in RUN/figures)");
+  verb.runs([options] { return show(*options); });
+}
+
+}  // namespace scanbench::app

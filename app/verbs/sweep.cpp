@@ -1,0 +1,335 @@
+// Plans sweeps, runs their shards, merges them, and submits them to Slurm.
+#include "app/verbs/sweep.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/inputs.hpp"
+#include "app/options.hpp"
+#include "app/terminal/fault_notes.hpp"
+#include "app/terminal/progress.hpp"
+#include "app/terminal/running.hpp"
+#include "core/error.hpp"
+#include "harness/files/atomic_file.hpp"
+#include "harness/files/json.hpp"
+#include "harness/page/plain_text.hpp"
+#include "harness/report/run_report.hpp"
+#include "harness/store/cell_status.hpp"
+#include "harness/store/summary.hpp"
+#include "harness/sweep/shard.hpp"
+#include "harness/sweep/slurm.hpp"
+#include "harness/sweep/sweep_merge.hpp"
+#include "harness/sweep/sweep_plan.hpp"
+#include "harness/sweep/sweep_status.hpp"
+
+namespace scanbench::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepVerbOptions {
+  std::vector<std::string> files, sets, seeds, sbatch;
+  std::string sweep, out, cells;
+  int shards = harness::kShardsUnlessGiven, jobs = 1;
+  bool quiet = false, json = false, numbers = false, journal = false, no_figures = false, dry_run = false;
+};
+
+harness::SweepPlan load(const std::string& sweep) {
+  check_run_exists(sweep);
+  return harness::load_sweep(sweep);
+}
+
+fs::path run_folder(const SweepVerbOptions& options, const harness::SweepPlan& plan) {
+  return options.out.empty() ? fs::path("out") / plan.name : fs::path(options.out);
+}
+
+int plan(const SweepVerbOptions& options, const std::vector<std::string>& argv) {
+  harness::SweepOptions sweep{.out = fs::path(options.out).lexically_normal(), .name = ""};
+  auto scenarios = load_inputs(options.files, options.sets, &sweep.name, &sweep.rules);
+  give_seeds(scenarios, options.seeds);
+  sweep.shards = options.shards;
+  sweep.journal = options.journal;
+  sweep.argv = argv;
+  const harness::SweepPlan plan = harness::plan_sweep(scenarios, sweep);
+  if (options.quiet) return kGood;
+  const harness::SweepStatus status = harness::sweep_status(plan);
+  fmt::print("{}: {} in {}", options.out, counted(plan.cells.size(), "cell"),
+             counted(static_cast<std::size_t>(plan.shards), "shard"));
+  if (status.missing < status.cells) fmt::print("; {} committed already", status.cells - status.missing);
+  fmt::print("\n");
+  return kGood;
+}
+
+void note_damage(const harness::SweepStatus& status) {
+  for (const auto& [name, fault] : status.damaged)
+    say(fmt::format("note: {}; its cells count as missing\n", harness::plain_line(fault)));
+}
+
+int exit_code(const harness::SweepStatus& status) {
+  return status.missing > 0 ? kIncomplete : status.failed > 0 ? kCellsFailed : kGood;
+}
+
+void print_json(const harness::SweepPlan& plan, const harness::SweepStatus& status) {
+  nlohmann::ordered_json damaged = nlohmann::ordered_json::array();
+  for (const auto& [name, fault] : status.damaged) damaged.push_back({{"shard", name}, {"fault", fault}});
+  const nlohmann::ordered_json json{{"cells", status.cells},
+                                    {"ok", status.ok},
+                                    {"failed", status.failed},
+                                    {"missing", status.missing},
+                                    {"shards", plan.shards},
+                                    {"missing_shards", status.missing_shards},
+                                    {"array", harness::array_text(status.missing_shards)},
+                                    {"lost", status.lost},
+                                    {"damaged", damaged},
+                                    {"unfinished", status.unfinished}};
+  fmt::print("{}\n", harness::json_text(json));
+}
+
+int status(const SweepVerbOptions& options) {
+  const harness::SweepPlan plan = load(options.sweep);
+  const harness::SweepStatus status = harness::sweep_status(plan);
+  note_damage(status);
+  if (options.json) {
+    print_json(plan, status);
+  } else if (options.numbers) {
+    for (const int shard : status.missing_shards) fmt::print("{}\n", shard);
+  } else {
+    fmt::print("{}: {} ok, {} failed, {} missing\n", counted(status.cells, "cell"), status.ok, status.failed,
+               status.missing);
+    if (!status.missing_shards.empty())
+      fmt::print("missing shards: {} of {}: {}\n", status.missing_shards.size(), plan.shards,
+                 harness::array_text(status.missing_shards));
+    if (status.lost > 0)
+      fmt::print("{} committed before the sweep was planned and missing now: plan it again\n",
+                 counted(status.lost, "cell"));
+    if (status.unfinished > 0) fmt::print("{} running or killed\n", counted(status.unfinished, "shard"));
+  }
+  return exit_code(status);
+}
+
+int report_missing(const std::string& sweep, const harness::MissingCells& missing) {
+  for (const auto& note : missing.notes) say(fmt::format("note: {}\n", harness::plain_line(note)));
+  say(fmt::format("scanbench: {} of {} {} missing; nothing has been written\n", counted(missing.count, "cell"), sweep,
+                  missing.count == 1 ? "is" : "are"));
+  if (!missing.shards.empty())
+    say(fmt::format("scanbench: run these shards again: {}\n", harness::array_text(missing.shards)));
+  if (missing.lost > 0)
+    say(fmt::format("scanbench: {} no shard; plan the sweep again\n",
+                    missing.lost == 1 ? "1 cell has" : fmt::format("{} cells have", missing.lost)));
+  return kIncomplete;
+}
+
+/// With more cells the report and the figures take longer than the merge.
+constexpr std::size_t kMostReportedCells = 10000;
+
+int merge(const SweepVerbOptions& options, const std::vector<std::string>& argv) {
+  const harness::SweepPlan plan = load(options.sweep);
+  harness::RunOptions run;
+  run.out = run_folder(options, plan);
+  run.argv = argv;
+  std::optional<harness::MissingCells> missing;
+  const harness::CellForm form = options.cells == "files"      ? harness::CellForm::files
+                                 : options.cells == "archives" ? harness::CellForm::archives
+                                                               : harness::CellForm::automatic;
+  const auto make = [&](const harness::RunOptions& ready) {
+    harness::MergeResult merged = harness::merge_sweep(plan, ready, form);
+    missing = std::move(merged.missing);
+    return std::move(merged.run);
+  };
+  const bool has_report = plan.cells.size() <= kMostReportedCells;
+  const auto [result, report, figure_failure] =
+      make_and_report(make, run, {.quiet = options.quiet, .figures = !options.no_figures, .report = has_report});
+  if (missing) return report_missing(options.sweep, *missing);
+  say(failed_text(result.cells));
+  if (!figure_failure.empty()) say("scanbench: " + figure_failure + "\n");
+  if (!options.quiet && report) {
+    note_absent_figures(*report);
+    print_tables(*report);
+    fmt::print("{}\n", (result.out / harness::kReportPage).string());
+  }
+  if (!options.quiet && !has_report)
+    fmt::print("{}: {}; `scanbench figures {}` draws its figures, `scanbench report {}` writes its report\n",
+               (result.out / harness::kSummaryFile).string(), counted(plan.cells.size(), "cell"), result.out.string(),
+               result.out.string());
+  return result.exit_code() == kGood && !figure_failure.empty() ? kCellsFailed : result.exit_code();
+}
+
+/// Runs a program and returns what it prints. Throws ConfigError if it cannot be started or fails.
+std::string output_of(const std::vector<std::string>& command) {
+  int out[2];
+  if (::pipe2(out, O_CLOEXEC) != 0) throw ConfigError(std::string("cannot make a pipe: ") + std::strerror(errno));
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
+  std::vector<char*> argv;
+  for (const auto& word : command) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  pid_t pid = 0;
+  const int error = ::posix_spawnp(&pid, argv[0], &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(out[1]);
+  std::string text;
+  char block[4096];
+  for (ssize_t n = 0; error == 0 && (n = ::read(out[0], block, sizeof block)) > 0;)
+    text.append(block, static_cast<std::size_t>(n));
+  ::close(out[0]);
+  if (error != 0)
+    throw ConfigError("cannot start " + command.front() + ": " + std::strerror(error) +
+                      "; without Slurm, GNU parallel runs a sweep (docs/cluster.md)");
+  int status = 0;
+  ::waitpid(pid, &status, 0);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw ConfigError(fmt::format("{} failed", fmt::join(command, " ")));
+  return text;
+}
+
+/// The number of a job that `sbatch --parsable` prints: "17" or "17;cluster".
+std::string job_number(const std::string& printed) {
+  return printed.substr(0, printed.find_first_of(";\n"));
+}
+
+std::vector<std::string> sbatch(const SweepVerbOptions& options, const std::string& more, const fs::path& script) {
+  std::vector<std::string> command{"sbatch", "--parsable"};
+  command.insert(command.end(), options.sbatch.begin(), options.sbatch.end());
+  command.push_back(more);
+  command.push_back(fs::absolute(script).lexically_normal().string());
+  return command;
+}
+
+std::string command_text(const std::vector<std::string>& command) {
+  std::vector<std::string> words;
+  for (const auto& word : command) words.push_back(harness::shell_word(word));
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+int submit(const SweepVerbOptions& options) {
+  const harness::SweepPlan plan = load(options.sweep);
+  harness::require_this_program(plan);
+  const harness::SweepStatus status = harness::sweep_status(plan);
+  note_damage(status);
+  if (status.lost > 0)
+    throw ConfigError(options.sweep + " has missing cells without a shard; plan it again, then submit");
+  if (status.missing_shards.empty())
+    throw ConfigError(options.sweep + " has no missing cells; `scanbench merge " + options.sweep + "` makes the run");
+  const auto scripts = harness::slurm_scripts(
+      plan, {.program = fs::read_symlink("/proc/self/exe"), .run = run_folder(options, plan), .jobs = options.jobs});
+  const fs::path folder = harness::slurm_folder(options.sweep);
+  const auto array = sbatch(options, "--array=" + harness::array_text(status.missing_shards), folder / "array.sh");
+  if (options.dry_run) {
+    fmt::print("# {}\n{}\n# {}\n{}\n{}\n{}\n", (folder / "array.sh").string(), scripts.array,
+               (folder / "merge.sh").string(), scripts.merge, command_text(array),
+               command_text(sbatch(options, "--dependency=afterany:ARRAY_JOB", folder / "merge.sh")));
+    return kGood;
+  }
+  harness::make_folders(folder);
+  harness::write_file_atomically(folder / "array.sh", scripts.array);
+  harness::write_file_atomically(folder / "merge.sh", scripts.merge);
+  const std::string first = job_number(output_of(array));
+  const std::string second =
+      job_number(output_of(sbatch(options, "--dependency=afterany:" + first, folder / "merge.sh")));
+  fmt::print("job {}: shards {}; job {}: merge into {}\n", first, harness::array_text(status.missing_shards), second,
+             run_folder(options, plan).string());
+  return kGood;
+}
+
+void add_plan(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& options) {
+  Verb verb = line.add_verb(
+      "plan", "Divides the cells of scenario or suite files into shards for several machines (docs/cluster.md)");
+  verb.option("FILE", options->files, "scenario or suite files").required();
+  verb.option("-o,--out", options->out, "the folder of the sweep").required();
+  verb.option("--shards", options->shards, "most shards; a recording is never divided")
+      .whole_number("number of shards", 1, harness::kMostShards)
+      .shows_default();
+  add_seed_option(verb, options->seeds);
+  add_set_option(verb, options->sets);
+  verb.flag("--trace", options->journal, "write the intermediate results of the algorithms (trace.csv)");
+  verb.flag("-q,--quiet", options->quiet, "print only errors");
+  verb.runs([&line, options] { return plan(*options, line.argv()); });
+}
+
+void add_status(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& options) {
+  Verb verb = line.add_verb("status", "Counts the committed cells of a sweep, and names missing shards");
+  verb.option("SWEEP", options->sweep, "the folder of a sweep").required();
+  verb.flag("--json", options->json, "print JSON");
+  verb.flag("--numbers", options->numbers, "print only the numbers of the missing shards, one per line");
+  verb.runs([options] { return status(*options); });
+}
+
+void add_merge(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& options) {
+  Verb verb = line.add_verb("merge", "Makes an ordinary run folder from the shards of a sweep");
+  verb.option("SWEEP", options->sweep, "the folder of a sweep").required();
+  verb.option("-o,--out", options->out, "the run folder (default: out/<name of the first file>)");
+  verb.flag("--no-figures", options->no_figures, "draw no figures");
+  verb.option("--cells", options->cells,
+              fmt::format("how the run keeps the files of its cells: files, or archives, from which `scanbench "
+                          "unpack` takes them (default: files up to {} cells)",
+                          harness::kMostCellsAsFiles))
+      .one_of("form", {"files", "archives"});
+  verb.flag("-q,--quiet", options->quiet, "print only errors");
+  verb.runs([&line, options] { return merge(*options, line.argv()); });
+}
+
+void add_submit(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& options) {
+  Verb verb = line.add_verb("submit", "Submits a sweep to a batch system: missing shards, then the merge");
+  verb.option("SYSTEM", "the batch system").required().one_of("batch system", {"slurm"});
+  verb.option("SWEEP", options->sweep, "the folder of a sweep").required();
+  verb.option("-o,--out", options->out, "folder of the merged run (default: out/<name of the first file>)");
+  add_jobs_option(verb, options->jobs, "cells that run at the same time in each shard, and its processors");
+  verb.option("--sbatch", options->sbatch, "an option for sbatch, like --sbatch=--time=0:30:00; may be repeated")
+      .repeatable();
+  verb.flag("--dry-run", options->dry_run, "print the scripts and commands; write and submit nothing");
+  verb.runs([options] { return submit(*options); });
+}
+
+}  // namespace
+
+int run_shard_of(const fs::path& sweep, const std::string& shard, int jobs, bool quiet) {
+  check_run_exists(sweep);
+  const int number = harness::shard_number(shard);
+  Progress progress(progress_style(quiet));
+  FaultNotes faults;
+  harness::ShardOptions options{.shard = number, .jobs = jobs};
+  options.progress = [&](const harness::RunProgress& now) {
+    if (now.cell != nullptr && now.cell->record.outcome.status != harness::CellStatus::ok) {
+      progress.failure();
+      if (const std::string note = faults.note(*now.cell); !note.empty()) progress.note(note);
+    }
+    progress.update(now.total > 0 ? static_cast<double>(now.done) / static_cast<double>(now.total) : 0.0, now.what);
+  };
+  const harness::ShardResult result = harness::run_shard(sweep, options);
+  for (const auto& line : faults.repeated()) progress.note(line);
+  progress.finish();
+  if (quiet) say(failed_text(result.cells));
+  std::size_t missing = 0;
+  for (const auto& cell : result.cells) missing += !cell.done;
+  if (missing > 0)
+    say(fmt::format("scanbench: {} of {} of shard {} missing; run it again\n", missing, counted(result.planned, "cell"),
+                    number));
+  if (!quiet && result.earlier == result.planned)
+    fmt::print("shard {}: {}, committed already\n", number, counted(result.planned, "cell"));
+  if (!quiet && !result.committed.empty())
+    fmt::print("shard {}: {} in {}\n", number, counted(result.cells.size() - missing, "cell"),
+               result.committed.string());
+  return result.exit_code();
+}
+
+void add_sweep(CommandLine& line) {
+  add_plan(line, std::make_shared<SweepVerbOptions>());
+  add_status(line, std::make_shared<SweepVerbOptions>());
+  add_merge(line, std::make_shared<SweepVerbOptions>());
+  add_submit(line, std::make_shared<SweepVerbOptions>());
+}
+
+}  // namespace scanbench::app
