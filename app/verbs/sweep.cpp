@@ -1,17 +1,14 @@
 // Plans sweeps, runs their shards, merges them, and submits them to Slurm.
 #include "app/verbs/sweep.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -23,8 +20,11 @@
 #include "app/terminal/running.hpp"
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/descriptor.hpp"
 #include "harness/files/json.hpp"
 #include "harness/page/plain_text.hpp"
+#include "harness/process/child.hpp"
+#include "harness/process/pipe.hpp"
 #include "harness/report/run_report.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/summary.hpp"
@@ -166,33 +166,22 @@ int merge(const SweepVerbOptions& options, const std::vector<std::string>& argv)
   return result.exit_code() == kGood && !figure_failure.empty() ? kCellsFailed : result.exit_code();
 }
 
+constexpr std::size_t kMostPrinted = 1 << 16;  // bytes kept of what sbatch prints
+
 /// Runs a program and returns what it prints. Throws ConfigError if it cannot be started or fails.
 std::string output_of(const std::vector<std::string>& command) {
-  int out[2];
-  if (::pipe2(out, O_CLOEXEC) != 0) throw ConfigError(std::string("cannot make a pipe: ") + std::strerror(errno));
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
-  std::vector<char*> argv;
-  for (const auto& word : command) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
-  pid_t pid = 0;
-  const int error = ::posix_spawnp(&pid, argv[0], &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  ::close(out[1]);
-  std::string text;
-  char block[4096];
-  for (ssize_t n = 0; error == 0 && (n = ::read(out[0], block, sizeof block)) > 0;)
-    text.append(block, static_cast<std::size_t>(n));
-  ::close(out[0]);
-  if (error != 0)
-    throw ConfigError("cannot start " + command.front() + ": " + std::strerror(error) +
+  try {
+    harness::Pipe printed = harness::make_pipe();
+    harness::Child child = harness::start_program(
+        command, {.input = harness::kInherited, .output = printed.write_end.number(), .dies_with_parent = false});
+    harness::PipeReader text(std::move(printed.read_end), kMostPrinted);
+    child.wait(std::numeric_limits<double>::infinity(), {&text});
+    if (!child.reap().is_success()) throw ConfigError(fmt::format("{} failed", fmt::join(command, " ")));
+    return text.bytes();
+  } catch (const std::system_error& error) {
+    throw ConfigError("cannot start " + command.front() + ": " + error.code().message() +
                       "; without Slurm, GNU parallel runs a sweep (docs/cluster.md)");
-  int status = 0;
-  ::waitpid(pid, &status, 0);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw ConfigError(fmt::format("{} failed", fmt::join(command, " ")));
-  return text;
+  }
 }
 
 /// The number of a job that `sbatch --parsable` prints: "17" or "17;cluster".

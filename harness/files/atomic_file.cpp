@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "harness/files/descriptor.hpp"
 #include "harness/files/input_file.hpp"
 #include "harness/files/system_error.hpp"
 
@@ -27,36 +28,16 @@ namespace {
   throw ConfigError(message);
 }
 
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return fd_; }
-  explicit operator bool() const { return fd_ >= 0; }
-  /// Returns 0, or -1 with errno: a network file system may report a failed write only here.
-  int close() { return ::close(std::exchange(fd_, -1)); }
-
- private:
-  int fd_;
-};
+FileDescriptor opened(const fs::path& path, int flags) {
+  return FileDescriptor(::open(path.c_str(), flags | O_CLOEXEC, 0666));
+}
 
 /// Returns 0, or errno.
 int write_and_flush(const fs::path& path, std::string_view bytes, bool flush) {
-  Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW);
-  if (!file) return errno;
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(file.get(), bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return errno;
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-  if (flush && ::fsync(file.get()) != 0) return errno;
-  return file.close() == 0 ? 0 : errno;
+  FileDescriptor file = opened(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW);
+  const bool written = file.is_open() && write_all(file.number(), std::as_bytes(std::span(bytes))) &&
+                       (!flush || ::fsync(file.number()) == 0) && file.close() == 0;
+  return written ? 0 : errno;
 }
 
 /// A larger file is not ours: a recording is held in memory as well.
@@ -112,13 +93,13 @@ void remove_file(const fs::path& path) {
 }
 
 void flush_folder(const fs::path& path) {
-  const Descriptor folder(path.empty() ? fs::path(".") : path, O_RDONLY | O_DIRECTORY);
-  if (!folder || ::fsync(folder.get()) != 0) refuse("write", path, errno);
+  const FileDescriptor folder = opened(path.empty() ? fs::path(".") : path, O_RDONLY | O_DIRECTORY);
+  if (!folder.is_open() || ::fsync(folder.number()) != 0) refuse("write", path, errno);
 }
 
 void flush_file_system(const fs::path& path) {
-  const Descriptor folder(path, O_RDONLY | O_DIRECTORY);
-  if (!folder || ::syncfs(folder.get()) != 0) refuse("write", path, errno);
+  const FileDescriptor folder = opened(path, O_RDONLY | O_DIRECTORY);
+  if (!folder.is_open() || ::syncfs(folder.number()) != 0) refuse("write", path, errno);
 }
 
 void make_folders(const fs::path& path) {

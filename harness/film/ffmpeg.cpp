@@ -3,8 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -19,12 +17,12 @@
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
 
-extern char** environ;  // NOLINT: the name that POSIX gives it
-
 namespace scanbench::harness {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kFfmpegSeconds = 60.0;  // to end after SIGTERM
 
 /// A pipe whose reader has ended must be an error of write(), not the end of this program.
 class WithoutSigpipe {
@@ -112,35 +110,24 @@ FfmpegPipe::FfmpegPipe(const fs::path& ffmpeg, fs::path target, int width, int h
   const std::string name = fmt::format(".{}.tmp-{}", target_.filename().string(), getpid());
   staged_ = target_.parent_path() / name;
   log_ = target_.parent_path() / (name + ".log");
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0)
-    throw ConfigError("cannot open a pipe to ffmpeg: " + std::generic_category().message(errno));
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  std::vector<std::string> words = arguments(ffmpeg, staged_, width, height, fps);
-  std::vector<char*> argv;
-  argv.reserve(words.size() + 1);
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  const int error = posix_spawn(&child_, ffmpeg.c_str(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[0]);
-  pipe_ = ends[1];
-  if (error == 0) return;
-  child_ = -1;
-  close_pipe();
-  throw ConfigError(ffmpeg.string() + ": cannot be started: " + std::generic_category().message(error));
+  try {
+    Pipe frames = make_pipe();
+    const FileDescriptor log(::open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (!log.is_open()) throw std::system_error(errno, std::generic_category());
+    child_ = start_program(
+        arguments(ffmpeg, staged_, width, height, fps),
+        {.input = frames.read_end.number(), .output = kNullDevice, .errors = log.number(), .dies_with_parent = false});
+    frames_ = std::move(frames.write_end);
+  } catch (const std::system_error& error) {
+    std::error_code ignored;
+    fs::remove(log_, ignored);
+    throw ConfigError(ffmpeg.string() + ": cannot be started: " + error.code().message());
+  }
 }
 
 FfmpegPipe::~FfmpegPipe() {
-  close_pipe();
-  if (child_ > 0) {
-    kill(child_, SIGTERM);
-    wait();
-  }
+  frames_.close();
+  child_.stop(kFfmpegSeconds);
   std::error_code ignored;
   fs::remove(staged_, ignored);
   fs::remove(log_, ignored);
@@ -148,40 +135,22 @@ FfmpegPipe::~FfmpegPipe() {
 
 void FfmpegPipe::add(std::span<const std::uint8_t> rgb) {
   const WithoutSigpipe guard;
-  while (!rgb.empty()) {
-    const ssize_t n = write(pipe_, rgb.data(), rgb.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) fail();
-    rgb = rgb.subspan(static_cast<std::size_t>(n));
-  }
+  if (!write_all(frames_.number(), std::as_bytes(rgb))) fail();
 }
 
 void FfmpegPipe::finish() {
-  close_pipe();
-  if (wait() != 0 || !fs::exists(staged_)) fail();
+  frames_.close();
+  if (!child_.reap().is_success() || !fs::exists(staged_)) fail();
   std::error_code error;
   fs::rename(staged_, target_, error);
   if (error) throw ConfigError(target_.string() + ": cannot write: " + error.message());
 }
 
 void FfmpegPipe::fail() {
-  close_pipe();
-  wait();
+  frames_.close();
+  child_.reap();
   const std::string said = last_line(log_);
   throw ConfigError(target_.string() + ": ffmpeg failed, and there is no film" + (said.empty() ? "" : ": " + said));
-}
-
-void FfmpegPipe::close_pipe() {
-  if (pipe_ >= 0) close(pipe_);
-  pipe_ = -1;
-}
-
-int FfmpegPipe::wait() {
-  int status = 0;
-  if (child_ > 0)
-    while (waitpid(child_, &status, 0) < 0 && errno == EINTR) continue;
-  child_ = -1;
-  return status;
 }
 
 }  // namespace scanbench::harness

@@ -1,12 +1,13 @@
 // MP4 films through the program ffmpeg, if it is installed.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
+
+#include "harness/files/descriptor.hpp"
+#include "harness/process/child.hpp"
 
 namespace scanbench::harness {
 
@@ -29,12 +30,10 @@ class FfmpegPipe {
 
  private:
   [[noreturn]] void fail();
-  void close_pipe();
-  int wait();
 
   std::filesystem::path target_, staged_, log_;
-  pid_t child_ = -1;
-  int pipe_ = -1;
+  Child child_;
+  FileDescriptor frames_;
 };
 
 }  // namespace scanbench::harness

@@ -6,13 +6,15 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <string>
+#include <system_error>
+
+#include "harness/process/child.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -62,10 +64,11 @@ bool enter_group() {
 
 /// Tries it in a child process, because a process cannot return to the network.
 bool can_leave_network() {
-  const pid_t pid = ::fork();
-  if (pid == 0) ::_exit(leave_network() ? 0 : 1);
-  int status = 1;
-  return pid > 0 && ::waitpid(pid, &status, 0) == pid && status == 0;
+  try {
+    return start_child({}, [] { return leave_network() ? 0 : 1; }).reap().is_success();
+  } catch (const std::system_error&) {
+    return false;
+  }
 }
 
 }  // namespace

@@ -1,23 +1,14 @@
 // Descriptions of foreign modules, from child processes.
 #include "harness/foreign/inspect.hpp"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
-#include <cerrno>
-#include <chrono>
-#include <csignal>
-#include <cstdio>
-#include <cstring>
 #include <map>
+#include <span>
+#include <system_error>
 #include <variant>
 
 #include <nlohmann/json.hpp>
 
+#include "harness/files/descriptor.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/files/json.hpp"
 #include "harness/foreign/call.hpp"
@@ -25,8 +16,10 @@
 #include "harness/foreign/fault.hpp"
 #include "harness/foreign/hello.hpp"
 #include "harness/foreign/library.hpp"
-#include "harness/foreign/output_tail.hpp"
 #include "harness/foreign/program.hpp"
+#include "harness/process/child.hpp"
+#include "harness/process/output_tail.hpp"
+#include "harness/process/pipe.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -36,15 +29,9 @@ namespace fs = std::filesystem;
 constexpr int kSeconds = 60;                    // for an interpreter to load its libraries
 constexpr std::size_t kLongestText = 4U << 20;  // of a description
 
-/// Runs in the child: loads the library and writes what is in it.
-[[noreturn]] void tell(const fs::path& library, pid_t parent, int to, int printed) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) _exit(3);
-  ::setpgid(0, 0);
+/// Runs in the child: loads the library and writes what is in it. The result is the exit code.
+int describe(const fs::path& library) {
   confine();
-  ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
-  ::dup2(printed, STDOUT_FILENO);
-  ::dup2(printed, STDERR_FILENO);
   std::string text;
   try {
     nlohmann::json list = nlohmann::json::array();
@@ -53,66 +40,36 @@ constexpr std::size_t kLongestText = 4U << 20;  // of a description
   } catch (const std::exception& error) {
     text = json_line(nlohmann::ordered_json{{"error", error.what()}});
   }
-  std::fflush(nullptr);
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t n = ::write(to, text.data() + done, text.size() - done);
-    if (n <= 0) _exit(3);
-    done += static_cast<std::size_t>(n);
-  }
-  _exit(0);
-}
-
-/// Reads both pipes to their ends, at most for kSeconds. False if the time was too short.
-bool read_both(const std::array<int, 2>& from, std::array<std::string, 2>& texts) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(kSeconds);
-  std::array<pollfd, 2> fds{{{from[0], POLLIN, 0}, {from[1], POLLIN, 0}}};
-  while (fds[0].fd >= 0) {  // the pipe of the description; what is printed may stay open in a process that remains
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
-    if (left.count() <= 0) return false;
-    ::poll(fds.data(), fds.size(), static_cast<int>(left.count()));
-    for (std::size_t i = 0; i < fds.size(); ++i) {
-      if (fds[i].revents == 0) continue;
-      std::array<char, 1 << 14> block{};
-      const ssize_t n = ::read(fds[i].fd, block.data(), block.size());
-      if (n > 0 && texts[i].size() < kLongestText) texts[i].append(block.data(), static_cast<std::size_t>(n));
-      if (n == 0) fds[i].fd = -1;
-    }
-  }
-  return true;
+  return write_all(kChannel, std::as_bytes(std::span(text))) ? 0 : 3;
 }
 
 std::string described_by_child(const fs::path& library) {
   const std::string name = "the library " + library.filename().string();
-  std::array<int, 2> report{};
-  std::array<int, 2> printed{};
-  if (::pipe2(report.data(), O_CLOEXEC) != 0 || ::pipe2(printed.data(), O_CLOEXEC) != 0)
-    throw ForeignFault(name + " cannot be inspected: " + std::strerror(errno));
-  std::fflush(nullptr);
-  const pid_t parent = ::getpid();
-  const pid_t pid = ::fork();
-  if (pid == 0) tell(library, parent, report[1], printed[1]);
-  ::close(report[1]);
-  ::close(printed[1]);
-  if (pid < 0) throw ForeignFault(name + " cannot be inspected: " + std::strerror(errno));
-  ::setpgid(pid, pid);
-  std::array<std::string, 2> texts;
-  const bool in_time = read_both({report[0], printed[0]}, texts);
-  if (!in_time) ::kill(pid, SIGKILL);
-  int status = 0;
-  ::waitpid(pid, &status, 0);
-  ::kill(-pid, SIGKILL);
-  remove_confinement(pid);
-  ::close(report[0]);
-  ::close(printed[0]);
-  const std::string tail = texts[1].empty() ? "" : "\n" + output_tail(texts[1]);
+  Pipe report;
+  Pipe printed;
+  Child child;
+  try {
+    report = make_pipe();
+    printed = make_pipe();
+    child = start_child({.output = printed.write_end.number(),
+                         .errors = printed.write_end.number(),
+                         .channel = report.write_end.number(),
+                         .own_group = true},
+                        [&] { return describe(library); });
+  } catch (const std::system_error& error) {
+    throw ForeignFault(name + " cannot be inspected: " + error.code().message());
+  }
+  PipeReader description(std::move(report.read_end), kLongestText);
+  PipeReader output(std::move(printed.read_end), kOutputKept);
+  const bool in_time = child.wait(kSeconds, {&description, &output});
+  if (!in_time) child.kill();
+  const ProcessEnd end = child.reap();
+  remove_confinement(child.pid());
+  const std::string tail = output.bytes().empty() ? "" : "\n" + output_tail(output.bytes());
   if (!in_time) throw ForeignFault(name + " could not be loaded within " + std::to_string(kSeconds) + " s" + tail);
-  if (WIFSIGNALED(status))
-    throw ForeignFault(name + " ended its process while it was loaded, by signal " + std::to_string(WTERMSIG(status)) +
-                       " (" + strsignal(WTERMSIG(status)) + ")" + tail);
-  if (texts[0].empty())
-    throw ForeignFault(name + " ended its process while it was loaded, with exit code " +
-                       std::to_string(WEXITSTATUS(status)) + tail);
-  return texts[0];
+  if (end.signal != 0 || description.bytes().empty())
+    throw ForeignFault(name + " ended its process while it was loaded, " + to_text(end) + tail);
+  return description.bytes();
 }
 
 ForeignModule described_by(const ForeignSource& source, bool sandbox) {

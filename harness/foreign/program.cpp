@@ -1,46 +1,30 @@
 // Starts programs and exchanges frames with them.
 #include "harness/foreign/program.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
-#include <sys/syscall.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <system_error>
 
 #include "core/number_text.hpp"
 #include "harness/files/json.hpp"
 #include "harness/foreign/confine.hpp"
 #include "harness/foreign/fault.hpp"
-#include "harness/foreign/output_tail.hpp"
+#include "harness/process/output_tail.hpp"
 
 namespace scanbench::harness {
 namespace {
 
-constexpr int kProgramSocket = 3;             // the descriptor that SCANBENCH_FD names
-constexpr std::size_t kOutputKept = 4096;     // bytes kept of what a program prints
-constexpr std::size_t kAhead = 1 << 16;       // bytes of an answer that one recv() takes
-constexpr double kPatience = 0.5;             // seconds that a program has to end after its socket is closed
-constexpr double kLongestWait = 3600 * 24.0;  // of one poll(), s
-
-double now_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+constexpr std::size_t kAhead = 1 << 16;  // bytes of an answer that one recv() takes
+constexpr double kPatience = 0.5;        // seconds that a program has to end after its socket is closed
 
 double used_by_programs = 0.0;  // a clock, like those of the system: one per process
 
@@ -64,49 +48,25 @@ std::string interpreter_of(const std::string& file) {
 std::string refusal_of(const std::string& file, int error) {
   const std::string interpreter = error == ENOENT ? interpreter_of(file) : "";
   if (!interpreter.empty()) return file + ": its interpreter " + interpreter + " does not exist";
-  return file + ": " + std::strerror(error) + (file == "bwrap" ? "; the sandbox needs bubblewrap" : "") +
-         (file.find('/') == std::string::npos ? " (it was sought in PATH)" : "");
+  return file + ": " + std::generic_category().message(error) +
+         (file == "bwrap" ? "; the sandbox needs bubblewrap" : "") +
+         (file.find('/') == std::string::npos ? " (looked up in PATH)" : "");
 }
 
 /// The environment of a program: as here, but Python orders sets alike in every run, and one thread is used.
 void set_environment() {
-  ::setenv("SCANBENCH_FD", std::to_string(kProgramSocket).c_str(), 1);
+  ::setenv("SCANBENCH_FD", std::to_string(kChannel).c_str(), 1);
   ::setenv("PYTHONHASHSEED", "0", 0);
   ::setenv("OMP_NUM_THREADS", "1", 0);
   ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
 }
 
-/// Runs in the new process. Writes errno to `trouble` if the program cannot be executed.
-[[noreturn]] void become(const std::vector<std::string>& argv, pid_t parent, int socket, int output, int trouble) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) _exit(3);
+/// Runs in the new process: the signals that scanbench handles or ignores have their default actions.
+void restore_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_DFL);
   sigset_t none;
   sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-  if (output >= 0) {
-    ::setpgid(0, 0);
-    confine();
-    ::dup2(output, STDOUT_FILENO);
-    ::dup2(output, STDERR_FILENO);
-  }
-  ::dup2(nothing, STDIN_FILENO);
-  // The socket may have the number of `trouble`, so that is moved first.
-  const int moved = ::fcntl(trouble, F_DUPFD_CLOEXEC, kProgramSocket + 1);
-  const int from = ::fcntl(socket, F_DUPFD_CLOEXEC, kProgramSocket + 1);
-  ::dup2(from, kProgramSocket);
-  ::close_range(kProgramSocket + 1, ~0U, CLOSE_RANGE_CLOEXEC);
-  set_environment();
-  std::vector<char*> arguments;
-  arguments.reserve(argv.size() + 1);
-  for (const auto& argument : argv)
-    arguments.push_back(const_cast<char*>(argument.c_str()));  // NOLINT(*-const-cast): execvp() does not write there
-  arguments.push_back(nullptr);
-  ::execvp(arguments[0], arguments.data());
-  const int error = errno;
-  [[maybe_unused]] const ssize_t n = ::write(moved, &error, sizeof error);
-  _exit(127);
 }
 
 /// Under bubblewrap: no network, the whole file system read-only but for one folder.
@@ -129,110 +89,67 @@ double called_programs_cpu_seconds() {
 }
 
 Program::Program(const ForeignSource& source, const ForeignSetting& setting, ProgramOutput output)
-    : text_(source.text()), in_sandbox_(setting.sandbox), ahead_(kAhead) {
-  start(setting.sandbox ? in_sandbox(source.program, setting) : source.program, output);
-  // NOLINTNEXTLINE(*-prefer-member-initializer): of the process that was started above
-  end_ = static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0));
+    : text_(source.text()),
+      in_sandbox_(setting.sandbox),
+      is_captured_(output == ProgramOutput::captured),
+      ahead_(kAhead) {
+  start(setting.sandbox ? in_sandbox(source.program, setting) : source.program);
   // In a sandbox the program is out of sight: the duration of the calls counts.
-  if (in_sandbox_ || ::clock_getcpuclockid(pid_, &clock_) != 0) clock_ = CLOCK_MONOTONIC;
+  if (in_sandbox_ || ::clock_getcpuclockid(child_.pid(), &clock_) != 0) clock_ = CLOCK_MONOTONIC;
   accounted_seconds_ = seconds_on(clock_);
 }
 
-void Program::start(const std::vector<std::string>& argv, ProgramOutput output) {
+void Program::start(const std::vector<std::string>& argv) {
   const auto refuse = [&](const std::string& reason) {
     throw ForeignFault("the program `" + text_ + "` cannot be started: " + reason);
   };
-  std::array<int, 2> sockets{-1, -1};
-  std::array<int, 2> trouble{-1, -1};
-  std::array<int, 2> printed{-1, -1};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0 ||
-      ::pipe2(trouble.data(), O_CLOEXEC) != 0 ||
-      (output == ProgramOutput::captured && ::pipe2(printed.data(), O_CLOEXEC) != 0))
-    refuse(std::strerror(errno));
-  std::fflush(nullptr);
-  const pid_t parent = ::getpid();
-  pid_ = ::fork();
-  if (pid_ == 0) become(argv, parent, sockets[1], printed[1], trouble[1]);
-  own_group_ = output == ProgramOutput::captured;
-  if (pid_ > 0 && own_group_) ::setpgid(pid_, pid_);
-  socket_ = sockets[0];
-  output_ = printed[0];
-  for (const int fd : {sockets[1], trouble[1], printed[1]})
-    if (fd >= 0) ::close(fd);
-  int error = pid_ < 0 ? errno : 0;
-  if (pid_ > 0 && ::read(trouble[0], &error, sizeof error) != sizeof error) error = 0;
-  ::close(trouble[0]);
-  if (output_ >= 0) ::fcntl(output_, F_SETFL, O_NONBLOCK);
-  if (error != 0) {
-    if (pid_ > 0) ::waitpid(pid_, nullptr, 0);
-    reaped_ = true;
-    ::close(socket_);
-    if (output_ >= 0) ::close(output_);
-    refuse(refusal_of(argv.front(), error));
+  std::array<int, 2> sockets{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0)
+    refuse(std::generic_category().message(errno));
+  socket_ = FileDescriptor(sockets[0]);
+  const FileDescriptor other_end(sockets[1]);
+  ChildSetting setting{.channel = other_end.number(), .own_group = is_captured_};
+  Pipe printed;
+  try {
+    if (is_captured_) {
+      printed = make_pipe();
+      setting.output = setting.errors = printed.write_end.number();
+      output_ = PipeReader(std::move(printed.read_end), kOutputKept);
+    }
+    child_ = start_program(argv, setting, [&] {
+      restore_signals();
+      if (is_captured_) confine();
+      set_environment();
+    });
+  } catch (const std::system_error& error) {
+    refuse(refusal_of(argv.front(), error.code().value()));
   }
 }
 
 Program::~Program() {
-  ::close(socket_);
-  if (!has_ended(kPatience)) {
-    ::kill(pid_, SIGKILL);
-    has_ended(10 * kPatience);
-  }
-  if (own_group_) ::kill(-pid_, SIGKILL);
-  if (own_group_) remove_confinement(pid_);
-  for (const int fd : {output_, end_})
-    if (fd >= 0) ::close(fd);
-}
-
-bool Program::has_ended(double seconds) {
-  const double end = now_seconds() + seconds;
-  while (!reaped_) {
-    const pid_t ended = ::waitpid(pid_, &wait_status_, WNOHANG);
-    reaped_ = ended == pid_ || (ended < 0 && errno == ECHILD);
-    if (reaped_ || now_seconds() > end) break;
-    drain_output();
-    const timespec pause{0, 500000};
-    ::nanosleep(&pause, nullptr);
-  }
-  return reaped_;
-}
-
-void Program::drain_output() {
-  if (output_ < 0) return;
-  std::array<char, 4096> block{};
-  for (int i = 0; i < 64; ++i) {
-    const ssize_t n = ::read(output_, block.data(), block.size());
-    if (n <= 0) break;
-    output_text_.append(block.data(), static_cast<std::size_t>(n));
-    if (output_text_.size() > 2 * kOutputKept) output_text_.erase(0, output_text_.size() - kOutputKept);
-  }
+  socket_.close();
+  child_.wait(kPatience, {&output_});
+  child_.end();
+  if (is_captured_) remove_confinement(child_.pid());
 }
 
 /// How the program ended, in words.
 std::string Program::ending() {
-  if (!has_ended(kPatience)) return "closed its socket without answering";
-  if (WIFSIGNALED(wait_status_))
-    return "ended by signal " + std::to_string(WTERMSIG(wait_status_)) + " (" + strsignal(WTERMSIG(wait_status_)) +
-           ") without answering";
-  return "ended with exit code " + std::to_string(WEXITSTATUS(wait_status_)) + " without answering";
+  if (!child_.wait(kPatience, {&output_})) return "closed its socket without answering";
+  return "ended " + to_text(child_.reap()) + " without answering";
 }
 
 void Program::wait_for(short events) {
   while (true) {
-    const double left = std::min(deadline_ - now_seconds(), kLongestWait);
-    if (left <= 0)
+    if (deadline_.is_over())
       throw ForeignFault("did not answer within " + number_text(allowed_) + " s", ForeignFault::Kind::timeout);
-    std::array<pollfd, 3> fds{{{socket_, events, 0}, {end_, POLLIN, 0}, {output_, POLLIN, 0}}};  // negative: ignored
-    const timespec timeout{static_cast<time_t>(left), static_cast<long>(1e9 * (left - std::floor(left)))};
-    if (::ppoll(fds.data(), fds.size(), &timeout, nullptr) <= 0) continue;
-    if (fds[2].revents != 0) drain_output();
+    std::array<pollfd, 3> fds{
+        {{socket_.number(), events, 0}, {child_.end_descriptor(), POLLIN, 0}, {output_.descriptor(), POLLIN, 0}}};
+    wait_for_events(fds, deadline_.seconds_left());
+    if (fds[2].revents != 0) output_.drain();
     if (fds[0].revents != 0) return;
-    // Another process that it has left may keep the socket open, so that its end does not close it.
+    // Another process that it has started may keep the socket open, so that its end does not close it.
     if (fds[1].revents != 0) throw ForeignFault(ending(), ForeignFault::Kind::ended);
-    if ((fds[2].revents & POLLHUP) != 0) {
-      const timespec pause{0, 1000000};  // a closed output is always ready
-      ::nanosleep(&pause, nullptr);
-    }
   }
 }
 
@@ -250,7 +167,7 @@ void Program::send_all(const std::string& header, std::span<const std::span<cons
     msghdr message{};
     message.msg_iov = pieces.data() + next;
     message.msg_iovlen = std::min<std::size_t>(pieces.size() - next, 512);  // below IOV_MAX
-    ssize_t sent = ::sendmsg(socket_, &message, MSG_NOSIGNAL | MSG_DONTWAIT);
+    ssize_t sent = ::sendmsg(socket_.number(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent < 0 && (errno == EAGAIN || errno == EINTR)) {
       wait_for(POLLOUT);
       continue;
@@ -267,7 +184,7 @@ void Program::send_all(const std::string& header, std::span<const std::span<cons
 /// Waits for bytes and takes what one recv() gives.
 std::size_t Program::receive_some(char* to, std::size_t most) {
   while (true) {
-    const ssize_t n = ::recv(socket_, to, most, MSG_DONTWAIT);
+    const ssize_t n = ::recv(socket_.number(), to, most, MSG_DONTWAIT);
     if (n > 0) return static_cast<std::size_t>(n);
     if (n < 0 && (errno == EAGAIN || errno == EINTR))
       wait_for(POLLIN);
@@ -305,7 +222,7 @@ void Program::account_cpu() {
 void Program::refuse_unrequested() const {
   std::array<char, 4096> block{};
   std::size_t count = end_ahead_ - first_ahead_;
-  const ssize_t n = ::recv(socket_, block.data(), block.size(), MSG_DONTWAIT | MSG_PEEK);
+  const ssize_t n = ::recv(socket_.number(), block.data(), block.size(), MSG_DONTWAIT | MSG_PEEK);
   if (n > 0) count += static_cast<std::size_t>(n);
   if (count > 0)
     throw ForeignFault("sent " + std::to_string(count) + (n == static_cast<ssize_t>(block.size()) ? " or more" : "") +
@@ -339,10 +256,10 @@ Answer Program::exchange(const std::string& header, std::span<const std::span<co
 Answer Program::call(std::string header, std::span<const std::span<const double>> parts, double seconds) {
   header += ",\"id\":" + std::to_string(++id_) + "}";
   allowed_ = seconds;
-  deadline_ = now_seconds() + seconds;
+  deadline_ = Deadline(seconds);
   const auto place = [&](const std::string& what) {
-    drain_output();
-    const std::string tail = output_tail(output_text_);
+    output_.drain();
+    const std::string tail = output_tail(output_.bytes());
     return "the program `" + text_ + "` " + what + (tail.empty() ? "" : "\n" + tail);
   };
   try {

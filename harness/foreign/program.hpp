@@ -1,8 +1,6 @@
 // A running program that is a module, and the socket to it.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstddef>
 #include <ctime>
 #include <span>
@@ -10,8 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "harness/files/descriptor.hpp"
 #include "harness/foreign/frame.hpp"
 #include "harness/foreign/source.hpp"
+#include "harness/process/child.hpp"
+#include "harness/process/deadline.hpp"
+#include "harness/process/pipe.hpp"
 
 namespace scanbench::harness {
 
@@ -29,16 +31,15 @@ class Program {
   Program(const ForeignSource& source, const ForeignSetting& setting, ProgramOutput output);
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
-  ~Program();  ///< closes the socket, which ends a good program, and kills one that goes on
+  ~Program();  ///< closes the socket, which ends a good program, and kills the program if it does not exit
 
   /// Sends a frame and waits for the answer. `header` is a JSON object without its closing brace; the key `id` is
-  /// added, which the answer must repeat. Throws ForeignFault for a program that ends, breaks the protocol or answers
-  /// with
-  /// {"error": ...} or not within `seconds`.
+  /// added, which the answer must repeat. Throws ForeignFault for a program that ends, breaks the protocol, answers
+  /// with {"error": ...} or does not answer within `seconds`.
   Answer call(std::string header, std::span<const std::span<const double>> parts, double seconds);
 
  private:
-  void start(const std::vector<std::string>& argv, ProgramOutput output);
+  void start(const std::vector<std::string>& argv);
   Answer exchange(const std::string& header, std::span<const std::span<const double>> parts);
   void refuse_unrequested() const;
   void send_all(const std::string& header, std::span<const std::span<const double>> parts);
@@ -46,23 +47,17 @@ class Program {
   std::size_t receive_some(char* to, std::size_t most);
   void account_cpu();
   void wait_for(short events);
-  void drain_output();
   std::string ending();
-  bool has_ended(double seconds);
 
   std::string text_;
   bool in_sandbox_ = false;
-  pid_t pid_ = -1;
-  int socket_ = -1;
-  int output_ = -1;
-  int end_ = -1;  ///< a descriptor of the process, readable when it has ended; -1 if the kernel has none
-  bool own_group_ = false;
-  bool reaped_ = false;
-  int wait_status_ = 0;
+  bool is_captured_ = false;
+  FileDescriptor socket_;
+  PipeReader output_;  ///< of no pipe if the output is inherited
+  Child child_;
   long id_ = 0;
-  double allowed_ = 0.0;   ///< seconds of the present call
-  double deadline_ = 0.0;  ///< of the present call
-  std::string output_text_;
+  double allowed_ = 0.0;     ///< seconds of the present call
+  Deadline deadline_{0.0};   ///< of the present call
   std::vector<char> ahead_;  ///< bytes that were received and are not yet read: [first_ahead_, end_ahead_)
   std::size_t first_ahead_ = 0;
   std::size_t end_ahead_ = 0;

@@ -9,6 +9,7 @@
 
 #include <sys/types.h>
 
+#include "harness/process/interrupts.hpp"
 #include "harness/run/worker_child.hpp"
 #include "harness/run/worker_report.hpp"
 #include "harness/store/cell_status.hpp"
@@ -18,9 +19,9 @@ namespace scanbench::harness {
 /// Runs tasks in forked children. The parent must have one thread only when start() is called. While a pool exists,
 /// SIGINT, SIGTERM and SIGHUP are blocked and seen only by wait(). Each child is a process group of its own, so that an
 /// interrupt at the terminal reaches the parent alone; it has an empty standard input and none of the parent's open
-/// files; it is killed when the parent ends. What a child leaves behind is killed too, even in sessions of their own:
-/// the process that has a pool adopts orphans. An interrupt that a child sends is a fault of that child. One pool may
-/// exist at a time.
+/// files; it is killed when the parent ends. Processes that a child has started are killed with it, even in sessions of
+/// their own: the process that has a pool adopts orphans. An interrupt that a child sends is a fault of that child. One
+/// pool may exist at a time.
 class WorkerPool {
  public:
   WorkerPool();
@@ -57,6 +58,8 @@ class WorkerPool {
 
   struct Worker;
   std::vector<Finished> poll_once(double longest_pause);
+  InterruptWatch interrupts_;
+  std::vector<pid_t> old_children_;  ///< of this process when the pool was made
   std::vector<Worker> workers_;
 };
 

@@ -1,4 +1,4 @@
-// The life of a child process: it keeps only its pipes, sets its limits, runs its tasks and reports each.
+// The tasks of a child process: it sets the limits of each, runs it and reports it.
 #pragma once
 
 #include <cstddef>
@@ -6,10 +6,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-
-#include <csignal>
-
-#include <sys/types.h>
 
 #include "harness/run/worker_report.hpp"
 
@@ -30,17 +26,8 @@ struct WorkerTask {
 /// What a child writes to stderr when memory runs out: a std::bad_alloc that nothing catches ends in abort().
 inline constexpr std::string_view kOutOfMemory = "an allocation failed (std::bad_alloc)\n";
 
-/// What a child takes over from its parent.
-struct ChildSetting {
-  pid_t parent = 0;
-  int report = -1;       ///< the pipe for reports
-  int output = -1;       ///< the pipe for what the tasks print
-  sigset_t defaulted{};  ///< signals that get their default action
-  sigset_t mask{};       ///< the signal mask that the tasks have
-};
-
-/// Runs the tasks one after another, as a process group of its own, and ends the process. Writes a report
-/// (worker_report.hpp) after each. The first task that is not ok is the last.
-[[noreturn]] void live_as_child(std::span<const WorkerTask> tasks, const ChildSetting& setting);
+/// Runs the tasks one after another, in a child process that leads its group. Writes a report (worker_report.hpp) to
+/// the descriptor `report` after each. The first task that is not ok is the last.
+void perform_in_child(std::span<const WorkerTask> tasks, int report);
 
 }  // namespace scanbench::harness

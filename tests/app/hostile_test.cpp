@@ -150,7 +150,7 @@ TEST_F(Plugins, ThatMisbehaveSpoilOnlyTheirOwnCells) {
                                           {"fork_storm", {"failed", ""}},
                                           {"output", {"failed", "written"}},
                                           {"close_descriptors", {"crashed", "ended without a result"}},
-                                          {"kill_parent", {"crashed", "sent a signal to this program"}},
+                                          {"kill_parent", {"crashed", "sent a signal to scanbench itself"}},
                                           {"kill_itself", {"crashed", "ended by signal 9 (Killed)"}},
                                           {"daemon", {"crashed", "daemon "}}};
   if (kSanitized) {  // a sanitizer needs address space without a limit, and reports a fault itself before the process
@@ -187,7 +187,7 @@ TEST_F(Plugins, ThatAreProgramsAndMisbehaveSpoilOnlyTheirOwnCells) {
       {"more_answers", {"failed", "answered to call 1 instead of call 3"}},
       {"close_descriptors", {"crashed", "without answering"}},
       {"kill_worker", {"crashed", "ended by signal 9 (Killed)"}},
-      {"kill_scanbench", {"crashed", "sent a signal to this program"}},
+      {"kill_scanbench", {"crashed", "sent a signal to scanbench itself"}},
       {"daemon", {"crashed", "daemon "}},
       {"nan", {"invalid", "line 0 is not finite"}},
       {"too_many_labels", {"invalid", "362 labels for 361 beams"}},

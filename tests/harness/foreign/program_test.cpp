@@ -266,8 +266,7 @@ TEST_F(Programs, ThatDoNotExistAreNamed) {
   } catch (const ForeignFault& fault) {
     EXPECT_THAT(
         fault.what(),
-        HasSubstr(
-            "`pyhton3 my_lines.py` cannot be started: pyhton3: No such file or directory (it was sought in PATH)"));
+        HasSubstr("`pyhton3 my_lines.py` cannot be started: pyhton3: No such file or directory (looked up in PATH)"));
   }
 }
 

@@ -244,7 +244,7 @@ TEST(Worker, AnInterruptFromATaskIsAFaultOfTheTask) {
   EXPECT_FALSE(pool.interrupted());
   ASSERT_EQ(finished.size(), 1u);
   EXPECT_EQ(finished[0].outcome.status, CellStatus::crashed);
-  EXPECT_THAT(finished[0].outcome.message, HasSubstr("sent a signal to this program"));
+  EXPECT_THAT(finished[0].outcome.message, HasSubstr("sent a signal to scanbench itself"));
 }
 
 TEST(Worker, AProcessInASessionOfItsOwnEndsWithItsTask) {

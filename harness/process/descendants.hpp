@@ -1,4 +1,4 @@
-// Processes that tasks leave behind, and signals that they send to this process.
+// Processes below this one: orphans of tasks, and senders of signals.
 #pragma once
 
 #include <sys/types.h>

@@ -1,5 +1,5 @@
 // Finds and ends processes below this one, from the files of /proc.
-#include "harness/run/descendants.hpp"
+#include "harness/process/descendants.hpp"
 
 #include <sys/prctl.h>
 #include <sys/wait.h>

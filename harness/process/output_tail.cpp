@@ -1,5 +1,5 @@
 // Shortens the output of a process for a message.
-#include "harness/foreign/output_tail.hpp"
+#include "harness/process/output_tail.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "harness/foreign/output_tail.hpp"
+#include "harness/process/output_tail.hpp"
 
 namespace scanbench::harness {
 namespace {
