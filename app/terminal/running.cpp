@@ -10,9 +10,9 @@
 #include "app/terminal/fault_notes.hpp"
 #include "app/terminal/progress.hpp"
 #include "core/error.hpp"
+#include "harness/page/document.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/report/run_report.hpp"
-#include "harness/report/scenario_tables.hpp"
 #include "harness/run/runner.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/run_scenarios.hpp"
@@ -49,8 +49,8 @@ std::string missing_text(const harness::RunResult& result) {
 }  // namespace
 
 void print_tables(const harness::ReportInput& input) {
-  for (const auto& table : harness::closing_tables(input))
-    fmt::print("{}\n", harness::to_terminal(table, use_color(), terminal_width()));
+  const harness::Document closing = harness::closing_document(input);
+  if (!closing.blocks.empty()) fmt::print("{}\n", harness::to_terminal(closing, use_color(), terminal_width()));
 }
 
 void note_absent_figures(const harness::ReportInput& report) {

@@ -14,12 +14,10 @@
 #include "harness/analysis/gates.hpp"
 #include "harness/analysis/run_results.hpp"
 #include "harness/analysis/value_pairs.hpp"
-#include "harness/analysis/verdict.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/nightly/comparison_files.hpp"
 #include "harness/nightly/comparison_tables.hpp"
-#include "harness/page/plain_text.hpp"
-#include "harness/page/table.hpp"
+#include "harness/page/document.hpp"
 #include "harness/store/run_scenarios.hpp"
 
 namespace scanbench::app {
@@ -29,14 +27,6 @@ struct CompareOptions {
   std::string before, after, csv, json, markdown, junit;
   bool all = false;
 };
-
-void print_comparison(const harness::Comparison& comparison, bool all) {
-  fmt::print("{}\n", harness::plain_line(harness::verdict_sentence(comparison), 2000));
-  if (!comparison.differing.empty()) fmt::print("\nWhat differs:\n");
-  for (const auto& difference : comparison.differing) fmt::print("  {}\n", harness::plain_line(difference));
-  for (const auto& table : harness::comparison_tables(comparison, all))
-    fmt::print("\n{}", harness::to_terminal(table, use_color(), terminal_width()));
-}
 
 /// Before anything is compared: throws ConfigError if the folder of an output file is not there.
 void check_folder(const std::string& option, const std::string& file) {
@@ -61,9 +51,11 @@ int compare(const CompareOptions& options) {
   };
   if (!options.csv.empty()) write(options.csv, harness::value_pairs_csv(before, after, gates));
   if (!options.json.empty()) write(options.json, harness::comparison_json(comparison));
-  if (!options.markdown.empty()) write(options.markdown, harness::comparison_markdown(comparison));
+  if (!options.markdown.empty())
+    write(options.markdown, harness::to_markdown(harness::comparison_document(comparison)));
   if (!options.junit.empty()) write(options.junit, harness::comparison_junit(comparison));
-  print_comparison(comparison, options.all);
+  fmt::print(
+      "{}", harness::to_terminal(harness::comparison_document(comparison, options.all), use_color(), terminal_width()));
   return comparison.exit_code();
 }
 

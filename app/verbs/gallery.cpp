@@ -13,6 +13,8 @@
 #include "harness/files/atomic_file.hpp"
 #include "harness/gallery/catalogue.hpp"
 #include "harness/gallery/gallery.hpp"
+#include "harness/page/document.hpp"
+#include "harness/page/html_page.hpp"
 #include "harness/run/run_options.hpp"
 #include "harness/store/manifest.hpp"
 
@@ -47,9 +49,9 @@ int make_gallery(GalleryOptions options) {
   const auto made = harness::make_entries(finished.result.out, catalogue, options.figures,
                                           [&](double share, const std::string& what) { progress.update(share, what); });
   progress.finish();
-  harness::write_file_atomically(options.out / "gallery.md",
-                                 harness::gallery_markdown(catalogue, made, options.figures));
-  harness::write_file_atomically(options.out / "index.html", harness::gallery_html(catalogue, made, options.figures));
+  const harness::Document page = harness::gallery_document(catalogue, made, options.figures);
+  harness::write_file_atomically(options.out / "gallery.md", harness::to_markdown(page));
+  harness::write_file_atomically(options.out / "index.html", harness::to_html(page));
   for (const auto& entry : made)
     if (!entry.failure.empty()) say(fmt::format("{}: not made: {}\n", entry.entry.name, entry.failure));
   if (!options.quiet) fmt::print("{}\n", (options.out / "index.html").string());

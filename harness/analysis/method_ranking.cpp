@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/distributions.hpp"
+#include "core/pareto.hpp"
 #include "core/special_values.hpp"
 #include "harness/analysis/gates.hpp"
 #include "harness/store/run_folder.hpp"
@@ -155,13 +156,10 @@ class Ranker {
   }
 
   void mark_front() {
-    for (auto& method : ranking_.methods) {
-      if (!method.complete() || !std::isfinite(method.seconds)) continue;
-      method.on_front = std::ranges::none_of(ranking_.methods, [&](const RankedMethod& other) {
-        return other.complete() && cost_of(other) <= cost_of(method) && other.seconds <= method.seconds &&
-               (cost_of(other) < cost_of(method) || other.seconds < method.seconds);
-      });
-    }
+    std::vector<std::pair<double, double>> costs;
+    for (const auto& method : ranking_.methods)
+      costs.emplace_back(method.complete() ? method.seconds : kNaN, cost_of(method));
+    for (const std::size_t i : pareto_front(costs)) ranking_.methods[i].on_front = true;
   }
 
   std::vector<std::string> pipelines_;

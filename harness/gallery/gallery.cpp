@@ -1,4 +1,4 @@
-// Draws the entries of a catalogue and writes its pages.
+// Draws the entries of a catalogue and builds the page that shows them.
 #include "harness/gallery/gallery.hpp"
 
 #include <fmt/format.h>
@@ -9,8 +9,6 @@
 #include "core/names.hpp"
 #include "core/params.hpp"
 #include "harness/analysis/agreement.hpp"
-#include "harness/page/html_page.hpp"
-#include "harness/page/plain_text.hpp"
 #include "harness/report/paper_tables.hpp"
 #include "harness/store/summary.hpp"
 
@@ -24,6 +22,7 @@ constexpr std::size_t kPageWidth = 120;  // characters of a table
 constexpr const char* kStyle = R"css(<style>
 .gallery { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 24rem), 1fr)); gap: 1.6rem; align-items: start; grid-auto-flow: dense; }
 .gallery figure { margin: 0; } .gallery img { width: 100%; max-height: 20rem; object-fit: contain; object-position: left top; }
+.gallery h2 { margin: 1.4rem 0 .4rem; padding: 0; border: 0; font-size: 1.05rem; }
 .wide { grid-column: 1 / -1; } .gallery code, .command { font-size: .8rem; overflow-wrap: anywhere; }
 </style>)css";
 
@@ -78,26 +77,30 @@ std::string shown_format(const FigureOptions& options) {
   return "";
 }
 
-std::string html_of(const Catalogue& catalogue, const MadeEntry& made, const FigureOptions& options) {
-  const CatalogueEntry& entry = made.entry;
-  std::string out =
-      fmt::format("<div class=\"entry{}\" id=\"{}\">\n<h3>{}</h3>\n<p>{}</p>\n", made.tables.empty() ? "" : " wide",
-                  html_escaped(entry.name), html_escaped(entry.of), html_escaped(entry.shows));
-  if (!made.failure.empty()) out += "<p class=\"faint\">" + html_escaped(made.failure) + "</p>\n";
-  for (const Table& table : made.tables)
-    for (const Table& part : parts_of_width(table, kPageWidth)) out += to_html(part);
+Picture picture_of(const MadeEntry& made, const FigureFile& file, const FigureOptions& options) {
   const std::string format = shown_format(options);
-  for (const FigureFile& file : made.files) {
-    std::string links;
-    for (const std::string& each : options.formats)
-      links += fmt::format(" <a href=\"{0}.{1}\">{1}</a>", html_escaped(file.name), each);
-    if (!format.empty())
-      out += fmt::format("<figure><img loading=\"lazy\" alt=\"{0}\" src=\"{1}.{2}\"></figure>\n",
-                         html_escaped(file.caption), html_escaped(file.name), format);
-    out += fmt::format("<p class=\"caption\">{}{}</p>\n", html_escaped(file.caption), links);
+  Picture picture{.alt = made.entry.of, .caption = file.caption};
+  if (!format.empty()) picture.address = file.name + "." + format;
+  for (const std::string& each : options.formats) {
+    picture.caption.spans.emplace_back(" ");
+    picture.caption.spans.push_back(link(each, file.name + "." + each));
   }
-  return out + fmt::format("<p class=\"command\"><code>{}</code><br>{}</p></div>\n",
-                           html_escaped(command_of(catalogue, entry)), html_escaped(recipe_of(entry)));
+  return picture;
+}
+
+/// The paper's number, caption, pictures or tables, and command of an entry.
+BlockGroup group_of(const Catalogue& catalogue, const MadeEntry& made, const FigureOptions& options) {
+  BlockGroup group{made.tables.empty() ? "entry" : "entry wide",
+                   {Heading{2, made.entry.of}, Paragraph{made.entry.shows}},
+                   made.entry.name};
+  if (!made.failure.empty()) group.blocks.push_back(Paragraph{made.failure, "faint"});
+  for (Table table : made.tables) {
+    table.page_width = kPageWidth;
+    group.blocks.push_back(std::move(table));
+  }
+  for (const FigureFile& file : made.files) group.blocks.push_back(picture_of(made, file, options));
+  group.blocks.push_back(Paragraph{{code(command_of(catalogue, made.entry)), ": " + recipe_of(made.entry)}, "command"});
+  return group;
 }
 
 }  // namespace
@@ -122,35 +125,18 @@ std::string command_of(const Catalogue& catalogue, const CatalogueEntry& entry) 
   return fmt::format("scanbench figures {} --only {}", catalogue.path.generic_string(), entry.name);
 }
 
-std::string gallery_html(const Catalogue& catalogue, const std::vector<MadeEntry>& made, const FigureOptions& options) {
-  std::string out = std::string(kStyle) + "<p>" + html_escaped(catalogue.about) + "</p>\n<div class=\"gallery\">\n";
-  for (const MadeEntry& entry : made) out += html_of(catalogue, entry, options);
-  out += "</div>\n";
-  if (!catalogue.absent.empty()) {
-    Table table{"absent", "Not made", "", {"of", "why"}, {}, {}};
-    for (const AbsentEntry& entry : catalogue.absent) table.rows.push_back({{entry.of, entry.why}, {}, false});
-    out += "<div class=\"prose\">" + to_html(table) + "</div>";
-  }
-  return html_page("Figures of " + catalogue.path.filename().string(), out);
-}
-
-std::string gallery_markdown(const Catalogue& catalogue, const std::vector<MadeEntry>& made,
-                             const FigureOptions& options, const std::string& pictures) {
-  std::string out = "# Gallery\n\n" + markdown_escaped(catalogue.about) + "\n";
-  const std::string format = shown_format(options);
-  for (const MadeEntry& entry : made) {
-    out += fmt::format("\n## {}\n\n{}\n\n", markdown_escaped(entry.entry.of), markdown_escaped(entry.entry.shows));
-    if (!entry.failure.empty()) out += markdown_escaped(entry.failure) + "\n\n";
-    for (const Table& table : entry.tables) out += to_markdown(table) + "\n";
-    for (const FigureFile& file : entry.files)
-      out += (format.empty() ? "" : fmt::format("![{}]({}{}.{})\n\n", entry.entry.of, pictures, file.name, format)) +
-             markdown_escaped(file.caption) + "\n\n";
-    out += fmt::format("`{}`: {}\n", command_of(catalogue, entry.entry), recipe_of(entry.entry));
-  }
-  if (!catalogue.absent.empty()) out += "\n## Not made\n\n";
-  for (const AbsentEntry& entry : catalogue.absent)
-    out += fmt::format("- {}: {}\n", markdown_escaped(entry.of), markdown_escaped(entry.why));
-  return out;
+Document gallery_document(const Catalogue& catalogue, const std::vector<MadeEntry>& made,
+                          const FigureOptions& options) {
+  BlockGroup entries{"gallery", {}};
+  for (const MadeEntry& entry : made) entries.blocks.push_back(group_of(catalogue, entry, options));
+  Document page{"Figures of " + catalogue.path.filename().string(),
+                {Markup{kStyle}, Paragraph{catalogue.about}, std::move(entries)}};
+  if (catalogue.absent.empty()) return page;
+  Definitions absent;
+  for (const AbsentEntry& entry : catalogue.absent) absent.items.emplace_back(entry.of, entry.why);
+  page.blocks.push_back(Heading{2, "Not made", "absent"});
+  page.blocks.push_back(std::move(absent));
+  return page;
 }
 
 }  // namespace scanbench::harness

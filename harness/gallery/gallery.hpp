@@ -1,4 +1,4 @@
-// The pictures and tables of a catalogue, made from a run of its scenarios, and the pages that show them.
+// The pictures and tables of a catalogue, made from a run of its scenarios, and the page that shows them.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/gallery/catalogue.hpp"
+#include "harness/page/document.hpp"
 #include "harness/page/table.hpp"
 #include "harness/report/figures.hpp"
 
@@ -29,10 +30,7 @@ std::vector<MadeEntry> make_entries(const std::filesystem::path& run, const Cata
 /// "scanbench figures scenarios/figures.yaml --only NAME": makes one entry again.
 std::string command_of(const Catalogue& catalogue, const CatalogueEntry& entry);
 
-/// index.html of the folder: thumbnail, the paper's number, caption and command of each entry, and what is absent.
-std::string gallery_html(const Catalogue& catalogue, const std::vector<MadeEntry>& made, const FigureOptions& options);
-/// The same in Markdown; pictures are at `pictures` + name.
-std::string gallery_markdown(const Catalogue& catalogue, const std::vector<MadeEntry>& made,
-                             const FigureOptions& options, const std::string& pictures = "");
+/// The page of the folder: thumbnail, the paper's number, caption and command of each entry, and what is absent.
+Document gallery_document(const Catalogue& catalogue, const std::vector<MadeEntry>& made, const FigureOptions& options);
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// Writes a comparison as JSON, Markdown and JUnit XML.
+// Writes a comparison as JSON and JUnit XML.
 #include "harness/nightly/comparison_files.hpp"
 
 #include <fmt/format.h>
@@ -8,9 +8,7 @@
 
 #include "harness/analysis/verdict.hpp"
 #include "harness/files/json.hpp"
-#include "harness/nightly/comparison_tables.hpp"
 #include "harness/page/plain_text.hpp"
-#include "harness/page/table.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -106,16 +104,6 @@ std::string comparison_json(const Comparison& comparison) {
                   {"added", cells_json(comparison.added)},
                   {"changes", std::move(changes)}};
   return json_text(json) + "\n";
-}
-
-std::string comparison_markdown(const Comparison& comparison) {
-  std::string out = "**" + markdown_escaped(plain_line(verdict_sentence(comparison), 2000)) + "**\n";
-  if (!comparison.differing.empty()) {
-    out += "\nWhat differs:\n\n";
-    for (const auto& difference : comparison.differing) out += "- " + markdown_escaped(plain_line(difference)) + "\n";
-  }
-  for (const auto& table : comparison_tables(comparison)) out += "\n" + to_markdown(table);
-  return out;
 }
 
 std::string comparison_junit(const Comparison& comparison) {

@@ -1,4 +1,4 @@
-// A comparison for other programs: JSON, Markdown for a pull request, and JUnit XML for a CI server.
+// A comparison for other programs: JSON, and JUnit XML for a CI server.
 #pragma once
 
 #include <string>
@@ -9,9 +9,6 @@ namespace scanbench::harness {
 
 /// Verdict, sentence, what differs, every change with its pairs, and the cells that are not compared (docs/formats.md).
 std::string comparison_json(const Comparison& comparison);
-
-/// The verdict, what differs, and the tables of comparison_tables().
-std::string comparison_markdown(const Comparison& comparison);
 
 /// One test case per gate and one per cell that is broken or missing. A gate that is worse is a failure, a cell that is
 /// missing an error.

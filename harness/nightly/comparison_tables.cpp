@@ -1,4 +1,4 @@
-// Makes the tables of a comparison.
+// Makes the tables of a comparison, and the document of all of them.
 #include "harness/nightly/comparison_tables.hpp"
 
 #include <fmt/format.h>
@@ -113,7 +113,7 @@ void shorten(Table& table) {
   table.rows.resize(kLargestTable);
 }
 
-/// The changes of one pipeline in one scenario stand together, where the first of them stood.
+/// Lists the changes of one pipeline in one scenario together, at the place of the first of them.
 std::vector<const MetricChange*> by_place(const std::vector<const MetricChange*>& changes) {
   std::map<std::pair<std::string, std::string>, std::size_t> ranks;
   for (const MetricChange* change : changes) ranks.try_emplace({change->scenario, change->pipeline}, ranks.size());
@@ -197,6 +197,18 @@ std::vector<Table> comparison_tables(const Comparison& comparison, bool all) {
   add("within", "Changed within the tolerance", Finding::within, false, "");
   add("same", "Equal to the bit", Finding::same, false, "");
   return tables;
+}
+
+Document comparison_document(const Comparison& comparison, bool all) {
+  Document document{"", {Paragraph{{bold(plain_line(verdict_sentence(comparison), 2000))}}}};
+  BulletList differing;
+  for (const auto& difference : comparison.differing) differing.items.emplace_back(plain_line(difference));
+  if (!differing.items.empty()) {
+    document.blocks.push_back(Paragraph{"What differs:"});
+    document.blocks.push_back(std::move(differing));
+  }
+  for (auto& table : comparison_tables(comparison, all)) document.blocks.push_back(std::move(table));
+  return document;
 }
 
 }  // namespace scanbench::harness

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/analysis/comparison.hpp"
+#include "harness/page/document.hpp"
 #include "harness/page/table.hpp"
 
 namespace scanbench::harness {
@@ -23,5 +24,8 @@ std::optional<Table> completeness_table(const Comparison& comparison);
 /// What a reader of a comparison needs, in this order: worse, uncertain, better, changed without a direction,
 /// completeness. Tables without rows are left out; with `all`, every change is shown.
 std::vector<Table> comparison_tables(const Comparison& comparison, bool all = false);
+
+/// The verdict, what differs, and the tables of comparison_tables(): for a terminal or a pull request.
+Document comparison_document(const Comparison& comparison, bool all = false);
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// Calls SQLite.
+// Wraps the C interface of SQLite.
 #include "harness/nightly/database.hpp"
 
 #include <sqlite3.h>

@@ -19,7 +19,10 @@
 #include "harness/files/json.hpp"
 #include "harness/nightly/baseline.hpp"
 #include "harness/nightly/comparison_files.hpp"
+#include "harness/nightly/comparison_tables.hpp"
 #include "harness/nightly/night_page.hpp"
+#include "harness/page/document.hpp"
+#include "harness/page/html_page.hpp"
 #include "harness/report/figures.hpp"
 #include "harness/report/recording_note.hpp"
 #include "harness/report/run_report.hpp"
@@ -235,7 +238,7 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
     for (const RunFile* file : {&kComparisonJson, &kComparisonMarkdown, &kComparisonJunit})
       input.files.push_back(file->name());
     write_file_atomically(plan.run / kComparisonJson, comparison_json(comparison));
-    write_file_atomically(plan.run / kComparisonMarkdown, comparison_markdown(comparison));
+    write_file_atomically(plan.run / kComparisonMarkdown, to_markdown(comparison_document(comparison)));
     write_file_atomically(plan.run / kComparisonJunit, comparison_junit(comparison));
     input.comparison = comparison;
   } else {
@@ -264,7 +267,7 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
   input.sentence = outcome.sentence;
   input.nights = store.nights(plan.suite);
   outcome.page = plan.run / kNightPage;
-  write_file_atomically(outcome.page, night_page(input));
+  write_file_atomically(outcome.page, to_html(night_document(input)));
   refresh_manifest(plan.run);
   if (outcome.exit_code == 0) keep_good_night(plan.run);
   return outcome;

@@ -1,17 +1,18 @@
-// Writes the page of a night.
+// Builds the page of a night.
 #include "harness/nightly/night_page.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "harness/analysis/gates.hpp"
 #include "harness/analysis/verdict.hpp"
 #include "harness/files/base64.hpp"
 #include "harness/nightly/comparison_tables.hpp"
 #include "harness/nightly/status_matrix.hpp"
-#include "harness/page/html_page.hpp"
+#include "harness/page/document.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/page/scan_sketch.hpp"
 #include "harness/page/sparkline.hpp"
@@ -22,49 +23,46 @@
 namespace scanbench::harness {
 namespace {
 
-std::string escaped(const std::string& text) {
-  return html_escaped(plain_text(text));
-}
-
-std::string verdict_banner(const NightInput& input) {
-  std::string out = fmt::format("<p class=\"verdict {}\">{}</p>\n", input.sentence.starts_with("PASS") ? "good" : "bad",
-                                escaped(input.sentence));
-  if (input.comparison) out += "<p>Compared with " + escaped(input.reference) + ".</p>\n";
+Blocks verdict_blocks(const NightInput& input) {
+  Blocks blocks{Paragraph{input.sentence, input.sentence.starts_with("PASS") ? "verdict good" : "verdict bad"}};
+  if (input.comparison) blocks.push_back(Paragraph{"Compared with " + input.reference + "."});
   if (input.drift)
-    out += fmt::format("<p>Against the oldest baseline, {}: {}</p>\n", escaped(input.drift_reference),
-                       escaped(verdict_sentence(*input.drift)));
+    blocks.push_back(Paragraph{
+        fmt::format("Against the oldest baseline, {}: {}", input.drift_reference, verdict_sentence(*input.drift))});
   if (input.comparison && !input.comparison->differing.empty()) {
     const auto& differing = input.comparison->differing;
     constexpr std::size_t kNamed = 3;
-    out += "<p>What differs: ";
-    for (std::size_t i = 0; i < differing.size() && i < kNamed; ++i) out += (i > 0 ? "; " : "") + escaped(differing[i]);
-    if (differing.size() > kNamed)
-      out += fmt::format("; <a href=\"#differs-section\">and {} more</a>", differing.size() - kNamed);
-    out += "</p>\n";
+    Prose text{"What differs: "};
+    for (std::size_t i = 0; i < differing.size() && i < kNamed; ++i)
+      text.spans.emplace_back((i > 0 ? "; " : "") + differing[i]);
+    if (differing.size() > kNamed) {
+      text.spans.emplace_back("; ");
+      text.spans.push_back(link(fmt::format("and {} more", differing.size() - kNamed), "#differs-section"));
+    }
+    blocks.push_back(Paragraph{text});
   }
-  return out + fmt::format("<p class=\"faint\">{}</p>\n", reuse_text(input.now.cells.size(), input.reused));
+  blocks.push_back(Paragraph{reuse_text(input.now.cells.size(), input.reused), "faint"});
+  return blocks;
 }
 
-std::string list_of(const std::vector<std::string>& items) {
-  if (items.empty()) return "";
-  std::string out = "<ul>\n";
-  for (const auto& item : items) out += "<li>" + escaped(item) + "</li>\n";
-  return out + "</ul>\n";
+Blocks list_blocks(const std::vector<std::string>& items) {
+  if (items.empty()) return {};
+  return {BulletList{{items.begin(), items.end()}}};
 }
 
-std::string picture(const std::optional<PagePicture>& scan) {
-  if (!scan) return "";
-  return fmt::format(
-      "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-      escaped(scan->caption), base64(scan->png));
-}
-
-std::string picture_pairs(const std::vector<PicturePair>& pairs) {
-  std::string out;
-  for (const auto& pair : pairs)
-    out += "<h3>" + escaped(pair.title) + "</h3>\n<div class=\"pair\">\n" + picture(pair.before) + picture(pair.now) +
-           "</div>\n";
-  return out;
+Blocks picture_blocks(const std::vector<PicturePair>& pairs) {
+  Blocks blocks;
+  for (const auto& pair : pairs) {
+    BlockGroup shown{"pair", {}};
+    for (const auto& picture : {pair.before, pair.now})
+      if (picture)
+        shown.blocks.push_back(Picture{.alt = picture->caption,
+                                       .caption = picture->caption,
+                                       .data = "data:image/png;base64," + base64(picture->png)});
+    blocks.push_back(Heading{3, pair.title});
+    blocks.push_back(std::move(shown));
+  }
+  return blocks;
 }
 
 std::string better_text(const metrics::MetricDescription& metric) {
@@ -82,9 +80,20 @@ std::string better_text(const metrics::MetricDescription& metric) {
 }
 
 /// Spark lines of the changes that the page lists, with the values at their lower and upper edge.
-std::string trends(const NightInput& input) {
+Blocks trend_blocks(const NightInput& input) {
   const auto descriptions = metric_descriptions();
-  std::string out;
+  Table table{"trends-table",
+              "",
+              "",
+              {"scenario/pipeline/metric"},
+              {{"", "better"},
+               {"", "trend"},
+               {"", "from low to high"},
+               {"", "first"},
+               {"", "now"},
+               {"", "unit"},
+               {"", "nights"}},
+              {}};
   for (const auto& [name, points] : input.trends) {
     if (points.size() < 2) continue;
     std::vector<double> values;
@@ -93,18 +102,18 @@ std::string trends(const NightInput& input) {
     const auto known = descriptions.find(name.substr(name.rfind('/') + 1));
     const metrics::MetricDescription metric =
         known == descriptions.end() ? metrics::MetricDescription{} : known->second;
-    out += fmt::format(
-        "<tr><th class=\"head\">{}</th><td>{}</td><td>{}</td><td>{:.4g} … {:.4g}</td><td>{:.4g}</td><td>{:.4g}</td>"
-        "<td>{}</td><td>{} since {}</td></tr>\n",
-        escaped(name), better_text(metric), sparkline(values, name + " over the last nights"), low, high,
-        values.front(), values.back(), escaped(metric.unit), points.size(),
-        escaped(points.front().start.substr(0, 10)));
+    table.rows.push_back({{name},
+                          {{better_text(metric)},
+                           {.text = "", .drawing = sparkline(values, name + " over the last nights")},
+                           {fmt::format("{:.4g} … {:.4g}", low, high)},
+                           {fmt::format("{:.4g}", values.front())},
+                           {fmt::format("{:.4g}", values.back())},
+                           {metric.unit},
+                           {fmt::format("{} since {}", points.size(), points.front().start.substr(0, 10))}},
+                          false});
   }
-  if (out.empty()) return "";
-  return "<div class=\"scroll\"><table><thead><tr><th class=\"head\">scenario/pipeline/metric</th><th>better</th>"
-         "<th>trend</th><th>from low to high</th><th>first</th><th>now</th><th>unit</th><th>nights</th></tr></thead>"
-         "<tbody>\n" +
-         out + "</tbody></table></div>\n";
+  if (table.rows.empty()) return {};
+  return {std::move(table)};
 }
 
 /// Twelve digits; "(changed)" for a program whose code was not that of the commit.
@@ -112,100 +121,110 @@ std::string commit_text(const std::string& commit) {
   return commit.substr(0, 12) + (commit.find("-dirty-") == std::string::npos ? "" : " (changed)");
 }
 
-std::string history(const NightInput& input) {
+Blocks history_blocks(const NightInput& input) {
   constexpr std::size_t kShown = 30;
   Table table{"nights", "", "", {"start (UTC)", "commit", "verdict"}, {}, {}};
   for (std::size_t i = input.nights.size(); i-- > 0 && table.rows.size() < kShown;) {
     const Night& night = input.nights[i];
     table.rows.push_back({{night.start, commit_text(night.commit), night.sentence}, {}, false});
   }
-  return table.rows.size() < 2 ? "" : "<div class=\"nights\">\n" + to_html(table) + "</div>\n";
+  if (table.rows.size() < 2) return {};
+  return {BlockGroup{"nights", {std::move(table)}}};
 }
 
-std::string definitions(const NightInput& input) {
+Blocks definition_blocks(const NightInput& input) {
   std::set<std::string> used;
   if (input.comparison)
     for (const auto& change : input.comparison->changes) used.insert(change.metric.metric);
   for (const auto& ranking : input.rankings) used.insert(ranking.quality.metric);
-  return html_definitions(used);
+  Definitions definitions = definitions_of(used);
+  if (definitions.items.empty()) return {};
+  return {std::move(definitions)};
+}
+
+Picture sketch_of(const WorstScan& scan, const std::string& run) {
+  const std::string command =
+      fmt::format("scanbench show {} --scenario {} --pipeline {} --seed {} --frame {}", shell_word(run),
+                  scan.key.scenario, scan.key.pipeline, scan.key.seed, scan.frame);
+  const std::string name = fmt::format("{}, seed {}, scan {}", scan.key.scenario, scan.key.seed, scan.frame);
+  const std::string counts = fmt::format(
+      ": F1 {:.2f}, {} right, {} false, {} missed, {} split{}", scan.f1, scan.found, scan.false_lines, scan.missed,
+      scan.split, scan.unjudged > 0 ? fmt::format(", {} too short to judge", scan.unjudged) : "");
+  return {.alt = name,
+          .caption = {link(name, "cells/" + to_string(scan.key) + "/", command), counts},
+          .drawing = scan.sketch};
 }
 
 /// The worst scans of each pipeline, each with the command that draws it large.
-std::string worst_list(const NightInput& input) {
-  if (input.worst.empty()) return "";
-  std::string out =
-      "<p>Lowest F1 over all scenarios and seeds first. The pointer on a name shows the command that draws the scan "
-      "large.</p>\n" +
-      scan_sketch_key();
+Blocks worst_blocks(const NightInput& input) {
+  if (input.worst.empty()) return {};
+  Blocks blocks{Paragraph{"Lowest F1 over all scenarios and seeds first. The pointer on a name shows the command that "
+                          "draws the scan large."},
+                Markup{scan_sketch_key()}};
   for (const auto& [pipeline, scans] : input.worst) {
-    out += "<h3>" + escaped(pipeline) + "</h3>\n<div class=\"scans\">\n";
-    for (const auto& scan : scans) {
-      const std::string command =
-          fmt::format("scanbench show {} --scenario {} --pipeline {} --seed {} --frame {}", shell_word(input.now.name),
-                      scan.key.scenario, scan.key.pipeline, scan.key.seed, scan.frame);
-      out += fmt::format(
-          "<figure>{}<figcaption><a href=\"cells/{}/\" title=\"{}\">{}, seed {}, scan {}</a>: F1 {:.2f}, {} right, "
-          "{} false, {} missed, {} split{}</figcaption></figure>\n",
-          scan.sketch, escaped(to_string(scan.key)), escaped(command), escaped(scan.key.scenario), scan.key.seed,
-          scan.frame, scan.f1, scan.found, scan.false_lines, scan.missed, scan.split,
-          scan.unjudged > 0 ? fmt::format(", {} too short to judge", scan.unjudged) : "");
-    }
-    out += "</div>\n";
+    BlockGroup sketches{"scans", {}};
+    for (const auto& scan : scans) sketches.blocks.push_back(sketch_of(scan, input.now.name));
+    blocks.push_back(Heading{3, pipeline});
+    blocks.push_back(std::move(sketches));
   }
-  return out;
+  return blocks;
 }
 
-std::string file_list(const NightInput& input) {
-  std::string out;
+Blocks file_blocks(const NightInput& input) {
+  BulletList files;
   if (!input.report.empty())
-    out +=
-        fmt::format("<li><a href=\"{}\">The report of this run</a>: every scenario with its tables and figures</li>\n",
-                    escaped(input.report));
-  for (const auto& file : input.files) out += fmt::format("<li><a href=\"{0}\">{0}</a></li>\n", escaped(file));
-  return out.empty() ? "" : "<p>Beside this page in the run folder:</p>\n<ul>\n" + out + "</ul>\n";
+    files.items.push_back(
+        {link("The report of this run", input.report), ": every scenario with its tables and figures"});
+  for (const auto& file : input.files) files.items.push_back({link(file, file)});
+  if (files.items.empty()) return {};
+  return {Paragraph{"Beside this page in the run folder:"}, std::move(files)};
 }
 
-/// The table of that id. The page's own heading stands above it, unless it has `own_title`.
-std::string changes_of(const Comparison& comparison, const std::string& id, bool own_title = false) {
+/// The table of that id. The page's own heading is above it, unless it has `own_title`.
+Blocks change_blocks(const Comparison& comparison, const std::string& id, bool own_title = false) {
   for (auto& table : comparison_tables(comparison)) {
     if (table.id != id) continue;
     if (!own_title) table.title.clear();
-    return "<div class=\"changes\">\n" + to_html(table) + "</div>\n";
+    return {BlockGroup{"changes", {std::move(table)}}};
   }
-  return "";
+  return {};
 }
 
-std::string completeness_of(const Comparison& comparison) {
+Blocks completeness_blocks(const Comparison& comparison) {
   auto table = completeness_table(comparison);
-  if (!table) return "";
+  if (!table) return {};
   table->title.clear();
-  return to_html(*table);
+  return {std::move(*table)};
 }
 
-std::vector<PagePart> parts_of(const NightInput& input) {
-  std::vector<PagePart> parts;
-  const auto add = [&](const char* id, const char* title, std::string body) {
-    parts.push_back({id, title, std::move(body)});
-  };
-  if (const auto& comparison = input.comparison) {
-    const std::string worse = changes_of(*comparison, "worse");
-    add("worse-section", "What became worse",
-        (worse.empty() ? "<p>Nothing.</p>\n" : worse) + picture_pairs(input.pictures) +
-            changes_of(*comparison, "uncertain", true));
-    add("differs-section", "What differs", list_of(comparison->differing));
-    add("better-section", "What became better", changes_of(*comparison, "better"));
-    add("cells-section", "Completeness", completeness_of(*comparison));
-    add("matrix-section", "Pipelines × scenarios",
-        html_status_matrices(input.now, *comparison, input.rankings, input.scenarios_page));
-    add("figures-section", "Figures of what became worse", picture_pairs(input.figures));
-  }
-  add("rankings-section", "Rankings, and accuracy against time", html_rankings(input.rankings, input.scenarios_page));
-  add("worst-section", "The worst scans of each pipeline", worst_list(input));
-  add("trends-section", "Trends", trends(input));
-  add("nights-section", "Nights", history(input));
-  add("files-section", "Files", file_list(input));
-  add("definitions-section", "What the metrics mean", definitions(input));
-  return parts;
+Blocks worse_blocks(const NightInput& input) {
+  Blocks blocks = change_blocks(*input.comparison, "worse");
+  if (blocks.empty()) blocks.push_back(Paragraph{"Nothing."});
+  add_blocks(blocks, picture_blocks(input.pictures));
+  add_blocks(blocks, change_blocks(*input.comparison, "uncertain", true));
+  return blocks;
+}
+
+std::vector<Section> sections_of(const NightInput& input) {
+  std::vector<Section> sections;
+  if (const auto& comparison = input.comparison)
+    sections = {{"worse-section", "What became worse", worse_blocks(input)},
+                {"differs-section", "What differs", list_blocks(comparison->differing)},
+                {"better-section", "What became better", change_blocks(*comparison, "better")},
+                {"cells-section", "Completeness", completeness_blocks(*comparison)},
+                {"matrix-section", "Pipelines × scenarios",
+                 status_matrices(input.now, *comparison, input.rankings, input.scenarios_page)},
+                {"figures-section", "Figures of what became worse", picture_blocks(input.figures)}};
+  for (Section& section :
+       std::vector<Section>{{"rankings-section", "Rankings, and accuracy against time",
+                             ranking_blocks(input.rankings, input.scenarios_page)},
+                            {"worst-section", "The worst scans of each pipeline", worst_blocks(input)},
+                            {"trends-section", "Trends", trend_blocks(input)},
+                            {"nights-section", "Nights", history_blocks(input)},
+                            {"files-section", "Files", file_blocks(input)},
+                            {"definitions-section", "What the metrics mean", definition_blocks(input)}})
+    sections.push_back(std::move(section));
+  return sections;
 }
 
 }  // namespace
@@ -215,9 +234,10 @@ std::string reuse_text(std::size_t cells, std::size_t reused) {
   return fmt::format("{} of {} cells were not run again, because nothing in them changed.", reused, cells);
 }
 
-std::string night_page(const NightInput& input) {
-  return html_page("scanbench, night of " + input.suite,
-                   verdict_banner(input) + html_parts(parts_of(input), input.facts));
+Document night_document(const NightInput& input) {
+  Document page{"scanbench, night of " + input.suite, verdict_blocks(input)};
+  add_blocks(page.blocks, section_blocks(sections_of(input), input.facts));
+  return page;
 }
 
 }  // namespace scanbench::harness

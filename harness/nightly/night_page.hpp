@@ -11,6 +11,7 @@
 #include "harness/analysis/comparison.hpp"
 #include "harness/analysis/method_ranking.hpp"
 #include "harness/nightly/store.hpp"
+#include "harness/page/document.hpp"
 #include "harness/report/worst_scans.hpp"
 #include "harness/store/run_file.hpp"
 
@@ -49,14 +50,13 @@ struct NightInput {
   std::vector<std::pair<std::string, std::string>> facts;  ///< how to get the numbers again
   std::size_t reused = 0;                                  ///< cells that were not run again, because nothing changed
   std::string report;              ///< the run's own report beside this page: a relative link; empty: there is none
-  std::string scenarios_page;      ///< the same if it has an anchor per scenario, as that of a benchmark has not
+  std::string scenarios_page;      ///< the same; empty if the report has no anchor per scenario
   std::vector<std::string> files;  ///< other files beside this page that hold its numbers
 };
 
 /// How many cells the night took from an earlier one, as a sentence.
 std::string reuse_text(std::size_t cells, std::size_t reused);
 
-/// Self-contained HTML: no request, light and dark, readable without JavaScript.
-std::string night_page(const NightInput& input);
+Document night_document(const NightInput& input);
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// Writes the matrices of pipelines and scenarios.
+// Makes the matrices of pipelines and scenarios.
 #include "harness/nightly/status_matrix.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ struct MatrixGroup {
   std::vector<std::string> pipelines;
 };
 
-/// What a comparison says of one pipeline in one scenario.
+/// The findings of a comparison about one pipeline in one scenario.
 struct State {
   std::size_t gates = 0, worse = 0, better = 0, uncertain = 0, same = 0;
   std::size_t broken = 0, failing = 0, missing = 0, added = 0;  // cells
@@ -124,31 +124,12 @@ TableCell cell_of(const State& state, const std::string& ranked) {
   return cell(state.same == state.gates ? "= same" : "≈ within", "", ranked);
 }
 
-/// A scenario whose pipelines no other scenario has: they are side by side, because a column would be long and narrow.
-template <class CellAt>
-std::string one_scenario(const std::string& scenario, const std::vector<std::string>& pipelines,
-                         const CellAt& cell_at) {
-  std::string out = "<section class=\"chips\"><h3>" + html_escaped(scenario) + "</h3><div>\n";
-  for (const auto& pipeline : pipelines) {
-    const TableCell cell = cell_at(scenario, pipeline);
-    const std::string tag = cell.link.empty() ? "span" : "a";
-    const std::string link = cell.link.empty() ? "" : " href=\"" + html_escaped(cell.link) + "\"";
-    out += fmt::format("<{0} class=\"chip {1}\"{2}><b>{3}</b>{4}<small>{5}</small></{0}>\n", tag, cell.state, link,
-                       html_escaped(pipeline), html_escaped(cell.text), html_escaped(cell.spread));
-  }
-  return out + "</div></section>\n";
-}
-
 }  // namespace
 
-std::string html_status_matrices(const RunResults& now, const Comparison& comparison,
-                                 const std::vector<MethodRanking>& rankings, const std::string& report) {
+Blocks status_matrices(const RunResults& now, const Comparison& comparison, const std::vector<MethodRanking>& rankings,
+                       const std::string& report) {
   const std::map<Place, State> states = states_of(comparison);
-  if (states.empty()) return "";
-  std::string out =
-      "<p class=\"caption\">Counts are of gates. ▼ worse, ▲ better, = same to the bit, ≈ changed within the "
-      "tolerances, ? changed by more but not on enough seeds, ✗ not ok, ∅ missing. Below is the largest change, else "
-      "the value by which the pipelines are ranked.</p>\n<div class=\"matrices\">\n";
+  if (states.empty()) return {};
   const auto cell_at = [&](const std::string& scenario, const std::string& pipeline) {
     const auto state = states.find({scenario, pipeline});
     if (state == states.end()) return TableCell{"–"};
@@ -156,11 +137,8 @@ std::string html_status_matrices(const RunResults& now, const Comparison& compar
     if (!report.empty()) cell.link = report + "#" + scenario;
     return cell;
   };
+  BlockGroup matrices{"matrices", {}};
   for (const auto& group : groups_of(now, comparison)) {
-    if (group.scenarios.size() == 1) {
-      out += one_scenario(group.scenarios.front(), group.pipelines, cell_at);
-      continue;
-    }
     Table table{"", "", "", {"pipeline"}, {}, {}};
     for (const auto& scenario : group.scenarios) table.columns.push_back({"", scenario});
     for (const auto& pipeline : group.pipelines) {
@@ -168,9 +146,16 @@ std::string html_status_matrices(const RunResults& now, const Comparison& compar
       for (const auto& scenario : group.scenarios) row.cells.push_back(cell_at(scenario, pipeline));
       table.rows.push_back(std::move(row));
     }
-    out += to_html(table);
+    table.side_by_side = group.scenarios.size() == 1;  // a column would be long and narrow
+    if (table.side_by_side) table.title = group.scenarios.front();
+    matrices.blocks.push_back(std::move(table));
   }
-  return out + "</div>\n";
+  return {
+      Paragraph{"Counts are of gates. ▼ worse, ▲ better, = same to the bit, ≈ changed within the tolerances, ? changed "
+                "by more but not on enough seeds, ✗ not ok, ∅ missing. Below is the largest change, else the value by "
+                "which the pipelines are ranked.",
+                "caption"},
+      std::move(matrices)};
 }
 
 }  // namespace scanbench::harness

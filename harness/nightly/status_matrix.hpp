@@ -7,15 +7,15 @@
 #include "harness/analysis/comparison.hpp"
 #include "harness/analysis/method_ranking.hpp"
 #include "harness/analysis/run_results.hpp"
+#include "harness/page/document.hpp"
 
 namespace scanbench::harness {
 
 /// One table per group of scenarios that have the same pipelines, so that none is mostly empty: a row per pipeline, a
 /// column per scenario; the cells of a scenario with its own pipelines are side by side. A cell has a symbol, a word, a
 /// colour and one value: the change of the metric that moved most in units of its tolerance, else the metric by which
-/// the group is ranked. It leads to the scenario in `report`, if that is not empty. HTML; empty if nothing was
-/// compared.
-std::string html_status_matrices(const RunResults& now, const Comparison& comparison,
-                                 const std::vector<MethodRanking>& rankings, const std::string& report);
+/// the group is ranked. It leads to the scenario in `report`, if that is not empty. Empty if nothing was compared.
+Blocks status_matrices(const RunResults& now, const Comparison& comparison, const std::vector<MethodRanking>& rankings,
+                       const std::string& report);
 
 }  // namespace scanbench::harness

@@ -1,10 +1,8 @@
-// Writes the frame of pages: styles, the script of tables and figures, contents, facts.
+// Writes documents as HTML: the frame of the page, its styles, the script of tables and figures, and every block.
 #include "harness/page/html_page.hpp"
 
-#include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -157,47 +155,85 @@ for (const image of document.querySelectorAll('figure img')) {
 }
 )js";
 
+std::string html_text(const std::string& text) {
+  return html_escaped(plain_text(text));
+}
+
+/// ' name="value"', or nothing without a value.
+std::string attribute(const char* name, const std::string& value) {
+  return value.empty() ? "" : fmt::format(" {}=\"{}\"", name, html_text(value));
+}
+
+std::string html_line(const Prose& prose) {
+  std::string out;
+  for (const TextSpan& span : prose.spans) {
+    std::string text = html_text(span.text);
+    if (span.look != TextSpan::Look::plain)
+      text = fmt::format("<{0}>{1}</{0}>", span.look == TextSpan::Look::bold ? "b" : "code", text);
+    if (!span.address.empty())
+      text = fmt::format("<a{}{}>{}</a>", attribute("href", span.address), attribute("title", span.hint), text);
+    out += text;
+  }
+  return out;
+}
+
+struct HtmlWriter {
+  std::string operator()(const Heading& heading) const {
+    return fmt::format("<h{0}{1}>{2}</h{0}>\n", heading.level, attribute("id", heading.id), html_line(heading.text));
+  }
+  std::string operator()(const Paragraph& paragraph) const {
+    return fmt::format("<p{}>{}</p>\n", attribute("class", paragraph.style), html_line(paragraph.text));
+  }
+  std::string operator()(const BulletList& list) const {
+    std::string out = "<ul>\n";
+    for (const Prose& item : list.items) out += "<li>" + html_line(item) + "</li>\n";
+    return out + "</ul>\n";
+  }
+  std::string operator()(const Definitions& definitions) const {
+    std::string out = "<dl>\n";
+    for (const auto& [name, meaning] : definitions.items)
+      out += "<dt>" + html_text(name) + "</dt><dd>" + html_text(meaning) + "</dd>\n";
+    return out + "</dl>\n";
+  }
+  std::string operator()(const Table& table) const { return to_html(table); }
+  std::string operator()(const Picture& picture) const {
+    const std::string& source = picture.data.empty() ? picture.address : picture.data;
+    std::string shown = picture.drawing;
+    if (shown.empty() && !source.empty())
+      shown = fmt::format("<img{} alt=\"{}\" src=\"{}\">", picture.data.empty() ? " loading=\"lazy\"" : "",
+                          html_text(picture.alt), html_escaped(source));
+    if (shown.empty()) return (*this)(Paragraph{picture.caption, "faint"});
+    return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", shown, html_line(picture.caption));
+  }
+  std::string operator()(const ContentLinks& contents) const {
+    std::string out = "<nav>";
+    for (const auto& [id, title] : contents.places) out += html_line({link(title, "#" + id)});
+    return out + "</nav>\n";
+  }
+  std::string operator()(const Markup& markup) const { return markup.html; }
+  std::string operator()(const Fold& fold) const {
+    return fmt::format("<details><summary>{}</summary>\n{}</details>\n", html_text(fold.summary), to_html(fold.blocks));
+  }
+  std::string operator()(const BlockGroup& group) const {
+    return fmt::format("<div{}{}>\n{}</div>\n", attribute("class", group.style), attribute("id", group.id),
+                       to_html(group.blocks));
+  }
+};
+
 }  // namespace
 
-std::string html_page(const std::string& title, const std::string& body) {
+std::string to_html(const Blocks& blocks) {
+  std::string out;
+  for (const Block& block : blocks) out += std::visit(HtmlWriter{}, static_cast<const AnyBlock&>(block));
+  return out;
+}
+
+std::string to_html(const Document& document) {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
       "content=\"width=device-width\">\n"
       "<title>{0}</title><style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n{2}<script>{3}</script></body></html>\n",
-      html_escaped(title), kStyle, body, kScript);
-}
-
-std::string contents(const std::vector<std::pair<std::string, std::string>>& parts) {
-  std::string out = "<nav>";
-  for (const auto& [id, title] : parts)
-    out += fmt::format("<a href=\"#{}\">{}</a>", html_escaped(id), html_escaped(title));
-  return out + "</nav>\n";
-}
-
-std::string html_parts(const std::vector<PagePart>& parts,
-                       const std::vector<std::pair<std::string, std::string>>& facts) {
-  std::string out;
-  std::vector<std::pair<std::string, std::string>> links;
-  for (const auto& [id, title, body] : parts) {
-    if (body.empty()) continue;
-    links.emplace_back(id, title);
-    out += fmt::format("<h2 id=\"{}\">{}</h2>\n{}", html_escaped(id), html_escaped(title), body);
-  }
-  links.emplace_back("facts", "How to get these numbers again");
-  return contents(links) + out + html_facts(facts);
-}
-
-std::string html_facts(const std::vector<std::pair<std::string, std::string>>& facts) {
-  std::string out = "<h2 id=\"facts\">How to get these numbers again</h2>\n<dl>\n";
-  for (const auto& [name, value] : facts)
-    out += "<dt>" + html_escaped(name) + "</dt><dd>" + html_escaped(value) + "</dd>\n";
-  return out + "</dl>\n";
-}
-
-std::string markdown_facts(const std::vector<std::pair<std::string, std::string>>& facts) {
-  std::string out = "\n## How to get these numbers again\n\n";
-  for (const auto& [name, value] : facts) out += "- " + name + ": " + markdown_escaped(value) + "\n";
-  return out;
+      html_text(document.title), kStyle, to_html(document.blocks), kScript);
 }
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// Makes text from modules, files and users safe for a terminal, a table or a Markdown page.
+// Makes text from modules, files and users safe for a terminal, a table, a page or a shell.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,9 @@ std::string plain_line(std::string_view text, std::size_t limit = 600);
 
 /// Escapes text for Markdown, on one line, so that it makes no HTML, table column, link or emphasis.
 std::string markdown_escaped(std::string_view text);
+
+/// The five characters that HTML and XML reserve, escaped.
+std::string html_escaped(std::string_view text);
 
 /// The text as one word of a POSIX shell: as it is, or in single quotes if it has other characters than letters, digits
 /// and -_./=:,+@%.

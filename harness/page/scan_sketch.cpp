@@ -11,7 +11,6 @@
 
 #include "core/special_values.hpp"
 #include "harness/page/plain_text.hpp"
-#include "harness/page/table.hpp"
 
 namespace scanbench::harness {
 namespace {

@@ -10,8 +10,8 @@
 #include <span>
 #include <utility>
 
+#include "core/ticks.hpp"
 #include "harness/page/plain_text.hpp"
-#include "harness/page/table.hpp"
 
 namespace scanbench::harness {
 namespace {
@@ -36,42 +36,21 @@ struct Axis {
   double operator()(double value) const { return from + (to - from) * (value - low) / (high - low); }
 };
 
-/// With a margin on both sides. An axis is at least `shortest` long, so that it does not magnify what is next to equal.
+/// With a margin on both sides. An axis is at least `shortest` long, so that it does not magnify
+/// differences that do not matter.
 Axis axis_over(double low, double high, double shortest, double from, double to) {
   const double reach = std::max(0.08 * (high - low), 0.5 * (shortest - (high - low)));
   return {low - reach, high + reach, from, to};
 }
 
-/// Round values in [low, high]: 1, 2 or 5 times a power of ten apart, about five of them.
-std::vector<double> round_values(double low, double high) {
-  const double rough = (high - low) / 5.0;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  double step = 10.0 * power;
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough) {
-      step = factor * power;
-      break;
-    }
-  std::vector<double> values;
-  const auto first = static_cast<long>(std::ceil(low / step));
-  const auto last = static_cast<long>(std::floor(high / step));
-  for (long k = first; k <= last; ++k) values.push_back(static_cast<double>(k) * step);
-  return values;
-}
+constexpr int kTicks = 5;  // about as many on an axis of equal steps
 
-/// Values of a logarithmic axis: powers of ten, 2 and 5 times these if the axis is short, and steps of equal size if it
+/// Ticks of a logarithmic axis: powers of ten, 2 and 5 times these if the axis is short, and steps of equal size if it
 /// spans no more than a factor of five.
-std::vector<double> round_powers(const Axis& axis) {
-  if (axis.high - axis.low < std::log10(5.0)) return round_values(std::pow(10.0, axis.low), std::pow(10.0, axis.high));
-  std::vector<double> values;
-  const bool is_short = axis.high - axis.low < 2.5;
-  for (int power = static_cast<int>(std::floor(axis.low)); power <= axis.high; ++power)
-    for (const double factor : {1.0, 2.0, 5.0}) {
-      const double value = factor * std::pow(10.0, power);
-      const double place = std::log10(value);
-      if ((factor == 1.0 || is_short) && place >= axis.low && place <= axis.high) values.push_back(value);
-    }
-  return values;
+std::vector<Tick> ticks_of_powers(const Axis& axis) {
+  const double low = std::pow(10.0, axis.low), high = std::pow(10.0, axis.high), decades = axis.high - axis.low;
+  if (decades < std::log10(5.0)) return linear_ticks(low, high, kTicks);
+  return decades < 2.5 ? decade_ticks(low, high) : log_ticks(low, high, static_cast<int>(decades) + 1);
 }
 
 struct Box {
@@ -115,16 +94,15 @@ class ScatterDrawing {
 
   std::string axes() const {
     std::string out = fmt::format(R"(<g class="axis"><path d="M{0} {1}V{2}H{3}"/>)", kLeft, kTop, kBottom, kRight);
-    for (const double value : round_powers(x_)) {
-      const double at = x_(std::log10(value));
-      out += fmt::format(R"(<path d="M{0:.1f} {1}v4"/><text x="{0:.1f}" y="{2}" text-anchor="middle">{3:g}</text>)", at,
-                         kBottom, kBottom + 17, value);
+    for (const Tick& tick : ticks_of_powers(x_)) {
+      const double at = x_(std::log10(tick.value));
+      out += fmt::format(R"(<path d="M{0:.1f} {1}v4"/><text x="{0:.1f}" y="{2}" text-anchor="middle">{3}</text>)", at,
+                         kBottom, kBottom + 17, tick.label);
     }
-    for (const double value : log_y_ ? round_powers(y_) : round_values(y_.low, y_.high)) {
-      const double at = at_y(value);
-      const double shown = !log_y_ && std::fabs(value) < 1e-12 * (y_.high - y_.low) ? 0.0 : value;
-      out += fmt::format(R"(<path d="M{0} {1:.1f}h-4"/><text x="{2}" y="{3:.1f}" text-anchor="end">{4:.4g}</text>)",
-                         kLeft, at, kLeft - 7, at + 4, shown);
+    for (const Tick& tick : log_y_ ? ticks_of_powers(y_) : linear_ticks(y_.low, y_.high, kTicks)) {
+      const double at = at_y(tick.value);
+      out += fmt::format(R"(<path d="M{0} {1:.1f}h-4"/><text x="{2}" y="{3:.1f}" text-anchor="end">{4}</text>)", kLeft,
+                         at, kLeft - 7, at + 4, tick.label);
     }
     out += fmt::format(R"(<text x="{:.1f}" y="{}" text-anchor="middle">{}</text>)", 0.5 * (kLeft + kRight), kHeight - 8,
                        html_escaped(plain_line(chart_.x_label)));

@@ -19,7 +19,7 @@ struct ScatterChart {
   std::vector<ScatterPoint> points;
 };
 
-/// Inline SVG of 480 x 300 px in the colours of the page. Every point has its name as a hint; the name stands beside it
+/// Inline SVG of 480 x 300 px in the colours of the page. Every point has its name as a hint; the name is beside it
 /// where there is room, those of the front first. The y axis is logarithmic too if all y are above 0 and span more than
 /// a factor of 30. Points that cannot be drawn (not finite, x not above 0) are left out; the text is empty if none is
 /// left.

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/special_values.hpp"
-#include "harness/page/table.hpp"
+#include "harness/page/plain_text.hpp"
 
 namespace scanbench::harness {
 namespace {

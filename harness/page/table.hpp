@@ -1,6 +1,7 @@
 // Tables that are written as terminal text, Markdown and HTML.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct TableCell {
   std::string link{};      ///< HTML: what the text leads to, a relative address; may be empty
   std::string state{};  ///< HTML: worse, better, uncertain, failed or missing: a colour beside the words; may be empty
   std::string hint{};   ///< HTML: shown when the pointer rests on the text, for example a command
+  std::string drawing{};  ///< HTML: inline SVG after the text
 };
 
 struct TableColumn {
@@ -34,6 +36,9 @@ struct Table {
     bool published = false;
   };
   std::vector<Row> rows;
+  std::size_t page_width = 1000;  ///< HTML: a wider table is split by parts_of_width()
+  bool side_by_side = false;      ///< HTML: the cells of its only column beside each other, because the table is narrow
+  bool pages_only = false;        ///< too long for a terminal
 };
 
 /// Splits a table into parts of at most `width` characters if it is wider: between groups of columns, or between single
@@ -44,8 +49,5 @@ std::vector<Table> parts_of_width(const Table& table, std::size_t width);
 std::string to_terminal(const Table& table, bool color, std::size_t width = 1000);
 std::string to_markdown(const Table& table);
 std::string to_html(const Table& table);
-
-/// The five characters that HTML and XML reserve, escaped.
-std::string html_escaped(const std::string& text);
 
 }  // namespace scanbench::harness

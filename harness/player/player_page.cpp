@@ -1,4 +1,5 @@
-// Style and script of the page; its data are JSON in a script element, which nothing executes.
+// Builds the page that plays scans: its style, its script, and its data as JSON in a script element that is not
+// executed.
 #include "harness/player/player_page.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "harness/files/json.hpp"
+#include "harness/page/document.hpp"
 #include "harness/page/html_page.hpp"
 
 namespace scanbench::harness {
@@ -227,13 +229,16 @@ std::string player_page(const std::filesystem::path& run, const std::vector<Scen
     throw ConfigError(run.string() +
                       ": there are no scans with lines to play: no recording with scans has a pipeline "
                       "that ended well");
-  std::string body = std::string(kPlayerStyle);
-  body += "<p class=\"faint\">The scans of the first seed and the lines of each pipeline. A page holds at most " +
-          fmt::format("{} scans of a recording and about {} MiB in all.</p>\n", limits.scans, limits.bytes >> 20);
-  body += std::string(kPlayerBody) + "\n<script type=\"application/json\" id=\"data\">" + script_data(recordings) +
-          "</script>\n" + std::string(kPlayerScript);
-  return html_page("scanbench: scans of " + std::filesystem::absolute(run).lexically_normal().filename().string(),
-                   body);
+  return to_html(Document{
+      "scanbench: scans of " + std::filesystem::absolute(run).lexically_normal().filename().string(),
+      {Markup{std::string(kPlayerStyle)},
+       Paragraph{
+           fmt::format("The scans of the first seed and the lines of each pipeline. A page holds at most {} scans "
+                       "of a recording and about {} MiB in all.",
+                       limits.scans, limits.bytes >> 20),
+           "faint"},
+       Markup{std::string(kPlayerBody) + "\n<script type=\"application/json\" id=\"data\">" + script_data(recordings) +
+              "</script>\n" + std::string(kPlayerScript)}}});
 }
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// Takes the worst scans first, because they are what a reader looks for.
+// Chooses the worst scans first, because readers look for them.
 #include "harness/player/scan_choice.hpp"
 
 #include <algorithm>

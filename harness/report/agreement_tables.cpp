@@ -192,6 +192,7 @@ std::vector<Table> departure_tables(const std::string& scenario, const std::vect
   }
   if (stated == 0) return {};
   table.title += fmt::format(" ({} of {} orderings)", table.rows.size(), stated);
+  table.pages_only = true;
   return {table};
 }
 

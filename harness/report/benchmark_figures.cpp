@@ -2,13 +2,16 @@
 #include "harness/report/benchmark_figures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <set>
+#include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/registry.hpp"
+#include "core/ticks.hpp"
 #include "harness/analysis/error_bins.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
@@ -113,13 +116,7 @@ std::vector<Vec2> bound_curve(const std::vector<ErrorPoint>& points) {
 /// 1, 2, 5 times powers of ten.
 std::vector<std::pair<double, std::string>> round_ticks(double low, double high) {
   std::vector<std::pair<double, std::string>> ticks;
-  const int first = static_cast<int>(std::floor(std::log10(low))),
-            last = static_cast<int>(std::floor(std::log10(high)));
-  for (int exponent = first; exponent <= last; ++exponent)
-    for (const double multiple : {1.0, 2.0, 5.0}) {
-      const double value = multiple * std::pow(10.0, exponent);
-      ticks.emplace_back(value, fmt::format("{:.3g}", value));
-    }
+  for (const Tick& tick : decade_ticks(low, high)) ticks.emplace_back(tick.value, fmt::format("{:.3g}", tick.value));
   return ticks;
 }
 
@@ -180,70 +177,65 @@ class Drawer {
     files_.push_back({"benchmark", "benchmark_" + name, caption});
   }
 
-  void draw_f1() {
-    std::set<double> levels;
-    for (const auto& scenario : scenarios_) levels.insert(noise_m(scenario));
-    const CellValues f1 = values_of(rows_, "f1");
-    FacetChart chart{.title = "F1 against noise: difference to 100 %",
+  using ShownInterval = std::array<double, 3>;  // value, low, high
+
+  /// A column against the noise, one panel per pipeline. `shown` scales an interval to the axis, or leaves it out.
+  FacetChart chart_over_noise(const BenchmarkColumn& column, const std::string& title, const std::string& label,
+                              const std::function<std::optional<ShownInterval>(const MeanInterval&)>& shown) const {
+    FacetChart chart{.title = title,
                      .x = {.label = "σ of a range [cm]"},
-                     .y = {.label = "100 − F1 [%]", .log = true, .ticks = round_ticks(1e-3, 100.0)},
-                     .curve_names = {"this extractor"},
+                     .y = {.label = label, .log = true, .ticks = round_ticks(1e-3, 5e6)},
+                     .curve_names = {"this " + subject_.noun},
                      .others_name = "the others"};
-    for (const double level : levels) chart.x.ticks.emplace_back(100 * level, fmt::format("{:.3g}", 100 * level));
-    for (const auto& name : names_) {
+    const CellValues values = values_of(rows_, column.metric);
+    std::map<double, std::vector<std::string>> scenarios;  // by noise
+    for (const auto& scenario : scenarios_) scenarios[noise_m(scenario)].push_back(scenario.name);
+    for (const auto& [noise, names] : scenarios)
+      chart.x.ticks.emplace_back(100 * noise, fmt::format("{:.3g}", 100 * noise));
+    for (const auto& pipeline : names_) {
       FacetCurve curve;
-      for (const double level : levels) {
-        std::vector<std::string> at_level;
-        for (const auto& scenario : scenarios_)
-          if (noise_m(scenario) == level) at_level.push_back(scenario.name);
-        const MeanInterval interval = mean_interval(per_seed(f1, name, seeds_, at_level));
-        curve.points.emplace_back(100 * level, 100 * (1 - interval.mean));
-        curve.intervals.push_back({100 * level, std::max(1e-3, 100 * (1 - interval.high)), 100 * (1 - interval.low)});
+      for (const auto& [noise, names] : scenarios) {
+        const auto interval = shown(mean_interval(per_seed(values, pipeline, seeds_, names, column.geometric)));
+        if (!interval) continue;
+        const auto& [value, low, high] = *interval;
+        curve.points.emplace_back(100 * noise, value);
+        curve.intervals.push_back({100 * noise, low, high});
       }
-      chart.facets.push_back({name, {curve}, {}});
+      chart.facets.push_back({pipeline, {curve}, {}});
     }
     chart.y.range = log_range(chart.facets, 1);
-    write("f1_noise",
-          "F1 against the standard deviation of the readings, as its difference to 100 %, lower is better: mean over "
-          "worlds and sensors, bars are 95 % intervals over the seeds. Every panel shows the other extractors in grey; "
-          "panels are in the order of rank.",
-          chart);
+    return chart;
+  }
+
+  void draw_f1() {
+    const auto to_perfect = [](const MeanInterval& f1) -> std::optional<ShownInterval> {
+      return ShownInterval{100 * (1 - f1.mean), std::max(1e-3, 100 * (1 - f1.high)), 100 * (1 - f1.low)};
+    };
+    write(
+        "f1_noise",
+        "F1 against the standard deviation of the readings, as its difference to 100 %, lower is better: mean over "
+        "worlds and sensors, bars are 95 % intervals over the seeds. Every panel shows the other extractors in grey; "
+        "panels are in the order of rank.",
+        chart_over_noise(subject_.rank_column(), "F1 against noise: difference to 100 %", "100 − F1 [%]", to_perfect));
   }
 
   /// The metric that decides the rank, one of those that span decades.
   void draw_rank_over_noise() {
     const BenchmarkColumn& rank = subject_.rank_column();
-    const CellValues values = values_of(rows_, rank.metric);
-    std::set<double> levels;
-    for (const auto& scenario : scenarios_) levels.insert(noise_m(scenario));
-    FacetChart chart{.title = rank.head + " against noise",
-                     .x = {.label = "σ of a range [cm]"},
-                     .y = {.label = rank.head, .log = true, .ticks = round_ticks(1e-3, 1e6)},
-                     .curve_names = {"this " + subject_.noun},
-                     .others_name = "the others"};
-    for (const double level : levels) chart.x.ticks.emplace_back(100 * level, fmt::format("{:.3g}", 100 * level));
-    for (const auto& name : names_) {
-      FacetCurve curve;
-      for (const double level : levels) {
-        std::vector<std::string> at_level;
-        for (const auto& scenario : scenarios_)
-          if (noise_m(scenario) == level) at_level.push_back(scenario.name);
-        const MeanInterval interval = mean_interval(per_seed(values, name, seeds_, at_level, rank.geometric));
-        if (!(interval.mean > 0)) continue;
-        const double scaled = rank.scale * interval.mean, low = rank.scale * interval.low;
-        curve.points.emplace_back(100 * level, scaled);
-        curve.intervals.push_back({100 * level, low > 0 ? low : 0.1 * scaled, rank.scale * interval.high});
-      }
-      chart.facets.push_back({name, {curve}, {}});
-    }
+    const auto scaled = [&](const MeanInterval& interval) -> std::optional<ShownInterval> {
+      if (!(interval.mean > 0)) return std::nullopt;
+      const double value = rank.scale * interval.mean, low = rank.scale * interval.low;
+      return ShownInterval{value, low > 0 ? low : 0.1 * value, rank.scale * interval.high};
+    };
+    FacetChart chart = chart_over_noise(rank, rank.head + " against noise", rank.head, scaled);
     if (rank.metric == subject_.bound.metric) {  // where the best possible is
       chart.reference_name = "the bound, the best possible";
       for (Facet& facet : chart.facets)
-        facet.reference = {Vec2(100 * *levels.begin(), 1.0), Vec2(100 * *levels.rbegin(), 1.0)};
+        facet.reference = {Vec2(chart.x.ticks.front().first, 1.0), Vec2(chart.x.ticks.back().first, 1.0)};
+      chart.y.range = log_range(chart.facets, 1);
     }
-    const auto range = log_range(chart.facets, 1);
-    chart.y.range = range;
-    if (range.second > 1e3 * range.first) chart.y.ticks.clear();  // powers of ten alone: the labels would touch
+    // Powers of ten alone: the labels of all ticks would touch.
+    if (chart.y.range->second > 1e3 * chart.y.range->first) chart.y.ticks.clear();
     write(rank.metric + "_noise",
           rank.head +
               " against the standard deviation of the readings, lower is better: mean over the conditions, bars "
@@ -264,7 +256,7 @@ class Drawer {
   void draw_errors_over_range() {
     const auto chart_of = [&](const std::string& what, const std::string& unit, ErrorBins MatchBins::*bins) {
       FacetChart chart{.title = what + " error against range",
-                       .x = {.label = "range [m]", .log = true, .ticks = round_ticks(0.1, 100.0)},
+                       .x = {.label = "range [m]", .log = true, .ticks = round_ticks(0.1, 500.0)},
                        .y = {.label = "rms error [" + unit + "]", .log = true},
                        .curve_names = {"this extractor"},
                        .reference_name = "Cramér–Rao bound of its lines",

@@ -1,4 +1,4 @@
-// Writes the page of a benchmark over all of its scenarios.
+// Builds the page of a benchmark over all of its scenarios.
 #include "harness/report/benchmark_report.hpp"
 
 #include <algorithm>
@@ -10,8 +10,6 @@
 #include <fmt/ranges.h>
 
 #include "core/geometry/geometry.hpp"
-#include "harness/page/html_page.hpp"
-#include "harness/page/plain_text.hpp"
 #include "harness/report/level_table.hpp"
 #include "harness/report/page_parts.hpp"
 #include "harness/report/ranking_table.hpp"
@@ -154,7 +152,7 @@ std::string other_module(const std::vector<Scenario>& scenarios, std::size_t pip
   return slot.module + (params.empty() ? "" : " (" + params + ")");
 }
 
-Table modules_table(const ReportInput& input, const BenchmarkSpec& spec, const std::vector<RankedPipeline>& ranking) {
+Table modules_table(const ReportInput& input, const BenchmarkSpec& spec) {
   const auto& scenarios = input.scenarios;
   const std::string& noun = spec.subject().noun;
   std::string title = noun + "s";
@@ -165,7 +163,7 @@ Table modules_table(const ReportInput& input, const BenchmarkSpec& spec, const s
     if (slot.kind != spec.of) others.push_back(slot.kind);
   for (const auto& kind : others) table.row_heads.push_back(kind);
   bool by_noise = false;
-  for (const auto& ranked : ranking) {
+  for (const auto& ranked : input.ranking) {
     const auto& pipelines = scenarios.front().pipelines;
     const auto k =
         static_cast<std::size_t>(std::ranges::find(pipelines, ranked.name, &PipelineSpec::name) - pipelines.begin());
@@ -238,19 +236,19 @@ std::string significance_text(const std::vector<RankedPipeline>& ranking) {
   return method + fmt::format("All of them differ at the 5 % level, except {}.", fmt::join(ties, "; "));
 }
 
-std::vector<std::pair<std::string, std::string>> definitions(const BenchmarkSpec& spec) {
-  std::vector<std::pair<std::string, std::string>> all;
+Definitions column_definitions(const BenchmarkSpec& spec) {
+  Definitions all;
   const BenchmarkColumn& rank = spec.subject().rank_column();
   for (const auto& column : spec.subject().columns) {
     std::string text = column.definition;
     if (column.geometric) text += "; geometric mean over the conditions";
-    all.emplace_back(column.metric == "t_ratio" ? "time / " + spec.baseline : column.head, text);
+    all.items.emplace_back(column.metric == "t_ratio" ? "time / " + spec.baseline : column.head, text);
   }
-  all.emplace_back(next_head(rank),
-                   rank.geometric ? "mean ratio of the first column to that of the next in rank, with the p-value"
-                                  : "mean difference of the first column to the next in rank, in points, with the "
-                                    "p-value");
-  all.emplace_back("best in", "conditions in which its first column is the best; ties count for all");
+  all.items.emplace_back(
+      next_head(rank), rank.geometric ? "mean ratio of the first column to that of the next in rank, with the p-value"
+                                      : "mean difference of the first column to the next in rank, in points, with the "
+                                        "p-value");
+  all.items.emplace_back("best in", "conditions in which its first column is the best; ties count for all");
   return all;
 }
 
@@ -262,28 +260,12 @@ std::vector<std::string> names_of(const std::vector<RankedPipeline>& ranking) {
 }
 
 /// The table by levels and its sentence; empty if the suite has no factors.
-std::string levels_html(const ReportInput& input, const BenchmarkSpec& spec,
-                        const std::vector<RankedPipeline>& ranking) {
-  const auto names = names_of(ranking);
+Blocks level_blocks(const ReportInput& input, const BenchmarkSpec& spec) {
+  const auto names = names_of(input.ranking);
   const auto results = results_by_level(input.scenarios, input.rows, spec, names);
-  if (results.empty()) return "";
-  return fmt::format("<h2>Which is best under which condition</h2>\n<p>{}</p>\n<div class=\"compact plain\">{}</div>\n",
-                     html_escaped(best_by_level_text(results, names, spec)),
-                     to_html(level_table(results, names, spec)));
-}
-
-std::string levels_markdown(const ReportInput& input, const BenchmarkSpec& spec,
-                            const std::vector<RankedPipeline>& ranking) {
-  const auto names = names_of(ranking);
-  const auto results = results_by_level(input.scenarios, input.rows, spec, names);
-  if (results.empty()) return "";
-  return "\n" + to_markdown(level_table(results, names, spec)) + "\n" + best_by_level_text(results, names, spec) + "\n";
-}
-
-std::string figure_html(const ReportInput& input, const std::string& name, const std::string& number) {
-  const auto figure = std::ranges::find(input.figures, name, &FigureFile::name);
-  if (figure == input.figures.end()) return "";
-  return html_figure(input.run, *figure, "<b>" + number + ".</b> " + html_escaped(figure->caption));
+  if (results.empty()) return {};
+  return {Heading{2, "Which is best under which condition"}, Paragraph{best_by_level_text(results, names, spec)},
+          BlockGroup{"compact plain", {level_table(results, names, spec)}}};
 }
 
 std::vector<std::pair<std::string, std::string>> numbered_figures(const BenchmarkSpec& spec) {
@@ -298,51 +280,46 @@ std::vector<std::pair<std::string, std::string>> numbered_figures(const Benchmar
           {spec.example + "_scan_overlay", "Figure 4"}};
 }
 
-}  // namespace
-
-std::string benchmark_html(const ReportInput& input, const BenchmarkSpec& spec) {
-  const auto ranking = rank_pipelines(input.scenarios, input.rows, spec);
-  const std::string answer =
-      fmt::format("<p><b>{}</b> {}</p>\n", html_escaped(answer_text(ranking, spec)), html_escaped(spec.about)) +
-      html_status(input.cells);
-  std::string figures = "<div class=\"beside\">\n";
-  for (const auto& [name, number] : numbered_figures(spec)) figures += figure_html(input, name, number);
-  std::string columns = "<p>" + html_escaped(spec.subject().method) + "</p>\n<dl>\n";
-  for (const auto& [head, text] : definitions(spec))
-    columns += "<dt>" + html_escaped(head) + "</dt><dd>" + html_escaped(text) + "</dd>\n";
-  std::string limits = "<ul>\n";
-  for (const auto& limit : spec.subject().limits) limits += "<li>" + html_escaped(limit) + "</li>\n";
-  const std::vector<PagePart> parts{
-      {"ranking-section", "Ranking",
-       "<div class=\"compact\">" + to_html(ranking_table(ranking, spec)) + "</div>\n<p>" +
-           html_escaped(significance_text(ranking)) + "</p>\n" + levels_html(input, spec, ranking)},
-      {"figures-section", "Figures", figures + "</div>\n"},
-      {"run-section", "What was run",
-       "<p>" + html_escaped(run_text(input, spec)) + "</p>\n<div class=\"figures compact plain\">\n" +
-           to_html(worlds_table(input)) + to_html(sensors_table(input)) + "</div>\n" + html_remarks(input.cells)},
-      {"columns-section", "How the columns are defined",
-       columns + "</dl>\n<div class=\"prose plain\">" + to_html(modules_table(input, spec, ranking)) + "</div>\n"},
-      {"limits-section", "What it does not show", limits + "</ul>\n"}};
-  return html_page(input.title, answer + html_parts(parts, input.facts));
+Blocks ranking_section(const ReportInput& input, const BenchmarkSpec& spec) {
+  Blocks blocks{BlockGroup{"compact", {ranking_table(input.ranking, spec)}},
+                Paragraph{significance_text(input.ranking)}};
+  add_blocks(blocks, level_blocks(input, spec));
+  return blocks;
 }
 
-std::string benchmark_markdown(const ReportInput& input, const BenchmarkSpec& spec) {
-  const auto ranking = rank_pipelines(input.scenarios, input.rows, spec);
-  Table ranks = ranking_table(ranking, spec);
-  ranks.title = "Ranking";
-  std::string out = "# " + input.title + "\n\n" + markdown_escaped(answer_text(ranking, spec) + " " + spec.about) +
-                    "\n\n" + markdown_status(input.cells);
-  out += "\n" + run_text(input, spec) + "\n\n" + to_markdown(worlds_table(input)) + "\n" +
-         to_markdown(sensors_table(input)) + "\n" + to_markdown(ranks) + "\n" + significance_text(ranking) + "\n" +
-         levels_markdown(input, spec, ranking);
+Blocks figure_section(const ReportInput& input, const BenchmarkSpec& spec) {
+  BlockGroup figures{"beside", {}};
   for (const auto& [name, number] : numbered_figures(spec))
     if (const auto figure = std::ranges::find(input.figures, name, &FigureFile::name); figure != input.figures.end())
-      out += fmt::format("\n![{0}](figures/{1}.svg)\n\n{2}. {0}\n", figure->caption, name, number);
-  out += "\n## How the columns are defined\n\n" + spec.subject().method + "\n\n";
-  for (const auto& [head, text] : definitions(spec)) out += "- " + head + ": " + text + "\n";
-  out += "\n" + to_markdown(modules_table(input, spec, ranking)) + "\n## What it does not show\n\n";
-  for (const auto& limit : spec.subject().limits) out += "- " + limit + "\n";
-  return out + markdown_remarks(input.cells) + markdown_facts(input.facts);
+      figures.blocks.push_back(run_picture(input.run, *figure, number));
+  return {std::move(figures)};
+}
+
+Blocks run_section(const ReportInput& input, const BenchmarkSpec& spec) {
+  Blocks blocks{Paragraph{run_text(input, spec)},
+                BlockGroup{"figures compact plain", {worlds_table(input), sensors_table(input)}}};
+  add_blocks(blocks, remark_blocks(input.cells));
+  return blocks;
+}
+
+}  // namespace
+
+Document benchmark_document(const ReportInput& input) {
+  const BenchmarkSpec& spec = input.benchmark.value();
+  Document page{input.title, {Paragraph{{bold(answer_text(input.ranking, spec)), " " + spec.about}}}};
+  add_blocks(page.blocks, status_blocks(input.cells));
+  BulletList limits;
+  for (const auto& limit : spec.subject().limits) limits.items.emplace_back(limit);
+  add_blocks(page.blocks, section_blocks({{"ranking-section", "Ranking", ranking_section(input, spec)},
+                                          {"figures-section", "Figures", figure_section(input, spec)},
+                                          {"run-section", "What was run", run_section(input, spec)},
+                                          {"columns-section",
+                                           "How the columns are defined",
+                                           {Paragraph{spec.subject().method}, column_definitions(spec),
+                                            BlockGroup{"prose plain", {modules_table(input, spec)}}}},
+                                          {"limits-section", "What it does not show", {limits}}},
+                                         input.facts));
+  return page;
 }
 
 }  // namespace scanbench::harness

@@ -2,15 +2,12 @@
 // benchmark.
 #pragma once
 
-#include <string>
-
-#include "harness/analysis/benchmark.hpp"
+#include "harness/page/document.hpp"
 #include "harness/report/page_input.hpp"
-#include "harness/scenario/benchmark_spec.hpp"
 
 namespace scanbench::harness {
 
-std::string benchmark_html(const ReportInput& input, const BenchmarkSpec& spec);
-std::string benchmark_markdown(const ReportInput& input, const BenchmarkSpec& spec);
+/// `input.benchmark` must have a value, and `input.ranking` its pipelines.
+Document benchmark_document(const ReportInput& input);
 
 }  // namespace scanbench::harness

@@ -7,11 +7,22 @@
 #include <string>
 #include <vector>
 
-#include "harness/report/page_input.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/store/summary.hpp"
 
 namespace scanbench::harness {
+
+/// A cell as the report lists it.
+struct CellLine {
+  std::string scenario;
+  std::string pipeline;
+  std::uint64_t seed = 0;
+  std::string status;   ///< a name of CellStatus, or "missing"
+  std::string message;  ///< why it failed; of a cell that is ok, the remarks of its pipeline
+  double wall_seconds = 0.0;
+  double peak_memory_bytes = 0.0;
+  bool selected = true;  ///< false: the run was restricted to other cells, and this one does not exist
+};
 
 /// Numbers of cells of one pipeline by status.
 struct Coverage {

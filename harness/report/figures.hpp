@@ -34,7 +34,7 @@ struct FigureOptions {
 };
 
 /// Throws ConfigError unless the scenarios have all the pipelines of the options, at least one figure has a frame if
-/// the options name one, and the picture is not too large; and for a folder with files that are no figures of this
+/// the options name one, and the picture is not too large; and for a folder with files that are not figures of this
 /// program.
 void check_figure_options(const FigureOptions& options, const std::vector<Scenario>& scenarios);
 

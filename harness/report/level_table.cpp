@@ -71,11 +71,11 @@ std::string best_by_level_text(const std::vector<LevelResult>& results, const st
   const int most = best_at_most(results);
   if (most < 0) return "";
   std::map<int, std::vector<const LevelResult*>> best;
-  std::map<std::pair<int, int>, std::vector<const LevelResult*>> doubtful;  // levels of the best two
+  std::map<std::pair<int, int>, std::vector<const LevelResult*>> uncertain;  // levels of the best two
   for (const auto& result : results) {
     if (result.best >= 0) best[result.best].push_back(&result);
     if (result.best >= 0 && result.second >= 0 && result.p >= 0.05)
-      doubtful[std::minmax(result.best, result.second)].push_back(&result);
+      uncertain[std::minmax(result.best, result.second)].push_back(&result);
   }
   std::string text =
       fmt::format("{} has the best {} ", names[as_index(most)], short_head(spec.subject().rank_column()));
@@ -83,10 +83,10 @@ std::string best_by_level_text(const std::vector<LevelResult>& results, const st
   for (const auto& [pipeline, levels] : best)
     if (pipeline != most) text += fmt::format("; {} at {}", names[as_index(pipeline)], names_of(levels));
   text += ".";
-  if (doubtful.empty()) return text;
+  if (uncertain.empty()) return text;
   std::vector<std::string> pairs;
-  pairs.reserve(doubtful.size());
-  for (const auto& [pair, levels] : doubtful)
+  pairs.reserve(uncertain.size());
+  for (const auto& [pair, levels] : uncertain)
     pairs.push_back(
         fmt::format("{} and {} at {}", names[as_index(pair.first)], names[as_index(pair.second)], names_of(levels)));
   return text + fmt::format(" The seeds do not separate {} (paired t tests, Holm).", fmt::join(pairs, "; "));

@@ -1,31 +1,23 @@
-// The contents of a report.
+// The contents of a report, computed once from the files of a run.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "harness/analysis/benchmark.hpp"
 #include "harness/analysis/method_ranking.hpp"
+#include "harness/report/comparable_rows.hpp"
 #include "harness/report/figures.hpp"
+#include "harness/report/scenario_tables.hpp"
+#include "harness/scenario/benchmark_spec.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/store/summary.hpp"
 
 namespace scanbench::harness {
-
-/// A cell as the report lists it.
-struct CellLine {
-  std::string scenario;
-  std::string pipeline;
-  std::uint64_t seed = 0;
-  std::string status;   ///< a name of CellStatus, or "missing"
-  std::string message;  ///< why it failed; of a cell that is ok, the remarks of its pipeline
-  double wall_seconds = 0.0;
-  double peak_memory_bytes = 0.0;
-  bool selected = true;  ///< false: the run was restricted to other cells, and this one does not exist
-};
 
 struct ReportInput {
   std::filesystem::path run;  ///< figures are read from run/figures
@@ -35,8 +27,11 @@ struct ReportInput {
   std::vector<SummaryRow> rows;
   std::vector<CellLine> cells;
   std::vector<FigureFile> figures;
-  std::map<std::string, MethodRanking> rankings = {};  ///< by scenario: of its pipelines
-  std::map<std::string, std::string> sources = {};     ///< of recorded scenarios: the log's hash and beam angles
+  std::map<std::string, MethodRanking> rankings = {};   ///< by scenario: of its pipelines
+  std::map<std::string, std::string> sources = {};      ///< of recorded scenarios: the log's hash and beam angles
+  std::optional<BenchmarkSpec> benchmark = {};          ///< if the run is one
+  std::vector<RankedPipeline> ranking = {};             ///< of the benchmark's pipelines
+  std::map<std::string, ScenarioResults> results = {};  ///< by scenario; empty for a benchmark
 };
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// Writes the status of a run's cells and its figures as parts of a page.
+// Makes the parts that the pages of runs and benchmarks share.
 #include "harness/report/page_parts.hpp"
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,8 +17,6 @@
 #include "harness/analysis/gates.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/base64.hpp"
-#include "harness/page/html_page.hpp"
-#include "harness/page/plain_text.hpp"
 #include "harness/page/table.hpp"
 
 namespace scanbench::harness {
@@ -145,48 +144,40 @@ std::optional<Table> remarks(const std::vector<CellLine>& cells) {
 
 }  // namespace
 
-std::string html_status(const std::vector<CellLine>& cells) {
-  const auto table = failures(cells);
-  return fmt::format("<p><span class=\"status\">{}</span></p>\n", html_escaped(outcome_text(cells))) +
-         (table ? to_html(*table) : "");
+Blocks status_blocks(const std::vector<CellLine>& cells) {
+  Blocks blocks{Paragraph{outcome_text(cells), "status"}};
+  if (auto table = failures(cells)) blocks.push_back(std::move(*table));
+  return blocks;
 }
 
-std::string markdown_status(const std::vector<CellLine>& cells) {
-  const auto table = failures(cells);
-  return outcome_text(cells) + ".\n" + (table ? "\n" + to_markdown(*table) : "");
+Blocks remark_blocks(const std::vector<CellLine>& cells) {
+  Blocks blocks;
+  if (auto table = remarks(cells)) blocks.push_back(std::move(*table));
+  return blocks;
 }
 
-std::string html_remarks(const std::vector<CellLine>& cells) {
-  const auto table = remarks(cells);
-  return table ? to_html(*table) : "";
-}
-
-std::string markdown_remarks(const std::vector<CellLine>& cells) {
-  const auto table = remarks(cells);
-  return table ? "\n" + to_markdown(*table) : "";
-}
-
-std::string html_figure(const std::filesystem::path& run, const FigureFile& figure, const std::string& caption) {
-  if (figure.name.empty()) return "<p class=\"faint\">" + caption + "</p>\n";
+Picture run_picture(const std::filesystem::path& run, const FigureFile& figure, const std::string& number) {
+  Picture picture{.alt = figure.caption, .caption = figure.caption};
+  if (!number.empty()) picture.caption = {bold(number + "."), " " + figure.caption};
+  if (figure.name.empty()) return picture;
   const fs::path svg = run / "figures" / (figure.name + ".svg");
   const bool is_svg = !fs::exists(svg) || fs::file_size(svg) <= kLargestSvg;
   const std::string bytes = read_file(is_svg ? svg : run / "figures" / (figure.name + ".png"));
-  return fmt::format(
-      "<figure><img alt=\"{0}\" src=\"data:image/{1};base64,{2}\"><figcaption>{3}</figcaption></figure>\n",
-      html_escaped(figure.caption), is_svg ? "svg+xml" : "png", base64(bytes), caption);
+  picture.address = "figures/" + figure.name + ".svg";
+  picture.data = fmt::format("data:image/{};base64,{}", is_svg ? "svg+xml" : "png", base64(bytes));
+  return picture;
 }
 
-std::string html_definitions(const std::set<std::string>& metrics) {
+Definitions definitions_of(const std::set<std::string>& metrics) {
   const auto descriptions = metric_descriptions();
-  std::string out;
+  Definitions definitions;
   for (const auto& metric : metrics) {
     const auto found = descriptions.find(metric);
     if (found == descriptions.end()) continue;
     const std::string unit = found->second.unit.empty() ? "" : " [" + found->second.unit + "]";
-    out += "<dt>" + html_escaped(plain_text(metric + unit)) + "</dt><dd>" +
-           html_escaped(plain_text(found->second.doc)) + "</dd>\n";
+    definitions.items.emplace_back(metric + unit, found->second.doc);
   }
-  return out.empty() ? "" : "<dl>\n" + out + "</dl>\n";
+  return definitions;
 }
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// Parts that the pages of runs and benchmarks share: the status of the cells, and figures.
+// Parts that the pages of runs and benchmarks share: the status of the cells, figures, and the meaning of metrics.
 #pragma once
 
 #include <filesystem>
@@ -6,23 +6,23 @@
 #include <string>
 #include <vector>
 
+#include "harness/page/document.hpp"
+#include "harness/report/comparable_rows.hpp"
 #include "harness/report/figures.hpp"
-#include "harness/report/page_input.hpp"
 
 namespace scanbench::harness {
 
 /// The number of cells that are ok, and a table of the others.
-std::string html_status(const std::vector<CellLine>& cells);
-std::string markdown_status(const std::vector<CellLine>& cells);
+Blocks status_blocks(const std::vector<CellLine>& cells);
 
 /// A table of the remarks on cells that are ok; empty if there are none.
-std::string html_remarks(const std::vector<CellLine>& cells);
-std::string markdown_remarks(const std::vector<CellLine>& cells);
+Blocks remark_blocks(const std::vector<CellLine>& cells);
 
-/// run/figures/<name>.svg as data, so that the ids of two figures cannot clash. The caption is HTML.
-std::string html_figure(const std::filesystem::path& run, const FigureFile& figure, const std::string& caption);
+/// run/figures/<name>.svg. HTML gets it as data, so that the ids of two figures cannot clash. `number`, for example
+/// "Figure 1", is before the caption; may be empty.
+Picture run_picture(const std::filesystem::path& run, const FigureFile& figure, const std::string& number = "");
 
-/// What these metrics mean, with their units; unknown names are left out. Empty without any.
-std::string html_definitions(const std::set<std::string>& metrics);
+/// What these metrics mean, with their units; unknown names are left out.
+Definitions definitions_of(const std::set<std::string>& metrics);
 
 }  // namespace scanbench::harness

@@ -1,4 +1,4 @@
-// Differences and ratios of pairs of pipelines; seeds that are not placed.
+// Makes tables of differences and ratios of pairs of pipelines, and of seeds that are not placed.
 #include "harness/report/paired_tables.hpp"
 
 #include <algorithm>

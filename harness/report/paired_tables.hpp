@@ -5,7 +5,6 @@
 
 #include "harness/page/table.hpp"
 #include "harness/report/comparable_rows.hpp"
-#include "harness/report/page_input.hpp"
 #include "harness/scenario/scenario.hpp"
 
 namespace scanbench::harness {

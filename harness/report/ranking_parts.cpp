@@ -1,4 +1,4 @@
-// Writes rankings of methods as HTML.
+// Makes the sentences, tables and charts of rankings of methods.
 #include "harness/report/ranking_parts.hpp"
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ TableCell quality_cell(const RankedMethod& method, const Display& display, bool 
   return cell;
 }
 
-Table ranking_table(const MethodRanking& ranking) {
+Table method_table(const MethodRanking& ranking) {
   const Display quality = quality_unit(ranking);
   Table table{"",
               "",
@@ -77,19 +77,20 @@ std::string list_of(const std::vector<std::string>& scenarios) {
 }
 
 /// The scenarios as links, and their condition. Many scenarios are below the heading, folded.
-std::string heading_of(const MethodRanking& ranking, const std::string& report) {
-  std::string links;
-  for (const auto& name : ranking.scenarios)
-    links +=
-        (links.empty() ? "" : ", ") + (report.empty() ? html_escaped(name)
-                                                      : fmt::format("<a href=\"{}#{}\">{}</a>", html_escaped(report),
-                                                                    html_escaped(name), html_escaped(name)));
-  const std::string condition = html_escaped(ranking.condition);
-  if (ranking.scenarios.size() <= kListedScenarios)
-    return "<h3>" + links + "</h3>\n" +
-           (condition.empty() ? "" : "<p class=\"faint\">Condition: " + condition + "</p>\n");
-  return fmt::format("<h3>{} scenarios{}{}</h3>\n<details><summary>which</summary>{}</details>\n",
-                     ranking.scenarios.size(), condition.empty() ? "" : ": ", condition, links);
+Blocks heading_of(const MethodRanking& ranking, const std::string& report) {
+  Prose links;
+  for (const auto& name : ranking.scenarios) {
+    if (!links.spans.empty()) links.spans.emplace_back(", ");
+    links.spans.push_back(report.empty() ? TextSpan(name) : link(name, report + "#" + name));
+  }
+  const std::string& condition = ranking.condition;
+  if (ranking.scenarios.size() > kListedScenarios)
+    return {
+        Heading{3, fmt::format("{} scenarios{}{}", ranking.scenarios.size(), condition.empty() ? "" : ": ", condition)},
+        Fold{"which", {Paragraph{links}}}};
+  Blocks blocks{Heading{3, links}};
+  if (!condition.empty()) blocks.push_back(Paragraph{"Condition: " + condition, "faint"});
+  return blocks;
 }
 
 }  // namespace
@@ -150,17 +151,19 @@ std::string accuracy_chart(const MethodRanking& ranking) {
   return scatter_chart(chart);
 }
 
-std::string html_rankings(const std::vector<MethodRanking>& rankings, const std::string& report) {
-  if (rankings.empty()) return "";
-  std::string out =
-      "<p class=\"caption\">Means over the seeds with their 95 % intervals. “Beats the next” is the probability to be "
-      "better than the next row on a new seed, with its 95 % interval. The time is the CPU time of all stages of one "
-      "scan. ● no other pipeline is both as good and as fast.</p>\n";
-  for (const auto& ranking : rankings)
-    out += fmt::format("{}<p>{} {}</p>\n<div class=\"ranking\">\n{}{}</div>\n", heading_of(ranking, report),
-                       html_escaped(ranking_sentence(ranking)), html_escaped(budget_sentence(ranking)),
-                       to_html(ranking_table(ranking)), accuracy_chart(ranking));
-  return out;
+Blocks ranking_blocks(const std::vector<MethodRanking>& rankings, const std::string& report) {
+  if (rankings.empty()) return {};
+  Blocks blocks{Paragraph{
+      "Means over the seeds with their 95 % intervals. “Beats the next” is the probability to be better than the next "
+      "row on a new seed, with its 95 % interval. The time is the CPU time of all stages of one scan. ● no other "
+      "pipeline is both as good and as fast.",
+      "caption"}};
+  for (const auto& ranking : rankings) {
+    add_blocks(blocks, heading_of(ranking, report));
+    blocks.push_back(Paragraph{ranking_sentence(ranking) + " " + budget_sentence(ranking)});
+    blocks.push_back(BlockGroup{"ranking", {method_table(ranking), Markup{accuracy_chart(ranking)}}});
+  }
+  return blocks;
 }
 
 }  // namespace scanbench::harness

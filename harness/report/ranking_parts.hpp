@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/analysis/method_ranking.hpp"
+#include "harness/page/document.hpp"
 
 namespace scanbench::harness {
 
@@ -17,7 +18,7 @@ std::string budget_sentence(const MethodRanking& ranking);
 
 /// One section per ranking: the scenarios and their condition, the sentences, the table and the chart. Names of
 /// scenarios lead to `report` + "#" + name, unless `report` is empty.
-std::string html_rankings(const std::vector<MethodRanking>& rankings, const std::string& report);
+Blocks ranking_blocks(const std::vector<MethodRanking>& rankings, const std::string& report);
 
 /// Accuracy against time as inline SVG; empty if no time is known.
 std::string accuracy_chart(const MethodRanking& ranking);

@@ -1,4 +1,4 @@
-// Reads the facts from the scenario; it has every default filled in.
+// Writes notes on recordings from the effective scenario.
 #include "harness/report/recording_note.hpp"
 
 #include <fmt/format.h>

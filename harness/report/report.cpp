@@ -1,4 +1,4 @@
-// Writes the report of a run: tables, figures, and how to get the numbers again.
+// Builds the report of a run: tables, figures, and how to get the numbers again.
 #include "harness/report/report.hpp"
 
 #include <fmt/format.h>
@@ -11,8 +11,6 @@
 #include <vector>
 
 #include "core/registry.hpp"
-#include "harness/page/html_page.hpp"
-#include "harness/page/plain_text.hpp"
 #include "harness/report/page_parts.hpp"
 #include "harness/report/ranking_parts.hpp"
 #include "harness/report/recording_note.hpp"
@@ -73,103 +71,84 @@ std::string input_text(const ReportInput& input, const Scenario& scenario) {
                      no_truth_text(input, scenario));
 }
 
-std::vector<FigureFile> figures_of(const ReportInput& input, const std::string& scenario) {
-  std::vector<FigureFile> figures;
-  for (const auto& figure : input.figures)
-    if (figure.scenario == scenario) figures.push_back(figure);
-  return figures;
-}
-
-/// The values that a reader asks for first, with a link to each scenario.
-std::string html_overview(const ReportInput& input) {
-  std::string out;
+/// The most important values, with a link to each scenario.
+Blocks overview_blocks(const ReportInput& input) {
+  Blocks blocks;
   bool has_chart = false;
   for (const auto& scenario : input.scenarios) {
-    auto table = scenario_overview(scenario, input.rows, input.cells);
-    if (!table) continue;
-    table->id = scenario.name + "-overview";
-    const std::string answer = scenario_answer(scenario, input.rows, input.cells, *table);
-    out += fmt::format("<p><a href=\"#{0}\">{0}</a>{1}</p>\n", html_escaped(scenario.name),
-                       answer.empty() ? "" : ": " + html_escaped(answer));
-    out += "<div class=\"glance\">\n";
-    for (const auto& part : parts_of_width(*table, kPageWidth)) out += to_html(part);
+    const ScenarioResults& results = input.results.at(scenario.name);
+    if (!results.overview) continue;
+    blocks.push_back(
+        Paragraph{{link(scenario.name, "#" + scenario.name), results.answer.empty() ? "" : ": " + results.answer}});
+    Table table = *results.overview;
+    table.id = scenario.name + "-overview";
+    table.page_width = kPageWidth;
+    BlockGroup glance{"glance", {std::move(table)}};
     if (const auto ranking = input.rankings.find(scenario.name); ranking != input.rankings.end()) {
       const std::string chart = accuracy_chart(ranking->second);
       has_chart = has_chart || !chart.empty();
-      out += chart;
+      glance.blocks.push_back(Markup{chart});
     }
-    out += "</div>\n";
+    blocks.push_back(std::move(glance));
   }
   if (has_chart)
-    out +=
-        "<p class=\"caption\">In the charts, ● on the dashed line: no other pipeline is both as good and as fast. "
-        "○: another is.</p>\n";
-  return out;
+    blocks.push_back(
+        Paragraph{"In the charts, ● on the dashed line: no other pipeline is both as good and as fast. ○: another is.",
+                  "caption"});
+  return blocks;
 }
 
 /// Links to the tables and figures of a scenario.
-std::string html_contents(const std::vector<Table>& tables, const Scenario& scenario, bool has_figures) {
-  std::vector<std::pair<std::string, std::string>> parts;
+ContentLinks links_to(const std::vector<Table>& tables, const Scenario& scenario, bool has_figures) {
+  ContentLinks links;
   for (const auto& table : tables) {
     const bool named = table.title.starts_with(scenario.name + ": ");
-    parts.emplace_back(table.id, named ? table.title.substr(scenario.name.size() + 2) : table.title);
+    links.places.emplace_back(table.id, named ? table.title.substr(scenario.name.size() + 2) : table.title);
   }
-  if (has_figures) parts.emplace_back(scenario.name + "-figures", "figures");
-  return contents(parts);
+  if (has_figures) links.places.emplace_back(scenario.name + "-figures", "figures");
+  return links;
+}
+
+Blocks chapter_of(const ReportInput& input, const Scenario& scenario) {
+  std::vector<Table> tables = input.results.at(scenario.name).tables;
+  for (auto& table : tables) {
+    table.id = scenario.name + "-" + table.id;  // other scenarios have the same tables
+    table.page_width = kPageWidth;
+  }
+  BlockGroup figures{.style = "figures", .blocks = {}, .id = scenario.name + "-figures"};
+  for (const auto& figure : input.figures)
+    if (figure.scenario == scenario.name) figures.blocks.push_back(run_picture(input.run, figure));
+  Blocks blocks{Heading{2, scenario.name, scenario.name}, Paragraph{scenario.about},
+                Paragraph{input_text(input, scenario), "faint"}, links_to(tables, scenario, !figures.blocks.empty())};
+  if (!figures.blocks.empty()) blocks.push_back(std::move(figures));
+  for (auto& table : tables) blocks.push_back(std::move(table));
+  return blocks;
+}
+
+Blocks meaning_of_metrics(const std::vector<SummaryRow>& rows) {
+  std::set<std::string> metrics;
+  for (const auto& row : rows) metrics.insert(row.metric);
+  Blocks blocks{Heading{2, "What the metrics mean", "definitions"}};
+  if (Definitions definitions = definitions_of(metrics); !definitions.items.empty())
+    blocks.push_back(std::move(definitions));
+  else
+    blocks.push_back(Paragraph{"There are no values."});
+  return blocks;
 }
 
 }  // namespace
 
-std::string report_html(const ReportInput& input) {
-  std::string out = html_status(input.cells);
-  std::vector<std::pair<std::string, std::string>> chapters;
-  for (const auto& scenario : input.scenarios) chapters.emplace_back(scenario.name, scenario.name);
-  chapters.emplace_back("definitions", "what the metrics mean");
-  chapters.emplace_back("facts", "how to get these numbers again");
-  out += contents(chapters) + html_overview(input) + html_remarks(input.cells);
-  for (const auto& scenario : input.scenarios) {
-    out += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n<p class=\"faint\">{2}</p>\n", html_escaped(scenario.name),
-                       html_escaped(scenario.about), html_escaped(input_text(input, scenario)));
-    std::vector<Table> tables = scenario_tables(scenario, input.rows, input.cells, TableDetail::departures);
-    for (auto& table : tables) table.id = scenario.name + "-" + table.id;  // other scenarios have the same tables
-    const auto figures = figures_of(input, scenario.name);
-    out += html_contents(tables, scenario, !figures.empty());
-    if (!figures.empty())
-      out += fmt::format("<div class=\"figures\" id=\"{}-figures\">\n", html_escaped(scenario.name));
-    for (const auto& figure : figures) out += html_figure(input.run, figure, html_escaped(figure.caption));
-    if (!figures.empty()) out += "</div>\n";
-    for (const auto& table : tables)
-      for (const auto& part : parts_of_width(table, kPageWidth)) out += to_html(part);
-  }
-  std::set<std::string> metrics;
-  for (const auto& row : input.rows) metrics.insert(row.metric);
-  const std::string definitions = html_definitions(metrics);
-  out += "<h2 id=\"definitions\">What the metrics mean</h2>\n" +
-         (definitions.empty() ? "<p>There are no values.</p>\n" : definitions);
-  return html_page(input.title, out + html_facts(input.facts));
-}
-
-std::string report_markdown(const ReportInput& input) {
-  std::string out = "# " + input.title + "\n\n" + markdown_status(input.cells);
-  for (const auto& scenario : input.scenarios)
-    if (const auto table = scenario_overview(scenario, input.rows, input.cells)) {
-      const std::string answer = scenario_answer(scenario, input.rows, input.cells, *table);
-      if (!answer.empty())
-        out += fmt::format("\n**{}**: {}\n", markdown_escaped(scenario.name), markdown_escaped(answer));
-      out += "\n" + to_markdown(*table);
-    }
-  out += markdown_remarks(input.cells);
-  for (const auto& scenario : input.scenarios) {
-    out += "\n## " + scenario.name + "\n\n" + markdown_escaped(scenario.about) + "\n\n" +
-           markdown_escaped(input_text(input, scenario)) + "\n";
-    for (const auto& table : scenario_tables(scenario, input.rows, input.cells, TableDetail::departures))
-      out += "\n" + to_markdown(table);
-    for (const auto& figure : figures_of(input, scenario.name))
-      out += figure.name.empty()
-                 ? "\n" + markdown_escaped(figure.caption) + "\n"
-                 : fmt::format("\n![{0}](figures/{1}.svg)\n\n{0}\n", markdown_escaped(figure.caption), figure.name);
-  }
-  return out + markdown_facts(input.facts);
+Document report_document(const ReportInput& input) {
+  Blocks chapters;
+  for (const auto& scenario : input.scenarios) add_blocks(chapters, chapter_of(input, scenario));
+  add_blocks(chapters, meaning_of_metrics(input.rows));
+  add_blocks(chapters, fact_blocks(input.facts));
+  Document page{input.title, status_blocks(input.cells)};
+  page.blocks.push_back(contents_of(chapters));
+  add_blocks(page.blocks, overview_blocks(input));
+  add_blocks(page.blocks, remark_blocks(input.cells));
+  add_blocks(page.blocks, std::move(chapters));
+  return page;
 }
 
 }  // namespace scanbench::harness

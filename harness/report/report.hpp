@@ -1,17 +1,12 @@
-// The report of a run: one self-contained HTML page and the same in Markdown.
+// The report of a run.
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
+#include "harness/page/document.hpp"
 #include "harness/report/page_input.hpp"
 
 namespace scanbench::harness {
 
-/// Self-contained HTML. SVG figures are embedded as data, so that their ids cannot clash.
-std::string report_html(const ReportInput& input);
-
-std::string report_markdown(const ReportInput& input);
+/// Answers first, then each scenario with its figures and tables. `input.results` must have every scenario.
+Document report_document(const ReportInput& input);
 
 }  // namespace scanbench::harness

@@ -32,7 +32,7 @@ constexpr double kMarginRounding = 1e-9;  ///< a difference of exactly the margi
 /// Metrics of completeness: shares of the truth that a pipeline finds or misses; earlier ones are preferred.
 constexpr std::array<std::string_view, 4> kCompleteness{"f1", "covered_5cm", "placed", "missed"};
 
-/// What a reader asks for first, in this order: how good lines, maps and poses are, then what they cost.
+/// The metrics of the overview, in this order: the quality of lines, maps and poses, then what they cost.
 constexpr std::array<std::string_view, 17> kOverview{"f1",           "covered_5cm",    "lines_per_wall",
                                                      "placed",       "position_error", "pose_efficiency",
                                                      "rpe_position", "rpe_heading",    "relations_position",

@@ -21,7 +21,7 @@ namespace scanbench::harness {
 std::vector<Table> result_tables(const Scenario& scenario, const ComparableRows& results,
                                  const std::vector<std::string>& shown_elsewhere = {});
 
-/// The few values of a scenario that a reader asks for first, from all its families: a row per pipeline. Marks follow
+/// The most important values of a scenario, from all its families: a row per pipeline. Marks follow
 /// the rules of result_tables(). Nothing if the scenario has none of these metrics.
 std::optional<Table> overview_table(const Scenario& scenario, const ComparableRows& results);
 

@@ -15,6 +15,7 @@
 #include "harness/analysis/agreement_files.hpp"
 #include "harness/analysis/selection.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/page/html_page.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/report/benchmark_figures.hpp"
 #include "harness/report/benchmark_report.hpp"
@@ -124,6 +125,12 @@ ReportInput load_report_input(const fs::path& run, const std::vector<Scenario>& 
   for (const auto& scenario : scenarios)
     if (const auto* recorded = std::get_if<RecordedInput>(&scenario.input))
       input.sources[scenario.name] = source_of(store, scenario, *recorded);
+  input.benchmark = load_benchmark(run, scenarios);
+  if (input.benchmark)
+    input.ranking = rank_pipelines(scenarios, input.rows, *input.benchmark);
+  else
+    for (const auto& scenario : scenarios)
+      input.results[scenario.name] = scenario_results(scenario, input.rows, input.cells);
   return input;
 }
 
@@ -144,21 +151,20 @@ void draw_run_figures(const fs::path& run, const std::vector<Scenario>& scenario
   if (options.folder.empty()) refresh_manifest(run);
 }
 
-std::vector<Table> closing_tables(const ReportInput& input) {
-  if (const auto benchmark = load_benchmark(input.run, input.scenarios))
-    return {ranking_table(rank_pipelines(input.scenarios, input.rows, *benchmark), *benchmark)};
-  std::vector<Table> tables;
+Document closing_document(const ReportInput& input) {
+  Document document;
+  if (input.benchmark) document.blocks.push_back(ranking_table(input.ranking, *input.benchmark));
   for (const auto& scenario : input.scenarios)
-    for (auto& table : scenario_tables(scenario, input.rows, input.cells, TableDetail::summary))
-      tables.push_back(std::move(table));
-  return tables;
+    if (const auto results = input.results.find(scenario.name); results != input.results.end())
+      for (const auto& table : results->second.tables)
+        if (!table.pages_only) document.blocks.push_back(table);
+  return document;
 }
 
 void write_reports(const fs::path& run, const ReportInput& input) {
-  const auto benchmark = load_benchmark(run, input.scenarios);
-  write_file_atomically(run / kReportPage, benchmark ? benchmark_html(input, *benchmark) : report_html(input));
-  write_file_atomically(run / kReportMarkdown,
-                        benchmark ? benchmark_markdown(input, *benchmark) : report_markdown(input));
+  const Document page = input.benchmark ? benchmark_document(input) : report_document(input);
+  write_file_atomically(run / kReportPage, to_html(page));
+  write_file_atomically(run / kReportMarkdown, to_markdown(page));
   write_agreement(run, input);
   refresh_manifest(run);
 }

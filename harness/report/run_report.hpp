@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/page/table.hpp"
+#include "harness/page/document.hpp"
 #include "harness/report/page_input.hpp"
 #include "harness/store/run_file.hpp"
 
@@ -15,7 +15,7 @@ namespace scanbench::harness {
 inline const RunFile kReportPage("report.html");
 inline const RunFile kReportMarkdown("report.md");
 
-/// Reads the contents of the reports from the run folder. Throws ConfigError.
+/// Reads the contents of the reports from the run folder, and computes rankings and tables. Throws ConfigError.
 ReportInput load_report_input(const std::filesystem::path& run, const std::vector<Scenario>& scenarios);
 
 /// Draws the figures of the benchmark, if the run is one, and those of the scenarios. Then writes their index.json and,
@@ -24,8 +24,8 @@ void draw_run_figures(const std::filesystem::path& run, const std::vector<Scenar
                       const FigureOptions& options = {},
                       const std::function<void(double, const std::string&)>& progress = {});
 
-/// The tables that a run prints at its end: the ranking of a benchmark, else those of every scenario.
-std::vector<Table> closing_tables(const ReportInput& input);
+/// What a run prints at its end: the ranking of a benchmark, else the tables of every scenario.
+Document closing_document(const ReportInput& input);
 
 /// Writes report.html and report.md and the manifest's list of files.
 void write_reports(const std::filesystem::path& run, const ReportInput& input);

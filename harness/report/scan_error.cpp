@@ -1,4 +1,4 @@
-// Makes one number of F1 and the number of faults.
+// Combines F1 and the number of faults into one number.
 #include "harness/report/scan_error.hpp"
 
 #include <algorithm>

@@ -1,54 +1,64 @@
-// Collects the tables of a scenario: those of a paper first, then our own.
+// Collects the results of a scenario: the tables of a paper first, then our own.
 #include "harness/report/scenario_tables.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "harness/analysis/agreement.hpp"
 #include "harness/report/agreement_tables.hpp"
 #include "harness/report/comparable_rows.hpp"
 #include "harness/report/paired_tables.hpp"
 #include "harness/report/paper_tables.hpp"
+#include "harness/report/results_table.hpp"
 #include "harness/store/summary.hpp"
 
 namespace scanbench::harness {
 
-std::vector<Table> scenario_tables(const Scenario& scenario, const std::vector<SummaryRow>& rows,
-                                   const std::vector<CellLine>& cells, TableDetail detail) {
-  const ComparableRows results = comparable_rows(scenario, rows, cells);
-  const Scenario shown = restricted(scenario, results);
+namespace {
+
+/// The tables of a paper with our values, with the notes that concern them in the captions.
+std::vector<Table> annotated_paper_tables(const std::string& scenario, const ComparableRows& results,
+                                          const std::vector<ComparedColumn>& columns) {
+  std::vector<std::string> captions = results.notes;
+  const auto is_printed = [&](const std::string& metric) {
+    return std::ranges::any_of(columns, [&](const auto& column) { return column.metric.metric == metric; });
+  };
+  for (const auto& note : results.line_notes)
+    if (std::ranges::any_of(note.metrics, is_printed)) captions.push_back(note.text);
+  std::vector<Table> tables = paper_tables(scenario, columns);
+  for (auto& table : tables)
+    for (const auto& note : captions) table.caption += " " + note + ".";
+  return tables;
+}
+
+std::vector<Table> tables_of(const Scenario& shown, const ComparableRows& results, const std::vector<CellLine>& cells) {
   const auto columns = compare_with_paper(shown, results.rows);
   std::vector<std::string> printed;
   printed.reserve(columns.size());
   for (const auto& column : columns) printed.push_back(column.metric.metric);
-
-  std::vector<std::string> captions = results.notes;
-  for (const auto& note : results.line_notes)
-    if (std::ranges::any_of(note.metrics, [&](const auto& m) { return std::ranges::count(printed, m) > 0; }))
-      captions.push_back(note.text);
-  std::vector<Table> tables = paper_tables(shown.name, columns);
-  for (auto& table : tables)
-    for (const auto& note : captions) table.caption += " " + note + ".";
-  const auto append = [&](std::vector<Table> more) {
+  std::vector<Table> tables = annotated_paper_tables(shown.name, results, columns);
+  const auto add = [&](std::vector<Table> more) {
     for (auto& table : more) tables.push_back(std::move(table));
   };
-  append(agreement_tables(shown.name, columns));
-  if (detail == TableDetail::departures) append(departure_tables(shown.name, columns));
-  append(result_tables(shown, results, printed));
-  append(paired_tables(shown, results, cells));
+  add(agreement_tables(shown.name, columns));
+  add(departure_tables(shown.name, columns));
+  add(result_tables(shown, results, printed));
+  add(paired_tables(shown, results, cells));
   return tables;
 }
 
-std::optional<Table> scenario_overview(const Scenario& scenario, const std::vector<SummaryRow>& rows,
-                                       const std::vector<CellLine>& cells) {
-  const ComparableRows results = comparable_rows(scenario, rows, cells);
-  return overview_table(restricted(scenario, results), results);
-}
+}  // namespace
 
-std::string scenario_answer(const Scenario& scenario, const std::vector<SummaryRow>& rows,
-                            const std::vector<CellLine>& cells, const Table& overview) {
-  const std::string best = overview_sentence(overview);
-  const std::string odometry = odometry_sentence(comparable_rows(scenario, rows, cells));
-  return best + (best.empty() || odometry.empty() ? "" : " ") + odometry;
+ScenarioResults scenario_results(const Scenario& scenario, const std::vector<SummaryRow>& rows,
+                                 const std::vector<CellLine>& cells) {
+  const ComparableRows results = comparable_rows(scenario, rows, cells);
+  const Scenario shown = restricted(scenario, results);
+  ScenarioResults all{.overview = overview_table(shown, results), .tables = tables_of(shown, results, cells)};
+  if (!all.overview) return all;
+  const std::string best = overview_sentence(*all.overview);
+  const std::string odometry = odometry_sentence(results);
+  all.answer = best + (best.empty() || odometry.empty() ? "" : " ") + odometry;
+  return all;
 }
 
 }  // namespace scanbench::harness

@@ -20,7 +20,7 @@ struct ScanChoice {
 
 struct ShownScan {
   std::string name;  ///< of a picture, without ending: <scenario>_<pipeline>_<seed>_scan_<number>
-  std::string text;  ///< what scans.csv says of it
+  std::string text;  ///< its values in scans.csv
   std::size_t frame = 0;
   render::Scene scene;
 };

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/layout/ticks.hpp"
+#include "core/ticks.hpp"
 #include "render/palette.hpp"
 #include "render/paper/font.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/layout/ticks.hpp"
+#include "core/ticks.hpp"
 #include "render/paper/shapes.hpp"
 
 namespace scanbench::render {

@@ -14,7 +14,7 @@ namespace scanbench::harness {
 /// The values of metrics.csv of all cells of a scenario, by pipeline. Throws ConfigError for a damaged file.
 std::vector<render::MeasuredPipeline> measured_pipelines(const RunStore& store, const Scenario& scenario);
 
-/// What the registered metric families say of their metrics, by name.
+/// The descriptions of the metrics of all registered families, by name.
 std::map<std::string, render::MetricLook> metric_looks();
 
 }  // namespace scanbench::harness

@@ -1,12 +1,15 @@
 // A metric against the time that it takes: one point per pipeline with its interval, and the Pareto front of those that
 // no other pipeline beats in both.
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/pareto.hpp"
 #include "core/registry.hpp"
 #include "render/figures/parts/measured.hpp"
 #include "render/figures/parts/style.hpp"
@@ -23,12 +26,12 @@ struct PlacedPipeline {
   double cost = 0.0;
 };
 
-/// Those that no other one beats in one of both and equals or beats in the other, from fast to slow.
-std::vector<PlacedPipeline> pareto_front(std::vector<PlacedPipeline> all) {
-  std::ranges::sort(all, {}, [](const PlacedPipeline& p) { return std::pair(p.time.mean, p.cost); });
+std::vector<PlacedPipeline> front_of(const std::vector<PlacedPipeline>& all) {
+  std::vector<std::pair<double, double>> costs;
+  costs.reserve(all.size());
+  for (const PlacedPipeline& p : all) costs.emplace_back(p.time.mean, p.cost);
   std::vector<PlacedPipeline> front;
-  for (PlacedPipeline& p : all)
-    if (front.empty() || p.cost < front.back().cost) front.push_back(std::move(p));
+  for (const std::size_t i : pareto_front(costs)) front.push_back(all[i]);
   return front;
 }
 
@@ -65,7 +68,7 @@ class AccuracyTime : public Figure {
                 .y = {.label = metric_label(input, params_.metric)},
                 .equal_aspect = false,
                 .items = {}};
-    const std::vector<PlacedPipeline> front = pareto_front(placed);
+    const std::vector<PlacedPipeline> front = front_of(placed);
     panel.items.emplace_back(stairs(front));
     Scene scene{.title = fmt::format("{}: {} against time", input.title, params_.metric)};
     for (std::size_t i = 0; i < placed.size(); ++i) {

@@ -8,6 +8,7 @@
 
 #include "harness/analysis/error_bins.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/page/html_page.hpp"
 #include "harness/report/benchmark_report.hpp"
 #include "harness/report/level_table.hpp"
 #include "harness/report/page_input.hpp"
@@ -260,13 +261,20 @@ TEST(Benchmark, LevelsOfTheRunReadBack) {
   EXPECT_THAT(config_refusal([&] { load_benchmark(folder.path()); }), HasSubstr("benchmark.json"));
 }
 
+Document page_of(ReportInput input, const BenchmarkSpec& spec) {
+  input.ranking = rank_pipelines(input.scenarios, input.rows, spec);
+  input.benchmark = spec;
+  return benchmark_document(input);
+}
+
 TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
   ReportInput input;
   input.title = "scanbench: small";
   input.scenarios = two_scenarios();
   input.rows = made_up_rows();
   input.cells = {{"x", "a", 1, "ok", "", 0, 0}, {"x", "b", 1, "timeout", "after 3 s", 0, 0}};
-  for (const std::string& page : {benchmark_html(input, kSpec), benchmark_markdown(input, kSpec)}) {
+  const Document document = page_of(input, kSpec);
+  for (const std::string& page : {to_html(document), to_markdown(document)}) {
     EXPECT_THAT(page, HasSubstr("b ranks first of 3 extractors, with F1 85.00 %; a is next with 80.00 %, a difference "
                                 "that may be chance."));
     EXPECT_THAT(page, HasSubstr("3 extractors on 2 conditions"));
@@ -287,7 +295,7 @@ TEST(Benchmark, PageShowsAllNumbersOfScansOfAWorld) {
   input.scenarios = {parse_scenario(kScene, "x.yaml"), parse_scenario(longer, "y.yaml")};
   for (Scenario& scenario : input.scenarios) std::get<SimulatedInput>(scenario.input).world.name = "room";
   input.rows = made_up_rows();
-  EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr(">4, 6<"));
+  EXPECT_THAT(to_html(page_of(input, kSpec)), HasSubstr(">4, 6<"));
 }
 
 TEST(Benchmark, PageBeginsWithTheFirstInRankAndNamesMissingCells) {
@@ -296,9 +304,9 @@ TEST(Benchmark, PageBeginsWithTheFirstInRankAndNamesMissingCells) {
   input.scenarios = two_scenarios();
   input.rows = made_up_rows();
   std::erase_if(input.rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
-  EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr("<p><b>a ranks first of 3 extractors, with F1 80.00 %"));
+  EXPECT_THAT(to_html(page_of(input, kSpec)), HasSubstr("<p><b>a ranks first of 3 extractors, with F1 80.00 %"));
   std::erase_if(input.rows, [](const SummaryRow& r) { return r.scenario == "y" && r.seed == 2; });
-  EXPECT_THAT(benchmark_html(input, kSpec), HasSubstr("<p><b>No extractor has a result in every cell"));
+  EXPECT_THAT(to_html(page_of(input, kSpec)), HasSubstr("<p><b>No extractor has a result in every cell"));
 }
 
 std::string matching_scene(const std::string& metrics) {
@@ -336,7 +344,7 @@ TEST(Benchmark, RanksMatchersByTheLowestErrorOverBound) {
   input.title = "small";
   input.scenarios = scenarios;
   input.rows = rows;
-  const std::string page = benchmark_html(input, spec);
+  const std::string page = to_html(page_of(input, spec));
   EXPECT_THAT(page, HasSubstr("2 matchers on 2 conditions"));
   EXPECT_THAT(page, HasSubstr("The mean square error of b&#39;s poses is 1.5 times the Cramér–Rao bound, the best "
                               "possible."));
@@ -417,8 +425,8 @@ TEST(Benchmark, RanksAlignersByTheShareOfScansPlacedAndAnAlignerThatFailsLast) {
   ReportInput input;
   input.scenarios = scenarios;
   input.rows = rows;
-  EXPECT_THAT(benchmark_html(input, spec), HasSubstr("<b>b ranks first of 2 aligners, with scans placed 95.0 %; a is "
-                                                     "next with 75.0 %"));
+  EXPECT_THAT(to_html(page_of(input, spec)), HasSubstr("<b>b ranks first of 2 aligners, with scans placed 95.0 %; a is "
+                                                       "next with 75.0 %"));
   std::erase_if(rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
   EXPECT_EQ(rank_pipelines(scenarios, rows, spec)[0].name, "a");
 }

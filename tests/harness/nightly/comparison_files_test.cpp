@@ -1,4 +1,4 @@
-// A comparison as JSON, Markdown and JUnit XML.
+// A comparison as JSON, JUnit XML, Markdown and for a terminal.
 #include "harness/nightly/comparison_files.hpp"
 
 #include <gmock/gmock.h>
@@ -67,12 +67,22 @@ TEST(ComparisonTables, CountNewCellsAndListTheFirst) {
   EXPECT_EQ(table->rows[5].heads[3], "12 cells");
 }
 
+TEST(ComparisonDocument, ListsWhatDiffersBelowTheVerdict) {
+  Comparison comparison = compare(f1_run({0.9}), f1_run({0.9}), f1_gate());
+  comparison.differing = {"program: a -> b"};
+  EXPECT_THAT(to_markdown(comparison_document(comparison)), HasSubstr("**\n\nWhat differs:\n\n- program: a -&gt; b\n"));
+  EXPECT_THAT(to_terminal(comparison_document(comparison), false),
+              HasSubstr(".\n\nWhat differs:\n  program: a -> b\n"));
+  EXPECT_THAT(to_terminal(comparison_document(comparison), false), Not(HasSubstr("Equal to the bit")));
+  EXPECT_THAT(to_terminal(comparison_document(comparison, true), false), HasSubstr("\n\nEqual to the bit\n"));
+}
+
 TEST(ComparisonFiles, TextOfModulesCannotLeaveItsPlace) {
   const Comparison comparison = worse_and_broken();
   const std::string xml = comparison_junit(comparison);
   EXPECT_THAT(xml, Not(HasSubstr("<script>")));
   EXPECT_THAT(xml, Not(HasSubstr("\x1b")));
-  const std::string markdown = comparison_markdown(comparison);
+  const std::string markdown = to_markdown(comparison_document(comparison));
   EXPECT_THAT(markdown, Not(HasSubstr("<script>")));
   EXPECT_THAT(markdown, HasSubstr("**FAIL: 1 of 1 gate is worse, and 1 cell is no longer ok."));
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/analysis/gates.hpp"
+#include "harness/page/html_page.hpp"
 #include "tests/harness/analysis/made_up_runs.hpp"
 
 namespace scanbench::harness {
@@ -45,7 +46,7 @@ TEST(StatusMatrix, HasATablePerGroupOfScenariosWithTheSamePipelines) {
   now.cells.back().status = "crashed";
   now.cells.back().rows.clear();
   const Comparison comparison = compare(three_scenarios(0.8), now, gates);
-  const std::string html = html_status_matrices(now, comparison, rank_methods(now.cells, {}), "report.html");
+  const std::string html = to_html(status_matrices(now, comparison, rank_methods(now.cells, {}), "report.html"));
   EXPECT_EQ(count_of(html, "<table>"), 1U);
   EXPECT_EQ(count_of(html, "class=\"chips\""), 1U);  // maze has its own pipelines
   EXPECT_EQ(count_of(html, "▼ 1 worse"), 2U);        // b in room and hall
@@ -63,10 +64,10 @@ TEST(StatusMatrix, ShowsWhatIsMissing) {
   const RunResults before = three_scenarios(0.8);
   RunResults now = before;
   std::erase_if(now.cells, [](const CellResults& cell) { return cell.key.pipeline == "b"; });
-  const std::string html = html_status_matrices(now, compare(before, now, gates), {}, "");
+  const std::string html = to_html(status_matrices(now, compare(before, now, gates), {}, ""));
   EXPECT_EQ(count_of(html, "∅ 5 cells missing"), 2U);
   EXPECT_THAT(html, Not(HasSubstr("href")));
-  EXPECT_EQ(html_status_matrices(RunResults{}, Comparison{}, {}, ""), "");
+  EXPECT_TRUE(status_matrices(RunResults{}, Comparison{}, {}, "").empty());
 }
 
 }  // namespace

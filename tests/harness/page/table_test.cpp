@@ -58,6 +58,21 @@ TEST(Captions, NameTheMarkThatTheTableHas) {
   EXPECT_THAT(to_html(table), HasSubstr("Means; * marks the best value."));
 }
 
+TEST(HtmlTable, PutsTheCellsOfOneColumnBesideEachOther) {
+  Table table{"t", "maze", "", {"pipeline"}, {{"", "maze"}}, {{{"a<b"}, {{.text = "= same", .link = "x.html"}}}}};
+  table.side_by_side = true;
+  EXPECT_THAT(to_html(table), HasSubstr("<a class=\"chip \" href=\"x.html\"><b>a&lt;b</b>= same<small></small></a>"));
+  EXPECT_THAT(to_html(table), Not(HasSubstr("<table>")));
+  EXPECT_THAT(to_markdown(table), HasSubstr("| a&lt;b | = same |"));
+}
+
+TEST(HtmlTable, OfMoreThanThePagesWidthHasParts) {
+  Table table = example();
+  table.page_width = 30;
+  const std::string html = to_html(table);
+  EXPECT_NE(html.find("<table>"), html.rfind("<table>"));
+}
+
 TEST(HtmlTable, EscapesWhatHtmlReserves) {
   EXPECT_THAT(to_html(example()), HasSubstr("Lines &lt;of&gt; a &amp; b"));
   EXPECT_THAT(to_html(example()), HasSubstr("colspan=\"2\">N</th>"));

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/page/html_page.hpp"
+
 namespace scanbench::harness {
 namespace {
 
@@ -43,11 +45,11 @@ TEST(RankingParts, SayWhatIsBestForAGivenTimeFromTheFastestOn) {
 }
 
 TEST(RankingParts, StateTheConditionAndFoldManyScenarios) {
-  const std::string few = html_rankings({ranking_of({"room", "hall"})}, "report.html");
+  const std::string few = to_html(ranking_blocks({ranking_of({"room", "hall"})}, "report.html"));
   EXPECT_THAT(few, HasSubstr("href=\"report.html#hall\""));
   EXPECT_THAT(few, HasSubstr("Condition: sensor a, range noise 3 cm"));
   EXPECT_THAT(few, HasSubstr("time a scan [µs]"));
-  const std::string many = html_rankings({ranking_of({"a", "b", "c", "<d>"})}, "");
+  const std::string many = to_html(ranking_blocks({ranking_of({"a", "b", "c", "<d>"})}, ""));
   EXPECT_THAT(many, HasSubstr("<h3>4 scenarios: sensor a, range noise 3 cm</h3>"));
   EXPECT_THAT(many, HasSubstr("<details>"));
   EXPECT_THAT(many, Not(HasSubstr("href")));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "harness/page/html_page.hpp"
 #include "harness/report/comparable_rows.hpp"
 #include "harness/report/table_marks.hpp"
 #include "tests/support/runs.hpp"
@@ -187,7 +188,7 @@ TEST(ComparableRows, LeaveOutPipelinesThatWereNotSelected) {
   const ComparableRows results = comparable_rows(scenario, {row("a", "f1", 0.5)}, cells);
   EXPECT_THAT(results.pipelines, ElementsAre("a"));
   EXPECT_THAT(results.notes, IsEmpty());
-  for (const auto& text : {html_status(cells), markdown_status(cells)})
+  for (const auto& text : {to_html(status_blocks(cells)), to_markdown(status_blocks(cells))})
     EXPECT_THAT(text, AllOf(HasSubstr("1 of 2 cells selected, all ok"), Not(HasSubstr("not run"))));
 }
 
@@ -197,8 +198,9 @@ TEST(ResultTables, SayWhichAlignersHaveNotConverged) {
   const ComparableRows results = comparable_rows(scenario, {row("a", "f1", 0.5), row("b", "f1", 0.4)}, cells);
   EXPECT_EQ(result_tables(scenario, results).at(0).rows[0].heads.front(), "a (not converged)");
   EXPECT_EQ(result_tables(scenario, results).at(0).rows[1].heads.front(), "b");
-  for (const auto& text : {html_status(cells), markdown_status(cells)}) EXPECT_THAT(text, HasSubstr("all 2 cells ok"));
-  for (const auto& text : {html_remarks(cells), markdown_remarks(cells)})
+  for (const auto& text : {to_html(status_blocks(cells)), to_markdown(status_blocks(cells))})
+    EXPECT_THAT(text, HasSubstr("all 2 cells ok"));
+  for (const auto& text : {to_html(remark_blocks(cells)), to_markdown(remark_blocks(cells))})
     EXPECT_THAT(text, HasSubstr("align: 1 max_iterations"));
 }
 
@@ -219,7 +221,7 @@ TEST(ResultTables, GiveRemarksThatDifferInTheirNumbersOneRow) {
   const std::vector<CellLine> cells{cell("a", 1, "ok", "align: 1 max_iterations"),
                                     cell("a", 2, "ok", "align: 7 max_iterations"),
                                     cell("a", 3, "ok", "align: 7 degenerate")};
-  EXPECT_THAT(markdown_remarks(cells),
+  EXPECT_THAT(to_markdown(remark_blocks(cells)),
               AllOf(HasSubstr("for example align: 1 max_iterations | 2 |"), HasSubstr("align: 7 degenerate | 1 |")));
 }
 
@@ -230,7 +232,7 @@ TEST(Remarks, NameTheScenarioOfARowThatHasOne) {
     cells.back().scenario = "s" + std::to_string(k);
   }
   cells.push_back(cell("b", 1, "ok", "match: 1 no_match"));
-  EXPECT_THAT(markdown_remarks(cells), AllOf(HasSubstr("| 26 scenarios | a |"), HasSubstr("| s | b |")));
+  EXPECT_THAT(to_markdown(remark_blocks(cells)), AllOf(HasSubstr("| 26 scenarios | a |"), HasSubstr("| s | b |")));
 }
 
 TEST(Display, ShowsThreeDigitsOfEveryValueAndNoValueAsZero) {

@@ -1,5 +1,5 @@
 // Ticks of linear and logarithmic axes.
-#include "render/layout/ticks.hpp"
+#include "core/ticks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/rng.hpp"
 
-namespace scanbench::render {
+namespace scanbench {
 namespace {
 
 TEST(Ticks, LieInsideTheRangeAtMultiplesOfARoundStep) {
@@ -67,6 +67,16 @@ TEST(LogTicks, AreOneTwoFiveWithinADecade) {
   EXPECT_EQ(ticks[1], (Tick{5, "5"}));
 }
 
+TEST(DecadeTicks, AreOneTwoFiveOfEveryDecade) {
+  const std::vector<Tick> ticks = decade_ticks(0.5, 100);
+  const std::vector<Tick> expected{{0.5, "0.5"}, {1, "1"},   {2, "2"},   {5, "5"},
+                                   {10, "10"},   {20, "20"}, {50, "50"}, {100, "100"}};
+  EXPECT_EQ(ticks, expected);
+  EXPECT_EQ(decade_ticks(1e6, 2e6).back().label, "2e+06");
+  EXPECT_TRUE(decade_ticks(0, 10).empty());
+  EXPECT_TRUE(decade_ticks(2, 1).empty());
+}
+
 TEST(RoundBelow, IsTheLargestOneTwoFiveNotAbove) {
   EXPECT_DOUBLE_EQ(round_below(1.99), 1);
   EXPECT_DOUBLE_EQ(round_below(2), 2);
@@ -77,4 +87,4 @@ TEST(RoundBelow, IsTheLargestOneTwoFiveNotAbove) {
 }
 
 }  // namespace
-}  // namespace scanbench::render
+}  // namespace scanbench

@@ -1,19 +1,30 @@
 // Computes ticks at 1, 2, 5 x 10^k: Heckbert, "Nice numbers for graph labels", Graphics Gems, 1990.
-#include "render/layout/ticks.hpp"
+#include "core/ticks.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "core/error.hpp"
 
-namespace scanbench::render {
+namespace scanbench {
 namespace {
 
+/// With `digits` behind the point (fixed) or in all (general), as printf writes %f and %g.
+std::string text_of(double value, std::chars_format format, int digits) {
+  std::array<char, 400> buffer{};
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, format, digits);
+  return {buffer.data(), end};
+}
+
+std::string fixed_text(double value, int decimals) {
+  return text_of(value, std::chars_format::fixed, decimals);
+}
+
 std::string power_label(int exponent) {
-  if (exponent >= -3 && exponent <= 4) return fmt::format("{:.{}f}", std::pow(10.0, exponent), std::max(0, -exponent));
-  return fmt::format("1e{}", exponent);
+  if (exponent >= -3 && exponent <= 4) return fixed_text(std::pow(10.0, exponent), std::max(0, -exponent));
+  return "1e" + std::to_string(exponent);
 }
 
 /// With a true minus sign, as wide as a plus.
@@ -24,8 +35,8 @@ std::string typographic(std::string number) {
 
 std::string plain_label(double value, int exponent_of_step) {
   if (exponent_of_step >= -6 && std::abs(value) < 1e6)
-    return typographic(fmt::format("{:.{}f}", value, std::max(0, -exponent_of_step)));
-  return typographic(fmt::format("{:g}", value));
+    return typographic(fixed_text(value, std::max(0, -exponent_of_step)));
+  return typographic(text_of(value, std::chars_format::general, 6));
 }
 
 }  // namespace
@@ -69,23 +80,32 @@ std::vector<Tick> ticks_apart(double low, double high, double least_step) {
   return ticks;
 }
 
-std::vector<Tick> log_ticks(double low, double high, int count) {
+std::vector<Tick> decade_ticks(double low, double high) {
   if (!(low > 0) || !(low < high) || !std::isfinite(high)) return {};
-  const int first = static_cast<int>(std::ceil(std::log10(low) - 1e-9));
-  const int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
   std::vector<Tick> ticks;
-  if (last - first >= 1) {
-    const int stride = std::max(1, (last - first + std::max(1, count)) / std::max(1, count));
-    for (int e = first; e <= last; e += stride) ticks.push_back({std::pow(10.0, e), power_label(e)});
-    return ticks;
-  }
-  for (int e = first - 1; e <= last + 1; ++e)
+  const int first = static_cast<int>(std::floor(std::log10(low))) - 1;
+  const int last = static_cast<int>(std::ceil(std::log10(high))) + 1;
+  for (int e = first; e <= last; ++e)
     for (const int m : {1, 2, 5}) {
       const double value = e < 0 ? m / std::pow(10.0, -e) : m * std::pow(10.0, e);
       if (value >= low && value <= high) ticks.push_back({value, plain_label(value, e)});
     }
+  return ticks;
+}
+
+std::vector<Tick> log_ticks(double low, double high, int count) {
+  if (!(low > 0) || !(low < high) || !std::isfinite(high)) return {};
+  const int first = static_cast<int>(std::ceil(std::log10(low) - 1e-9));
+  const int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
+  if (last - first >= 1) {
+    std::vector<Tick> ticks;
+    const int stride = std::max(1, (last - first + std::max(1, count)) / std::max(1, count));
+    for (int e = first; e <= last; e += stride) ticks.push_back({std::pow(10.0, e), power_label(e)});
+    return ticks;
+  }
+  std::vector<Tick> ticks = decade_ticks(low, high);
   if (ticks.size() < 2) return linear_ticks(low, high, count);  // less than half a decade
   return ticks;
 }
 
-}  // namespace scanbench::render
+}  // namespace scanbench
