@@ -133,36 +133,23 @@ function(scanbench_executable name)
     "WHOLE_ARCHIVE,scanbench_sim,scanbench_metrics,scanbench_render")
 endfunction()
 
-# scanbench_kernels(target [AVX512] folder...): compiles the files *_kernels.cpp of the folders, which the target contains
-# for any x86-64, a second time for AVX2, in the namespace v3 instead of baseline, and a third time for AVX-512, in v4.
-# The program selects one at run time. No product and sum are contracted, so that all give the same bytes.
+# scanbench_kernels(target folder...): compiles the files *_kernels.cpp of the folders, which the target contains for any
+# x86-64, a second time for AVX2, in the namespace v3 instead of baseline. The program selects one at run time. No
+# product and sum are contracted, so that both give the same bytes.
 function(scanbench_kernels target)
-  cmake_parse_arguments(arg "AVX512" "" "" ${ARGN})
-  list(TRANSFORM arg_UNPARSED_ARGUMENTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/\\1/*_kernels.cpp" OUTPUT_VARIABLE patterns)
+  list(TRANSFORM ARGN REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/\\1/*_kernels.cpp" OUTPUT_VARIABLE patterns)
   file(GLOB sources CONFIGURE_DEPENDS ${patterns})
-  set(isas v3)
-  set(flags_v3 -mavx2)
-  if(arg_AVX512)
-    list(APPEND isas v4)
-    set(flags_v4 -mavx512f -mavx512bw -mavx512cd -mavx512dq -mavx512vl -mpopcnt)
-    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_CLANG_TIDY)
-      # g++ 12 warns of its own intrinsics, whose unused operand is undefined on purpose (GCC bug 105593).
-      list(APPEND flags_v4 -Wno-maybe-uninitialized -Wno-uninitialized)
-    endif()
+  add_library(${target}_v3 OBJECT ${sources})
+  scanbench_flags(${target}_v3)
+  target_compile_definitions(${target}_v3 PRIVATE SCANBENCH_ISA=v3)
+  target_compile_options(${target}_v3 PRIVATE -mavx2)
+  # An object library does not hand on the objects of another one, so its users add them.
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL OBJECT_LIBRARY)
+    target_sources(${target} INTERFACE $<TARGET_OBJECTS:${target}_v3>)
+  else()
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_v3>)
   endif()
-  foreach(isa ${isas})
-    add_library(${target}_${isa} OBJECT ${sources})
-    scanbench_flags(${target}_${isa})
-    target_compile_definitions(${target}_${isa} PRIVATE SCANBENCH_ISA=${isa})
-    target_compile_options(${target}_${isa} PRIVATE ${flags_${isa}})
-    # An object library does not hand on the objects of another one, so its users add them.
-    get_target_property(type ${target} TYPE)
-    if(type STREQUAL OBJECT_LIBRARY)
-      target_sources(${target} INTERFACE $<TARGET_OBJECTS:${target}_${isa}>)
-    else()
-      target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_${isa}>)
-    endif()
-  endforeach()
   # Precompiled headers contain inline functions, of which the linker would keep only one build.
   set_source_files_properties(${sources} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 endfunction()

@@ -63,11 +63,11 @@ void fill_up(std::vector<std::uint32_t>& beams) {
 }
 
 const DrawKernels& draw_kernels_for(Isa isa) {
-  return build_for(isa, baseline::kDrawKernels, v3::kDrawKernels, v4::kDrawKernels);
+  return build_for(isa, baseline::kDrawKernels, v3::kDrawKernels);
 }
 
 const ReadingKernels& reading_kernels_for(Isa isa) {
-  return build_for(isa, baseline::kReadingKernels, v3::kReadingKernels, v4::kReadingKernels);
+  return build_for(isa, baseline::kReadingKernels, v3::kReadingKernels);
 }
 
 // One number for each of `beams`, whose size is a multiple of 8.

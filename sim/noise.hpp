@@ -48,7 +48,7 @@ double observed_range(const SensorModel& sensor, double true_range_m, double cos
 class ScanNoise {
  public:
   /// `sensor` must outlive this. `isa` is for tests.
-  ScanNoise(const SensorModel& sensor, std::uint64_t seed, Isa isa = best_isa(Isa::v4));
+  ScanNoise(const SensorModel& sensor, std::uint64_t seed, Isa isa = best_isa());
 
   /// True if readings depend on the angle of incidence.
   static bool needs_incidence(const SensorNoise& noise);

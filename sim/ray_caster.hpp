@@ -26,7 +26,7 @@ enum class CasterKind {
 class RayCaster {
  public:
   /// Copies what it needs. Throws what validate() throws. `isa` is for tests.
-  explicit RayCaster(const World& world, CasterKind kind = CasterKind::exact, Isa isa = best_isa(Isa::v4));
+  explicit RayCaster(const World& world, CasterKind kind = CasterKind::exact, Isa isa = best_isa());
 
   /// One ray. Surfaces beyond `range_max_m` are ignored.
   RayHit cast(const Ray& ray, double range_max_m) const;

@@ -7,50 +7,12 @@
 #include <cstdint>
 
 #include "core/geometry/angles.hpp"
+#include "core/geometry/portable_series.hpp"
 #include "core/index.hpp"
 #include "core/special_values.hpp"
 
 namespace scanbench::portable {
 namespace {
-
-// pi/2 and ln 2 as sums of parts with trailing zero bits, so that k * part is exact for all k in use (Cody & Waite).
-constexpr double kHalfPi1 = 0x1.921fb544p+0;
-constexpr double kHalfPi2 = 0x1.0b4611a6p-34;
-constexpr double kHalfPi3 = 0x1.3198a2e037073p-69;
-constexpr double kLn2High = 0x1.62e42feep-1;
-constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
-
-// sin x / x and cos x on |x| <= pi/4, in x^2.
-double sin_series(double x) {
-  const double z = x * x;
-  double p = -1.0 / 121645100408832000.0;
-  p = p * z + 1.0 / 355687428096000.0;
-  p = p * z - 1.0 / 1307674368000.0;
-  p = p * z + 1.0 / 6227020800.0;
-  p = p * z - 1.0 / 39916800.0;
-  p = p * z + 1.0 / 362880.0;
-  p = p * z - 1.0 / 5040.0;
-  p = p * z + 1.0 / 120.0;
-  p = p * z - 1.0 / 6.0;
-  return x + x * (z * p);
-}
-
-double cos_series(double x) {
-  const double z = x * x;
-  double p = 1.0 / 2432902008176640000.0;
-  p = p * z - 1.0 / 6402373705728000.0;
-  p = p * z + 1.0 / 20922789888000.0;
-  p = p * z - 1.0 / 87178291200.0;
-  p = p * z + 1.0 / 479001600.0;
-  p = p * z - 1.0 / 3628800.0;
-  p = p * z + 1.0 / 40320.0;
-  p = p * z - 1.0 / 720.0;
-  p = p * z + 1.0 / 24.0;
-  // 1 - z/2 loses the low bits of z/2; they are added back.
-  const double half = 0.5 * z;
-  const double head = 1.0 - half;
-  return head + (((1.0 - head) - half) + z * z * p);
-}
 
 // atan(k/8) for k = 0..8, rounded to double.
 constexpr std::array<double, 9> kAtanOfEighths = {0.0,
@@ -83,7 +45,7 @@ double atan_unit(double t) {
 SinCos sincos(double x) {
   if (!(std::fabs(x) <= 1e5)) return {kNaN, kNaN};
   const double k = std::floor(x * (2.0 / kPi) + 0.5);
-  const double r = ((x - k * kHalfPi1) - k * kHalfPi2) - k * kHalfPi3;
+  const double r = without_quarter_turns(x, k);
   const double s = sin_series(r);
   const double c = cos_series(r);
   switch (static_cast<std::int64_t>(k) & 3) {
@@ -125,15 +87,7 @@ double log(double x) {
     m *= 2.0;
     e -= 1;
   }
-  // log m = 2 atanh s = f - s (f - ...) with f = m - 1. In this form the large part, f, is exact.
-  const double f = m - 1.0;
-  const double s = f / (2.0 + f);
-  const double z = s * s;
-  double p = 1.0 / 23.0;
-  for (int n = 21; n >= 3; n -= 2) p = p * z + 1.0 / n;
-  const double tail = 2.0 * s * z * p;  // 2 (s^3/3 + s^5/5 + ...)
-  const double two_s = f - s * f;       // 2 s = f - s f
-  return e * kLn2High + (two_s + (tail + e * kLn2Low));
+  return log_series(m, static_cast<double>(e));
 }
 
 double exp(double x) {

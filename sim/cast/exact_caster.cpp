@@ -157,7 +157,7 @@ HitBuffers part(const HitBuffers& out, std::size_t first, std::size_t count) {
 }
 
 const CastKernels& kernels_for(Isa isa) {
-  return build_for(isa, baseline::kCastKernels, v3::kCastKernels, v4::kCastKernels);
+  return build_for(isa, baseline::kCastKernels, v3::kCastKernels);
 }
 
 class ExactCaster : public Caster {
@@ -276,7 +276,7 @@ class ExactCaster : public Caster {
 }  // namespace
 
 std::unique_ptr<Caster> make_exact_caster(const World& world, Isa isa) {
-  SCANBENCH_ASSERT(isa <= best_isa(Isa::v4));
+  SCANBENCH_ASSERT(isa <= best_isa());
   return std::make_unique<ExactCaster>(world, isa);
 }
 

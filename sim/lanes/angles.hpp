@@ -1,7 +1,7 @@
 // Angles in lanes. They only select candidate beams and are never part of a result.
 #pragma once
 
-#include "sim/lanes/lanes.hpp"
+#include "core/lanes/lanes.hpp"
 
 namespace scanbench::sim::SCANBENCH_ISA {
 

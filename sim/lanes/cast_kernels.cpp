@@ -1,7 +1,7 @@
 // Sweeps walls over the beams of a scan, all of them or through the tree.
 #include "sim/lanes/cast_kernels.hpp"
 
-#include "sim/lanes/lanes.hpp"
+#include "core/lanes/lanes.hpp"
 #include "sim/lanes/ray_walk.hpp"
 #include "sim/lanes/wall_lanes.hpp"
 #include "sim/lanes/wall_runs.hpp"
@@ -10,30 +10,29 @@ namespace scanbench::sim::SCANBENCH_ISA {
 namespace {
 
 void rotate(const double* x, const double* y, double cos, double sin, int count, double* out_x, double* out_y) {
-  for (int i = 0; i < count; i += kWideLanes) {
-    const WideDoubles vx = load_wide(x + i);
-    const WideDoubles vy = load_wide(y + i);
-    store_wide(out_x + i, cos * vx - sin * vy);
-    store_wide(out_y + i, sin * vx + cos * vy);
+  for (int i = 0; i < count; i += kLanes) {
+    const Doubles vx = load(x + i);
+    const Doubles vy = load(y + i);
+    store(out_x + i, cos * vx - sin * vy);
+    store(out_y + i, sin * vx + cos * vy);
   }
 }
 
 void clear(const BeamHits& hits, int count, double unhit) {
-  for (int i = 0; i < count; i += kWideLanes) {
-    store_wide(hits.range + i, every<WideDoubles>(unhit));
-    store_wide(hits.surface + i, every<WideDoubles>(-1.0));
+  for (int i = 0; i < count; i += kLanes) {
+    store(hits.range + i, all(unhit));
+    store(hits.surface + i, all(-1.0));
   }
 }
 
 void finish(const BeamHits& hits, int count, double range_max, double walls, double* ranges, std::int32_t* wall_ids) {
   int i = 0;
-  for (; i + kWideLanes <= count; i += kWideLanes) {
-    const WideDoubles range = load_wide(hits.range + i);
-    const WideDoubles surface = load_wide(hits.surface + i);
-    const WideLongs in_reach = range <= range_max;
-    if (ranges != nullptr) store_wide(ranges + i, in_reach ? range : every<WideDoubles>(kNoHit));
-    if (wall_ids != nullptr)
-      store_whole(wall_ids + i, (in_reach & (surface < walls)) ? surface : every<WideDoubles>(-1.0));
+  for (; i + kLanes <= count; i += kLanes) {
+    const Doubles range = load(hits.range + i);
+    const Doubles surface = load(hits.surface + i);
+    const Longs in_reach = range <= range_max;
+    if (ranges != nullptr) store(ranges + i, in_reach ? range : all(kNoHit));
+    if (wall_ids != nullptr) store_whole(wall_ids + i, (in_reach & (surface < walls)) ? surface : all(-1.0));
   }
   for (; i < count; ++i) {
     const bool in_reach = hits.range[i] <= range_max;
@@ -44,40 +43,37 @@ void finish(const BeamHits& hits, int count, double range_max, double walls, dou
 }
 
 /// One of the walls of a WallRuns, the same in every lane.
-template <class D>
 struct SweptWall {
-  D ax, ay, bx, by, ux, uy, rise, id;
+  Doubles ax, ay, bx, by, ux, uy, rise, id;
 
   SweptWall(const WallRuns& w, int i, double id_)
-      : ax(every<D>(w.ax[i])),
-        ay(every<D>(w.ay[i])),
-        bx(every<D>(w.bx[i])),
-        by(every<D>(w.by[i])),
-        ux(every<D>(w.ux[i])),
-        uy(every<D>(w.uy[i])),
-        rise(every<D>(w.rise[i])),
-        id(every<D>(id_)) {}
+      : ax(all(w.ax[i])),
+        ay(all(w.ay[i])),
+        bx(all(w.bx[i])),
+        by(all(w.by[i])),
+        ux(all(w.ux[i])),
+        uy(all(w.uy[i])),
+        rise(all(w.rise[i])),
+        id(all(id_)) {}
 };
 
 // Groups of beams begin at multiples of their size. Beams of the first and last group that are not in the run are
 // harmless, because the exact expression gives no hit.
-template <class D>
-void sweep_run(const SweptWall<D>& wall, const BeamRun& run, const BeamFan& fan, const BeamHits& hits) {
-  constexpr int kGroup = sizeof(D) / sizeof(double);
+void sweep_run(const SweptWall& wall, const BeamRun& run, const BeamFan& fan, const BeamHits& hits) {
   const double* const fan_dx = fan.dx;
   const double* const fan_dy = fan.dy;
   double* const ranges = hits.range;
   double* const surfaces = hits.surface;
-  for (int i = run.first & -kGroup; i <= run.last; i += kGroup) {
-    const D dx = load_as<D>(fan_dx + i);
-    const D dy = load_as<D>(fan_dy + i);
-    NearestLanes<D> nearest{load_as<D>(ranges + i), {}};
-    const D inverse = wall.ux * dx + wall.uy * dy + wall.rise;
+  for (int i = run.first & -kLanes; i <= run.last; i += kLanes) {
+    const Doubles dx = load(fan_dx + i);
+    const Doubles dy = load(fan_dy + i);
+    NearestLanes nearest{load(ranges + i), {}};
+    const Doubles inverse = wall.ux * dx + wall.uy * dy + wall.rise;
     if (mask_bits(inverse * (nearest.range + 2 * kTie) >= 1.0) == 0) continue;  // hidden in all lanes
-    nearest.surface = load_as<D>(surfaces + i);
+    nearest.surface = load(surfaces + i);
     nearest.offer(exact_wall_range(wall.ax, wall.ay, wall.bx, wall.by, dx, dy), wall.id);
-    store_as(ranges + i, nearest.range);
-    store_as(surfaces + i, nearest.surface);
+    store(ranges + i, nearest.range);
+    store(surfaces + i, nearest.surface);
   }
 }
 
@@ -100,14 +96,9 @@ void sweep_group(const WallGroup& group, const double* ids, const BeamFan& fan, 
   for (int i = 0; i < kLanes; ++i) {
     if (i > 0 && ids[i] == ids[i - 1]) continue;  // padding of a leaf
     if (group.runs.is_empty(i)) continue;
-    const BeamRun run = group.runs.run(i);
-    const bool is_short = run.last - (run.first & -kLanes) < kLanes;  // for it, the smaller groups do
-    if (is_short)  // NOLINT(bugprone-branch-clone): Doubles and WideDoubles are one type in some builds
-      sweep_run(SweptWall<Doubles>(group.walls, i, ids[i]), run, fan, hits);
-    else
-      sweep_run(SweptWall<WideDoubles>(group.walls, i, ids[i]), run, fan, hits);
-    if (group.runs.last_behind[i] >= 0)
-      sweep_run(SweptWall<WideDoubles>(group.walls, i, ids[i]), group.runs.run_behind(i), fan, hits);
+    const SweptWall wall(group.walls, i, ids[i]);
+    sweep_run(wall, group.runs.run(i), fan, hits);
+    if (group.runs.last_behind[i] >= 0) sweep_run(wall, group.runs.run_behind(i), fan, hits);
   }
 }
 

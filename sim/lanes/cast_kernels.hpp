@@ -43,8 +43,5 @@ extern const CastKernels kCastKernels;
 namespace v3 {
 extern const CastKernels kCastKernels;
 }
-namespace v4 {
-extern const CastKernels kCastKernels;
-}
 
 }  // namespace scanbench::sim

@@ -28,8 +28,5 @@ extern const DrawKernels kDrawKernels;
 namespace v3 {
 extern const DrawKernels kDrawKernels;
 }
-namespace v4 {
-extern const DrawKernels kDrawKernels;
-}
 
 }  // namespace scanbench::sim

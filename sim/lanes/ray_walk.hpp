@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "core/lanes/lanes.hpp"
 #include "sim/cast/wall_view.hpp"
-#include "sim/lanes/lanes.hpp"
 #include "sim/lanes/wall_lanes.hpp"
 
 namespace scanbench::sim::SCANBENCH_ISA {
@@ -27,9 +27,8 @@ struct WalkRay {
 
 inline void walk_leaf(const WallView& walls, const WalkRay& ray, int first, int count, NearestOne& nearest) {
   for (int k = first; k < first + count; k += kLanes) {
-    const auto r =
-        exact_wall_range<Doubles>(load(walls.ax + k) - ray.ox, load(walls.ay + k) - ray.oy, load(walls.bx + k) - ray.ox,
-                                  load(walls.by + k) - ray.oy, all(ray.dx), all(ray.dy));
+    const auto r = exact_wall_range(load(walls.ax + k) - ray.ox, load(walls.ay + k) - ray.oy,
+                                    load(walls.bx + k) - ray.ox, load(walls.by + k) - ray.oy, all(ray.dx), all(ray.dy));
     if (mask_bits(r <= nearest.range + kTie) == 0) continue;
     for (int i = 0; i < kLanes; ++i) nearest.offer(r[i], walls.id[k + i]);
   }

@@ -30,8 +30,5 @@ extern const ReadingKernels kReadingKernels;
 namespace v3 {
 extern const ReadingKernels kReadingKernels;
 }
-namespace v4 {
-extern const ReadingKernels kReadingKernels;
-}
 
 }  // namespace scanbench::sim

@@ -1,10 +1,10 @@
 // The beams that a wall covers, and its inverse range along them, for several walls at once.
 #pragma once
 
+#include "core/lanes/lanes.hpp"
 #include "sim/cast/beam_fan.hpp"
 #include "sim/cast/wall_view.hpp"
 #include "sim/lanes/angles.hpp"
-#include "sim/lanes/lanes.hpp"
 #include "sim/wall_range.hpp"
 
 namespace scanbench::sim::SCANBENCH_ISA {

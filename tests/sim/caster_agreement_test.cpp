@@ -23,10 +23,8 @@ namespace scanbench::sim {
 namespace {
 
 std::vector<Isa> isas() {
-  std::vector<Isa> all{Isa::baseline};
-  for (const Isa isa : {Isa::v3, Isa::v4})
-    if (isa <= best_isa(Isa::v4)) all.push_back(isa);
-  return all;
+  if (best_isa() == Isa::baseline) return {Isa::baseline};
+  return {Isa::baseline, best_isa()};
 }
 
 /// Results of some beams.

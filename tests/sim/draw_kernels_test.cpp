@@ -21,7 +21,6 @@ namespace {
 std::vector<const DrawKernels*> kernels_of_this_processor() {
   std::vector<const DrawKernels*> kernels{&baseline::kDrawKernels};
   if (best_isa() == Isa::v3) kernels.push_back(&v3::kDrawKernels);
-  if (best_isa(Isa::v4) == Isa::v4) kernels.push_back(&v4::kDrawKernels);
   return kernels;
 }
 
@@ -86,7 +85,7 @@ TEST(ScanNoise, ReadsWhatObservedRangeReadsBeamByBeam) {
   std::vector<double> cosines(kBeams);
   std::vector<double> readings(kBeams);
   for (const SensorModel& sensor : sensors())
-    for (const Isa isa : {Isa::baseline, best_isa(), best_isa(Isa::v4)}) {
+    for (const Isa isa : {Isa::baseline, best_isa()}) {
       ScanNoise noise(sensor, 11, isa);
       for (std::uint32_t frame = 0; frame < 50; ++frame) {
         for (std::size_t i = 0; i < kBeams; ++i) {
@@ -118,7 +117,7 @@ TEST(ScanNoise, AGaussianErrorAloneIsTheSameInScansOfAnyLength) {
                             std::nextafter(high, 0.0),
                             std::numeric_limits<double>::infinity()};
   CounterRng rng(5, RngStream::resampling);
-  for (const Isa isa : {Isa::baseline, best_isa(), best_isa(Isa::v4)})
+  for (const Isa isa : {Isa::baseline, best_isa()})
     for (std::uint32_t beams = 1; beams < 40; ++beams) {
       ScanNoise noise(sensor, 3, isa);
       std::vector<double> ranges(beams), readings(beams);

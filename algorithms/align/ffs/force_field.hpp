@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/geometry/geometry.hpp"
+#include "core/isa.hpp"
 
 namespace scanbench::align::ffs {
 
@@ -62,7 +63,7 @@ struct Field {
 /// Sums are in single precision relative to the middle of the points; their relative error is about 1e-5, and the error
 /// of d is 1e-7 of the extent of the map. Results are the same bytes on every x86-64, independent of the register
 /// width.
-void point_forces(const FieldPoints& points, const Field& field, std::vector<PointForce>& forces);
+void point_forces(const FieldPoints& points, const Field& field, std::vector<PointForce>& forces, Isa isa = best_isa());
 
 /// Stiffness of a point midway between points of weight 1 on a long line through it, `spacing_m` apart.
 double stiffness_on_line(double spacing_m, const Field& field);

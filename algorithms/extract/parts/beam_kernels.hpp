@@ -1,7 +1,4 @@
 // Sums of the normal equations of a line in the coordinates of the beams, four readings at once.
-//
-// beam_kernels.cpp is compiled twice, for any x86-64 (namespace baseline) and for AVX2 (namespace v3). Both have the
-// same lanes and do the same IEEE operations in the same order, so both give equal bytes.
 #pragma once
 
 namespace scanbench::extract {

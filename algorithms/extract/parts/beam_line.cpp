@@ -72,7 +72,7 @@ double reading_sigma(const ReadingNoise& noise, double r, double slope) {
 std::optional<BeamLine> fit_beam_line(std::span<const BeamReading> readings, const ReadingNoise& noise,
                                       const std::optional<Vec2>& start, Isa isa) {
   if (readings.size() < 2) return std::nullopt;
-  const BeamKernels& kernels = isa == Isa::v3 ? v3::kBeamKernels : baseline::kBeamKernels;
+  const BeamKernels& kernels = build_for(isa, baseline::kBeamKernels, v3::kBeamKernels);
   const MiddleFrame frame{readings[readings.size() / 2].direction};
   const FrameReadings in_frame(readings, frame);
   Vec2 theta;

@@ -32,7 +32,7 @@ Farthest farthest_from_chord(std::span<const Vec2> points, const PointRun& run) 
   std::size_t index = first + 1;
   double best = -1.0;
   if (length2 > kCoincident_m * kCoincident_m) {
-    const ChordKernels& kernels = best_isa() == Isa::v3 ? v3::kChordKernels : baseline::kChordKernels;
+    const ChordKernels& kernels = build_for(best_isa(), baseline::kChordKernels, v3::kChordKernels);
     int nth = 0;
     best = kernels.farthest(points[first + 1].data(), run.last - run.first - 1, a.data(), chord.data(), &nth);
     index += as_index(nth);

@@ -1,7 +1,4 @@
 // The search for the point farthest from a chord, four points at once.
-//
-// chord_kernels.cpp is compiled twice, for any x86-64 (namespace baseline) and for AVX2 (namespace v3). Both do the
-// same IEEE operations, so both give equal bytes.
 #pragma once
 
 namespace scanbench::extract {

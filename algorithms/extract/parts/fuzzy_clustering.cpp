@@ -98,7 +98,7 @@ class TwoClusters {
  public:
   TwoClusters(std::span<const Vec2> points, bool penalty)
       : count_(points.size()),
-        kernels_(best_isa() == Isa::v3 ? v3::kFuzzyKernels : baseline::kFuzzyKernels),
+        kernels_(build_for(best_isa(), baseline::kFuzzyKernels, v3::kFuzzyKernels)),
         penalty_(penalty) {
     const std::size_t padded = (count_ + kFuzzyLanes - 1) / kFuzzyLanes * kFuzzyLanes;
     for (std::vector<double>* array : {&x_, &y_, &u_[0], &u_[1]}) array->resize(padded);

@@ -1,7 +1,4 @@
 // One iteration of the fuzzy clustering of points into two lines with the fuzzifier 2, four points at a time.
-//
-// fuzzy_kernels.cpp is compiled twice, for any x86-64 (namespace baseline) and for AVX2 (namespace v3). Both have the
-// same lanes and do the same IEEE operations in the same order, so both give equal bytes.
 #pragma once
 
 namespace scanbench::extract {

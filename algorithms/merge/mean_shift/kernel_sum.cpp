@@ -10,7 +10,7 @@ constexpr float kFar = 1e12F;  // its square is finite and beyond any cut-off
 
 }  // namespace
 
-CandidateList::CandidateList(Isa isa) : kernels_(isa == Isa::v3 ? &v3::kSumKernels : &baseline::kSumKernels) {}
+CandidateList::CandidateList(Isa isa) : kernels_(&build_for(isa, baseline::kSumKernels, v3::kSumKernels)) {}
 
 void CandidateList::clear() {
   count_ = 0;

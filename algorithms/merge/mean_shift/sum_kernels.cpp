@@ -1,72 +1,33 @@
 // Sums of a truncated Gaussian kernel over candidates (Lakaemper 2009, eq. 1) and the selection of candidates, in
-// lanes. Nothing here is a function that the linker could merge between the two builds.
+// lanes.
 #include "algorithms/merge/mean_shift/sum_kernels.hpp"
 
-#ifndef SCANBENCH_ISA
-#define SCANBENCH_ISA baseline
-#endif
+#include "core/lanes/elementary.hpp"
+#include "core/lanes/lanes.hpp"
 
 namespace scanbench::merge::SCANBENCH_ISA {
 namespace {
 
-typedef float Floats __attribute__((vector_size(4 * kSumLanes)));      // NOLINT(modernize-use-using)
-typedef int Ints __attribute__((vector_size(4 * kSumLanes)));          // NOLINT(modernize-use-using)
-typedef unsigned Words __attribute__((vector_size(4 * kSumLanes)));    // NOLINT(modernize-use-using)
-typedef double Doubles __attribute__((vector_size(8 * kNearLanes)));   // NOLINT(modernize-use-using)
-typedef long long Longs __attribute__((vector_size(8 * kNearLanes)));  // NOLINT(modernize-use-using)
-typedef float LooseFloats __attribute__((vector_size(4 * kSumLanes), aligned(4), may_alias));     // NOLINT
-typedef double LooseDoubles __attribute__((vector_size(8 * kNearLanes), aligned(8), may_alias));  // NOLINT
-typedef float FewFloats __attribute__((vector_size(4 * kNearLanes)));                             // NOLINT
+using Floats = Lanes<float, kSumLanes>;
+using FourDoubles = Lanes<double, kNearLanes>;
 
-// Functions take vectors by reference and are inlined: the two builds pass vectors in different registers.
-#define SCANBENCH_INLINE __attribute__((always_inline)) inline
-
-SCANBENCH_INLINE void gaussian_lanes(const Floats& squared, Floats& out) {
-  // exp(-s / 2) = 2^n 2^f with |f| <= 1/2; adding 1.5 * 2^23 rounds to the nearest integer and leaves it in the low
-  // bits. 2^f: Taylor polynomial of degree 5, remainder below (ln 2 / 2)^6 / 6! = 2.5e-6.
-  const Floats y = squared * -0.72134752F;
-  const Floats rounded = y + 12582912.0F;
-  const Floats f = y - (rounded - 12582912.0F);
-  Floats p = 0.0013333558F * f + 0.0096181291F;
-  p = p * f + 0.0555041087F;
-  p = p * f + 0.2402265070F;
-  p = p * f + 0.6931471806F;
-  p = p * f + 1.0F;
-  out = reinterpret_cast<Floats>(reinterpret_cast<Words>(p) + (reinterpret_cast<Words>(rounded) << 23));
-}
-
-SCANBENCH_INLINE void masked(const Ints& mask, Floats& v) {
-  v = reinterpret_cast<Floats>(reinterpret_cast<Ints>(v) & mask);
-}
-
-SCANBENCH_INLINE float total(const Floats& v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
-}
-
-SCANBENCH_INLINE void load(const float* p, Floats& v) {
-  v = *reinterpret_cast<const LooseFloats*>(p);
+/// exp(-squared / 2)
+SCANBENCH_INLINE Floats gaussian_lanes(Floats squared) {
+  return exp2(squared * -0.72134752F);
 }
 
 void gaussian(const float* squared, float* out) {
-  Floats s, g;
-  load(squared, s);
-  gaussian_lanes(s, g);
-  *reinterpret_cast<LooseFloats*>(out) = g;
+  store(out, gaussian_lanes(load<Floats>(squared)));
 }
 
 FirstSums first(const CandidateArrays& candidates, const float t[3], float squared_cutoff) {
   Floats mass{}, sx{}, sy{}, sz{};
   for (int i = 0; i < candidates.count; i += kSumLanes) {
-    Floats dx, dy, dz, w;
-    load(candidates.x + i, dx);
-    load(candidates.y + i, dy);
-    load(candidates.z + i, dz);
-    dx -= t[0];
-    dy -= t[1];
-    dz -= t[2];
+    const Floats dx = load<Floats>(candidates.x + i) - t[0];
+    const Floats dy = load<Floats>(candidates.y + i) - t[1];
+    const Floats dz = load<Floats>(candidates.z + i) - t[2];
     const Floats squared = dx * dx + dy * dy + dz * dz;
-    gaussian_lanes(squared, w);
-    masked(squared <= squared_cutoff, w);
+    const Floats w = masked(squared <= squared_cutoff, gaussian_lanes(squared));
     mass += w;
     sx += w * dx;
     sy += w * dy;
@@ -76,24 +37,17 @@ FirstSums first(const CandidateArrays& candidates, const float t[3], float squar
 }
 
 SecondSums second(const CandidateArrays& candidates, const float t[3], float squared_cutoff) {
-  Floats at_cutoff;
-  gaussian_lanes(Floats{} + squared_cutoff, at_cutoff);
+  const Floats at_cutoff = gaussian_lanes(all<Floats>(squared_cutoff));
   Floats mass{}, density{}, sx{}, sy{}, sz{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
   for (int i = 0; i < candidates.count; i += kSumLanes) {
-    Floats dx, dy, dz, w;
-    load(candidates.x + i, dx);
-    load(candidates.y + i, dy);
-    load(candidates.z + i, dz);
-    dx -= t[0];
-    dy -= t[1];
-    dz -= t[2];
+    const Floats dx = load<Floats>(candidates.x + i) - t[0];
+    const Floats dy = load<Floats>(candidates.y + i) - t[1];
+    const Floats dz = load<Floats>(candidates.z + i) - t[2];
     const Floats squared = dx * dx + dy * dy + dz * dz;
-    gaussian_lanes(squared, w);
-    const Ints inside = squared <= squared_cutoff;
-    Floats above = w - at_cutoff;
-    masked(inside, above);
-    masked(inside, w);
-    density += above;
+    const Floats kernel = gaussian_lanes(squared);
+    const auto inside = squared <= squared_cutoff;
+    const Floats w = masked(inside, kernel);
+    density += masked(inside, kernel - at_cutoff);
     const Floats wx = w * dx;
     const Floats wy = w * dy;
     const Floats wz = w * dz;
@@ -118,33 +72,28 @@ SecondSums second(const CandidateArrays& candidates, const float t[3], float squ
           total(zz)};
 }
 
-SCANBENCH_INLINE void difference(const double* p, double centre, Doubles& d) {
-  d = *reinterpret_cast<const LooseDoubles*>(p) - centre;
-}
-
 /// max(0, |d| - half)
-SCANBENCH_INLINE void beyond(const Doubles& d, double half, Doubles& out) {
-  const Doubles o = reinterpret_cast<Doubles>(reinterpret_cast<Longs>(d) & 0x7fffffffffffffffLL) - half;
-  out = reinterpret_cast<Doubles>(reinterpret_cast<Longs>(o) & (o > 0.0));
+SCANBENCH_INLINE FourDoubles beyond(FourDoubles d, double half) {
+  const FourDoubles o = abs(d) - half;
+  return masked(o > 0.0, o);
 }
 
 int select_lanes(const double* x, const double* y, const double* z, int lanes, const NearBox& box, float* out_x,
                  float* out_y, float* out_z, int found) {
-  Doubles dx, dy, dz, ox, oy, oz;
-  difference(x, box.centre[0], dx);
-  difference(y, box.centre[1], dy);
-  difference(z, box.centre[2], dz);
+  const FourDoubles dx = load<FourDoubles>(x) - box.centre[0];
+  const FourDoubles dy = load<FourDoubles>(y) - box.centre[1];
+  FourDoubles dz = load<FourDoubles>(z) - box.centre[2];
   if (box.period > 0) {
-    const Doubles turn = Doubles{} + box.period;
-    const Longs high = dz >= 0.5 * box.period;
-    const Longs low = dz < -0.5 * box.period;
-    dz = dz - reinterpret_cast<Doubles>(reinterpret_cast<Longs>(turn) & high) +
-         reinterpret_cast<Doubles>(reinterpret_cast<Longs>(turn) & low);
+    const auto turn = all<FourDoubles>(box.period);
+    const auto high = dz >= 0.5 * box.period;
+    const auto low = dz < -0.5 * box.period;
+    dz = dz - masked(high, turn) + masked(low, turn);
   }
-  beyond(dx, box.half[0], ox);
-  beyond(dy, box.half[1], oy);
-  beyond(dz, box.half[2], oz);
-  const Longs inside = ox * ox + oy * oy + oz * oz <= box.squared_radius;
+  const FourDoubles ox = beyond(dx, box.half[0]);
+  const FourDoubles oy = beyond(dy, box.half[1]);
+  const FourDoubles oz = beyond(dz, box.half[2]);
+  const auto inside = ox * ox + oy * oy + oz * oz <= box.squared_radius;
+  using FewFloats = Lanes<float, kNearLanes>;
   const FewFloats fx = __builtin_convertvector(dx, FewFloats);
   const FewFloats fy = __builtin_convertvector(dy, FewFloats);
   const FewFloats fz = __builtin_convertvector(dz, FewFloats);

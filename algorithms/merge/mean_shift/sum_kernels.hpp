@@ -1,8 +1,5 @@
 // The inner loops of mean shift in lanes: sums of a truncated Gaussian kernel in float, eight candidates at once, and
 // the selection of candidates, four points at once in double.
-//
-// sum_kernels.cpp is compiled twice, for any x86-64 (namespace baseline) and for AVX2 (namespace v3). Both have the
-// same lanes and do the same IEEE operations in the same order, so both give equal bytes.
 #pragma once
 
 namespace scanbench::merge {

@@ -6,6 +6,7 @@
 #include "algorithms/align/ffs/body.hpp"
 #include "algorithms/align/ffs/force_field.hpp"
 #include "algorithms/align/ffs/rigid_step.hpp"
+#include "core/isa.hpp"
 #include "core/rng.hpp"
 #include "tests/support/plain_forces.hpp"
 
@@ -96,6 +97,21 @@ TEST(ForceField, PotentialThroughTheIndexIsThatOfThePlainLoop) {
   const double exact = support::plain_potential(points, 0.3);
   EXPECT_NEAR(potential(points, {0.3, 6.0, 1e-6}), exact, 1e-7 * std::abs(exact));
   EXPECT_LT(exact, 0.0);
+}
+
+TEST(ForceField, HasTheSameBytesOnEveryProcessor) {
+  if (best_isa() == Isa::baseline) GTEST_SKIP() << "this processor has one set of kernels";
+  for (const double sigma : {0.05, 0.3, 3.0}) {
+    const FieldPoints points = random_points(7, 60, 3.0, 11);
+    std::vector<PointForce> one, other;
+    point_forces(points, {sigma, 4.0}, one, Isa::baseline);
+    point_forces(points, {sigma, 4.0}, other, Isa::v3);
+    ASSERT_EQ(one.size(), other.size());
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      EXPECT_EQ(one[k].force, other[k].force);
+      EXPECT_EQ(one[k].stiffness, other[k].stiffness);
+    }
+  }
 }
 
 TEST(ForceField, HasNoMomentum) {
