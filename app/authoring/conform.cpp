@@ -11,6 +11,7 @@
 #include "app/foreign.hpp"
 #include "core/error.hpp"
 #include "core/modules.hpp"
+#include "harness/catalog/make_module.hpp"
 #include "harness/conform/aligner_checks.hpp"
 #include "harness/conform/check.hpp"
 #include "harness/conform/description_checks.hpp"
@@ -20,7 +21,6 @@
 #include "harness/conform/merger_checks.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/run/worker.hpp"
-#include "harness/scenario/modules.hpp"
 
 namespace scanbench::app {
 namespace {

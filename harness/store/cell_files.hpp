@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "harness/scenario/scenario.hpp"
+#include "harness/catalog/pipeline_spec.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/run_file.hpp"
 #include "metrics/metric.hpp"

@@ -13,7 +13,7 @@
 #include "core/registry.hpp"
 #include "core/special_values.hpp"
 #include "harness/analysis/statistics.hpp"
-#include "harness/scenario/modules.hpp"
+#include "harness/catalog/find_module.hpp"
 #include "harness/store/archived_run.hpp"
 #include "harness/store/cell_files.hpp"
 #include "harness/store/run_folder.hpp"
