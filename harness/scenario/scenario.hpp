@@ -88,6 +88,14 @@ struct Scenario {
   std::string published_as_written;      ///< in the scenario, with ${SCANBENCH_DATA}
   Limits limits;
   std::vector<std::string> notes;  ///< for the user: input that was skipped, like walls without length in a vector map
+
+  // Defined once, in scenario.cpp: inline they cost seconds in every unit that has one.
+  Scenario();
+  Scenario(const Scenario&);
+  Scenario(Scenario&&) noexcept;
+  Scenario& operator=(const Scenario&);
+  Scenario& operator=(Scenario&&) noexcept;
+  ~Scenario();
 };
 
 /// True if the recording depends on the seed: it is simulated, or a log whose poses get errors.
