@@ -11,8 +11,8 @@
 #include <opencv2/imgcodecs.hpp>
 #endif
 
+#include "core/contracts/line_raster.hpp"
 #include "core/index.hpp"
-#include "core/line_raster.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
 #include "metrics/metric.hpp"

@@ -49,6 +49,13 @@ Box bounding_box(const World& world) {
 
 }  // namespace
 
+World::World() = default;
+World::World(const World&) = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(const World&) = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+
 Vec2 MovingBody::position(double time_s) const {
   if (path.empty()) return Vec2::Zero();
   double arc = std::max(time_s, 0.0) * speed_mps;

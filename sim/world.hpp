@@ -38,6 +38,14 @@ struct World {
   std::vector<double> losses;
   std::vector<Circle> circles;
   std::vector<MovingBody> moving;
+
+  // Defined once, in world.cpp: inline they cost seconds in every unit that has one.
+  World();
+  World(const World&);
+  World(World&&) noexcept;
+  World& operator=(const World&);
+  World& operator=(World&&) noexcept;
+  ~World();
 };
 
 /// The largest distance of a surface from the centre of the world; ray casting is exact within it.

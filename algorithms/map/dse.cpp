@@ -20,9 +20,9 @@
 #include "algorithms/map/parts/prediction.hpp"
 #include "algorithms/map/parts/scan_segments.hpp"
 #include "algorithms/map/parts/step_matching.hpp"
+#include "core/contracts/map_trace.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
-#include "core/trace/map_trace.hpp"
 
 namespace scanbench {
 namespace {

@@ -13,10 +13,10 @@
 #include "algorithms/map/parts/registration.hpp"
 #include "algorithms/map/parts/scan_segments.hpp"
 #include "algorithms/map/parts/step_matching.hpp"
+#include "core/contracts/map_trace.hpp"
 #include "core/geometry/segment_index.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
-#include "core/trace/map_trace.hpp"
 
 namespace scanbench {
 namespace {

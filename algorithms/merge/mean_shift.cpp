@@ -18,11 +18,11 @@
 #include "algorithms/merge/mean_shift/single_phase.hpp"
 #include "algorithms/merge/mean_shift/trace.hpp"
 #include "algorithms/merge/parts/joint_space.hpp"
+#include "core/contracts/mean_shift_trace.hpp"
 #include "core/index.hpp"
 #include "core/modules.hpp"
 #include "core/number_text.hpp"
 #include "core/registry.hpp"
-#include "core/trace/mean_shift_trace.hpp"
 
 namespace scanbench {
 namespace {

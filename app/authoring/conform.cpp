@@ -12,6 +12,7 @@
 #include "app/terminal/progress.hpp"
 #include "core/error.hpp"
 #include "core/modules.hpp"
+#include "harness/catalog/make_module.hpp"
 #include "harness/conform/aligner_checks.hpp"
 #include "harness/conform/check.hpp"
 #include "harness/conform/description_checks.hpp"
@@ -21,7 +22,6 @@
 #include "harness/conform/merger_checks.hpp"
 #include "harness/page/plain_text.hpp"
 #include "harness/run/worker.hpp"
-#include "harness/scenario/modules.hpp"
 
 namespace scanbench::app {
 namespace {

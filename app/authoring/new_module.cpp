@@ -10,8 +10,8 @@
 #include "app/authoring/module_templates.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
+#include "harness/catalog/find_module.hpp"
 #include "harness/files/atomic_file.hpp"
-#include "harness/scenario/modules.hpp"
 
 namespace scanbench::app {
 namespace {

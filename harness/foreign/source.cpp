@@ -1,7 +1,14 @@
-// Names of foreign modules for messages.
+// Construction of sources of foreign modules, and their names for messages.
 #include "harness/foreign/source.hpp"
 
 namespace scanbench::harness {
+
+ForeignSource::ForeignSource() = default;
+ForeignSource::ForeignSource(const ForeignSource&) = default;
+ForeignSource::ForeignSource(ForeignSource&&) noexcept = default;
+ForeignSource& ForeignSource::operator=(const ForeignSource&) = default;
+ForeignSource& ForeignSource::operator=(ForeignSource&&) noexcept = default;
+ForeignSource::~ForeignSource() = default;
 
 std::string ForeignSource::text() const {
   if (program.empty()) return library.filename().string();

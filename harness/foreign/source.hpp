@@ -33,6 +33,14 @@ struct ForeignSource {
   double scan_seconds = 10.0;           ///< of a program: wall time of a call about one scan
   ForeignModule module;
 
+  // Defined once, in source.cpp: inline they cost seconds in every unit that has one.
+  ForeignSource();
+  ForeignSource(const ForeignSource&);
+  ForeignSource(ForeignSource&&) noexcept;
+  ForeignSource& operator=(const ForeignSource&);
+  ForeignSource& operator=(ForeignSource&&) noexcept;
+  ~ForeignSource();
+
   /// As in messages: "python3 my_lines.py", "libmy_lines.so". Paths of files are without folders.
   std::string text() const;
 };

@@ -10,12 +10,12 @@
 #include <fmt/ranges.h>
 
 #include "core/geometry/geometry.hpp"
+#include "harness/catalog/chain.hpp"
+#include "harness/catalog/find_module.hpp"
 #include "harness/report/level_table.hpp"
 #include "harness/report/page_parts.hpp"
 #include "harness/report/ranking_table.hpp"
 #include "harness/scenario/benchmark_spec.hpp"
-#include "harness/scenario/chain.hpp"
-#include "harness/scenario/modules.hpp"
 #include "harness/scenario/simulation_input.hpp"
 #include "harness/store/summary.hpp"
 

@@ -14,11 +14,11 @@
 #include "core/geometry/angles.hpp"
 #include "core/geometry/symmetric_matrix.hpp"
 #include "core/modules.hpp"
+#include "harness/catalog/chain.hpp"
+#include "harness/catalog/make_module.hpp"
 #include "harness/foreign/arithmetic.hpp"
 #include "harness/foreign/fault.hpp"
 #include "harness/run/stopwatch.hpp"
-#include "harness/scenario/chain.hpp"
-#include "harness/scenario/modules.hpp"
 
 namespace scanbench::harness {
 namespace {

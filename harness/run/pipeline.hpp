@@ -5,7 +5,7 @@
 
 #include "core/result.hpp"
 #include "core/scan.hpp"
-#include "harness/scenario/scenario.hpp"
+#include "harness/catalog/pipeline_spec.hpp"
 #include "harness/store/traces.hpp"
 
 namespace scanbench::harness {

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "harness/catalog/chain.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/run/pipeline.hpp"
-#include "harness/scenario/chain.hpp"
 #include "harness/scenario/trace_choice.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/manifest.hpp"

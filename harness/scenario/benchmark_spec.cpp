@@ -9,9 +9,10 @@
 
 #include "core/error.hpp"
 #include "core/names.hpp"
+#include "harness/catalog/chain.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/json.hpp"
-#include "harness/scenario/chain.hpp"
+#include "harness/scenario/scenario.hpp"
 #include "harness/yaml/reader.hpp"
 
 namespace scanbench::harness {

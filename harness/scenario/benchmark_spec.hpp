@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "harness/scenario/benchmark_subject.hpp"
-#include "harness/scenario/scenario.hpp"
 #include "harness/yaml/gate.hpp"
 
 namespace scanbench::harness {
+
+struct Scenario;
 
 /// The scenarios of a benchmark that share one level of a factor. The scenario file of a suite is the factor
 /// "scenario".

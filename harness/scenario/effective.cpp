@@ -7,6 +7,7 @@
 #include "harness/files/placed_error.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/scenario/foreign_slot.hpp"
+#include "harness/scenario/scenario.hpp"
 #include "harness/scenario/sections.hpp"
 #include "harness/scenario/world_file.hpp"
 #include "harness/yaml/reader.hpp"

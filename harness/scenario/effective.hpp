@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "harness/scenario/scenario.hpp"
-
 namespace scanbench::harness {
+
+struct Scenario;
 
 /// Paths of copies of a scenario's files, relative to the folder of its effective.yaml. Empty: there is no copy.
 struct StoredInputs {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/catalog/pipeline_spec.hpp"
 #include "harness/foreign/source.hpp"
-#include "harness/scenario/scenario.hpp"
 #include "harness/yaml/reader.hpp"
 
 namespace scanbench::harness {

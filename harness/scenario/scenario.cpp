@@ -1,7 +1,14 @@
-// Predicates on scenarios.
+// Construction of scenarios and predicates on them.
 #include "harness/scenario/scenario.hpp"
 
 namespace scanbench::harness {
+
+Scenario::Scenario() = default;
+Scenario::Scenario(const Scenario&) = default;
+Scenario::Scenario(Scenario&&) noexcept = default;
+Scenario& Scenario::operator=(const Scenario&) = default;
+Scenario& Scenario::operator=(Scenario&&) noexcept = default;
+Scenario::~Scenario() = default;
 
 bool has_chance(const Scenario& scenario) {
   if (const auto* lines = std::get_if<LinesInput>(&scenario.input)) return lines->file.empty();

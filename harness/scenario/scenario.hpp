@@ -10,30 +10,18 @@
 #include <vector>
 
 #include "core/params.hpp"
-#include "core/recording.hpp"
-#include "harness/foreign/source.hpp"
+#include "core/sensor_model.hpp"
+#include "harness/catalog/pipeline_spec.hpp"
 #include "sim/line_copies.hpp"
+#include "sim/odometry.hpp"
 #include "sim/ray_caster.hpp"
-#include "sim/simulate.hpp"
+#include "sim/tilt.hpp"
+#include "sim/world.hpp"
 
 namespace scanbench::harness {
 
 /// 2^53: the largest seed that every tool reads back exactly.
 inline constexpr std::uint64_t kLargestSeed = 9007199254740992U;
-
-/// A module with all of its parameters.
-struct ModuleChoice {
-  std::string kind;  ///< a slot of the chain (chain.hpp), or metrics, figure, trajectory
-  std::string module;
-  ParamSet params;
-  std::optional<ForeignSource> source = {};  ///< absent: the module is registered in this program
-};
-
-struct PipelineSpec {
-  std::string name;
-  std::vector<ModuleChoice> slots;  ///< in the order of the chain (chain.hpp)
-  std::string published;            ///< the method's name in Scenario::published_file; may be empty
-};
 
 /// Input of a run with scans of a simulated world.
 struct SimulatedInput {
@@ -99,6 +87,14 @@ struct Scenario {
   std::string published_as_written;      ///< in the scenario, with ${SCANBENCH_DATA}
   Limits limits;
   std::vector<std::string> notes;  ///< for the user: input that was skipped, like walls without length in a vector map
+
+  // Defined once, in scenario.cpp: inline they cost seconds in every unit that has one.
+  Scenario();
+  Scenario(const Scenario&);
+  Scenario(Scenario&&) noexcept;
+  Scenario& operator=(const Scenario&);
+  Scenario& operator=(Scenario&&) noexcept;
+  ~Scenario();
 };
 
 /// True if the recording depends on the seed: it is simulated, or a log whose poses get errors.

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 
+#include "harness/catalog/find_module.hpp"
 #include "harness/exchange/line_set.hpp"
 #include "harness/exchange/log.hpp"
 #include "harness/files/input_file.hpp"
 #include "harness/files/placed_error.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/scenario/figure_pipelines.hpp"
-#include "harness/scenario/modules.hpp"
 #include "harness/scenario/published.hpp"
 #include "harness/scenario/sections.hpp"
 #include "harness/scenario/shared_keys.hpp"
@@ -19,6 +19,7 @@
 #include "harness/yaml/reader.hpp"
 #include "harness/yaml/sets.hpp"
 #include "sim/sensors.hpp"
+#include "sim/trajectory.hpp"
 #include "sim/world.hpp"
 
 namespace scanbench::harness {

@@ -8,10 +8,11 @@
 #include <limits>
 #include <set>
 
+#include "harness/catalog/chain.hpp"
+#include "harness/catalog/find_module.hpp"
 #include "harness/files/placed_error.hpp"
 #include "harness/files/text_file.hpp"
-#include "harness/scenario/chain.hpp"
-#include "harness/scenario/modules.hpp"
+#include "harness/scenario/scenario.hpp"
 
 namespace scanbench::harness {
 namespace {

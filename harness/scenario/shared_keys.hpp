@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "harness/catalog/pipeline_spec.hpp"
 #include "harness/scenario/foreign_slot.hpp"
-#include "harness/scenario/scenario.hpp"
 #include "harness/yaml/reader.hpp"
 
 namespace scanbench::harness {

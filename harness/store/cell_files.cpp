@@ -8,12 +8,12 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "harness/catalog/chain.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/csv.hpp"
 #include "harness/files/json.hpp"
 #include "harness/files/npy.hpp"
 #include "harness/files/text_file.hpp"
-#include "harness/scenario/chain.hpp"
 #include "harness/store/json_file.hpp"
 
 namespace scanbench::harness {

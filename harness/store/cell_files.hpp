@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "harness/catalog/pipeline_spec.hpp"
 #include "harness/files/csv.hpp"
-#include "harness/scenario/scenario.hpp"
 #include "harness/store/cell_status.hpp"
 #include "harness/store/run_file.hpp"
 #include "harness/store/stored_files.hpp"

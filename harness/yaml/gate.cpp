@@ -152,6 +152,13 @@ void check_bytes(std::string_view text, std::size_t max_bytes) {
 
 }  // namespace
 
+YamlNode::YamlNode() = default;
+YamlNode::YamlNode(const YamlNode&) = default;
+YamlNode::YamlNode(YamlNode&&) noexcept = default;
+YamlNode& YamlNode::operator=(const YamlNode&) = default;
+YamlNode& YamlNode::operator=(YamlNode&&) noexcept = default;
+YamlNode::~YamlNode() = default;
+
 const YamlNode* YamlNode::find(std::string_view key) const {
   const auto it = std::ranges::find(entries, key, &YamlEntry::key);
   return it == entries.end() ? nullptr : &it->value;

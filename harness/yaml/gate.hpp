@@ -28,6 +28,14 @@ struct YamlNode {
   std::vector<YamlNode> items;     ///< of a sequence
   std::vector<YamlEntry> entries;  ///< of a map, in file order, keys unique
 
+  // Defined once, in gate.cpp: inline they cost seconds in every unit that has one.
+  YamlNode();
+  YamlNode(const YamlNode&);
+  YamlNode(YamlNode&&) noexcept;
+  YamlNode& operator=(const YamlNode&);
+  YamlNode& operator=(YamlNode&&) noexcept;
+  ~YamlNode();
+
   /// The value of a map's key, or nullptr.
   const YamlNode* find(std::string_view key) const;
   YamlNode* find(std::string_view key);

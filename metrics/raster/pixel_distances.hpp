@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/line_raster.hpp"
+#include "core/contracts/line_raster.hpp"
 
 namespace scanbench::metrics {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/line_raster.hpp"
+#include "core/contracts/line_raster.hpp"
 #include "core/params.hpp"
 #include "metrics/metric.hpp"
 

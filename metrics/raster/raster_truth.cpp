@@ -8,8 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/contracts/line_raster.hpp"
 #include "core/error.hpp"
-#include "core/line_raster.hpp"
 #include "core/registry.hpp"
 #include "metrics/raster/raster_comparison.hpp"
 #include "metrics/rows.hpp"

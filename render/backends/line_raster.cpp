@@ -11,9 +11,9 @@
 
 #include <fmt/format.h>
 
+#include "core/contracts/line_raster.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "core/line_raster.hpp"
 #include "core/registry.hpp"
 #include "render/backends/gl_context.hpp"
 

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "core/contracts/force_field_trace.hpp"
 #include "core/registry.hpp"
-#include "core/trace/force_field_trace.hpp"
 #include "core/trace/trace_rows.hpp"
 #include "render/figure.hpp"
 #include "render/figures/parts/clusters.hpp"

@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "core/contracts/force_field_trace.hpp"
 #include "core/registry.hpp"
-#include "core/trace/force_field_trace.hpp"
 #include "core/trace/trace_rows.hpp"
 #include "render/figures/parts/clusters.hpp"
 #include "render/figures/parts/style.hpp"

@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "core/contracts/map_trace.hpp"
 #include "core/registry.hpp"
-#include "core/trace/map_trace.hpp"
 #include "core/trace/trace_rows.hpp"
 #include "render/figures/parts/frames.hpp"
 #include "render/figures/parts/style.hpp"

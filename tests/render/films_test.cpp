@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
+#include "core/contracts/force_field_trace.hpp"
+#include "core/contracts/map_trace.hpp"
 #include "core/registry.hpp"
-#include "core/trace/force_field_trace.hpp"
-#include "core/trace/map_trace.hpp"
 #include "render/films/stage.hpp"
 #include "render/layout/layout.hpp"
 

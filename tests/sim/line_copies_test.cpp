@@ -16,12 +16,14 @@
 namespace scanbench::sim {
 namespace {
 
-const World kTwoWalls{.name = "w",
-                      .about = "",
-                      .walls = {{"a", {{0, 0}, {1, 0}}}, {"b", {{2, 3}, {2, 5}}}},
-                      .losses = {},
-                      .circles = {},
-                      .moving = {}};
+World two_walls() {
+  World world;
+  world.name = "w";
+  world.walls = {{"a", {{0, 0}, {1, 0}}}, {"b", {{2, 3}, {2, 5}}}};
+  return world;
+}
+
+const World kTwoWalls = two_walls();
 
 TEST(LineCopies, AreTheWallsAtPosesThatDiffer) {
   const Recording r = line_copies(kTwoWalls, {.copies = 5, .rotation_sigma_rad = 0.02, .shift_sigma_m = 0.03}, 7);

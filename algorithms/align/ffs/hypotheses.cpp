@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/trace/force_field_trace.hpp"
+#include "core/contracts/force_field_trace.hpp"
 
 namespace scanbench::align::ffs {
 namespace {

@@ -7,7 +7,7 @@
 #include "algorithms/align/ffs/meeting.hpp"
 #include "algorithms/align/ffs/rigid_step.hpp"
 #include "algorithms/align/parts/outcome.hpp"
-#include "core/trace/force_field_trace.hpp"
+#include "core/contracts/force_field_trace.hpp"
 
 namespace scanbench::align::ffs {
 namespace {

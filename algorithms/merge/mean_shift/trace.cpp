@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contracts/mean_shift_trace.hpp"
 #include "core/index.hpp"
-#include "core/trace/mean_shift_trace.hpp"
 
 namespace scanbench::merge {
 

@@ -1,4 +1,4 @@
-// Writes the trace rows of mean_shift (core/trace/mean_shift_trace.hpp). The calls do nothing unless the trace is
+// Writes the trace rows of mean_shift (core/contracts/mean_shift_trace.hpp). The calls do nothing unless the trace is
 // recorded.
 #pragma once
 

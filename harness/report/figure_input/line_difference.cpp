@@ -25,7 +25,7 @@ struct JudgedPixels {
 };
 
 /// Appends the parts of the line to `near` or `far`. Each pixel of the line decides about its column, as
-/// core/line_raster.hpp defines it.
+/// core/contracts/line_raster.hpp defines it.
 void cut(const Segment& line, double pixel_m, const JudgedPixels& judged, std::vector<Segment>& near,
          std::vector<Segment>& far) {
   const Vec2 d = line.b - line.a;

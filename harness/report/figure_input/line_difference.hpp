@@ -5,7 +5,7 @@
 
 #include "core/recording.hpp"
 #include "core/result.hpp"
-#include "harness/scenario/scenario.hpp"
+#include "harness/catalog/pipeline_spec.hpp"
 #include "metrics/raster/raster_comparison.hpp"
 #include "render/figure.hpp"
 

@@ -10,7 +10,7 @@
 #include "core/registry.hpp"
 #include "core/special_values.hpp"
 #include "harness/analysis/statistics.hpp"
-#include "harness/scenario/modules.hpp"
+#include "harness/catalog/find_module.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::harness {

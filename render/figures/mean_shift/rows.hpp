@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/trace/mean_shift_trace.hpp"
+#include "core/contracts/mean_shift_trace.hpp"
 #include "render/charts/view3.hpp"
 #include "render/figure.hpp"
 #include "render/figures/parts/clusters.hpp"

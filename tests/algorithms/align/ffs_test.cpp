@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "algorithms/align/parts/outcome.hpp"
+#include "core/contracts/force_field_trace.hpp"
 #include "core/rng.hpp"
-#include "core/trace/force_field_trace.hpp"
 #include "tests/support/aligning.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/trace_recorder.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
+#include "core/contracts/mean_shift_trace.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
-#include "core/trace/mean_shift_trace.hpp"
 #include "tests/support/spiral.hpp"
 #include "tests/support/trace_recorder.hpp"
 

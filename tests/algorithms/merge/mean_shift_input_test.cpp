@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
+#include "core/contracts/mean_shift_trace.hpp"
 #include "core/rng.hpp"
-#include "core/trace/mean_shift_trace.hpp"
 #include "tests/support/merging.hpp"
 #include "tests/support/spiral.hpp"
 #include "tests/support/trace_recorder.hpp"

@@ -8,12 +8,12 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "harness/catalog/find_module.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/text_file.hpp"
 #include "harness/run/cell_address.hpp"
 #include "harness/run/make_recording.hpp"
 #include "harness/scenario/effective.hpp"
-#include "harness/scenario/modules.hpp"
 #include "harness/scenario/scenario_file.hpp"
 #include "harness/scenario/suite.hpp"
 #include "harness/yaml/reader.hpp"

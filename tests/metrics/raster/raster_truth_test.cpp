@@ -4,8 +4,8 @@
 #include <limits>
 #include <set>
 
+#include "core/contracts/line_raster.hpp"
 #include "core/error.hpp"
-#include "core/line_raster.hpp"
 #include "core/rng.hpp"
 #include "core/special_values.hpp"
 #include "tests/metrics/made_up.hpp"

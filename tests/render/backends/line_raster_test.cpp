@@ -1,5 +1,5 @@
-// Lines as pixels, by the rules that core/line_raster.hpp states.
-#include "core/line_raster.hpp"
+// Lines as pixels, by the rules that core/contracts/line_raster.hpp states.
+#include "core/contracts/line_raster.hpp"
 
 #include <gtest/gtest.h>
 

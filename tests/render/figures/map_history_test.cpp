@@ -5,8 +5,8 @@
 #include <variant>
 
 #include "abcdef.hpp"
+#include "core/contracts/map_trace.hpp"
 #include "core/registry.hpp"
-#include "core/trace/map_trace.hpp"
 #include "render/figure.hpp"
 
 namespace scanbench::render::test {

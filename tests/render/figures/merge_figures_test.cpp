@@ -7,8 +7,8 @@
 #include <fstream>
 #include <set>
 
+#include "core/contracts/mean_shift_trace.hpp"
 #include "core/registry.hpp"
-#include "core/trace/mean_shift_trace.hpp"
 #include "core/trace/trace_rows.hpp"
 #include "merged.hpp"
 #include "render/backends/cairo.hpp"

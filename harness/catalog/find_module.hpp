@@ -1,16 +1,13 @@
 // Lookup of modules of any kind by name, over the registries of all interfaces.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/params.hpp"
 #include "core/registry.hpp"
-#include "harness/foreign/confine.hpp"
-#include "harness/foreign/library.hpp"
-#include "harness/foreign/program_modules.hpp"
-#include "harness/scenario/scenario.hpp"
+#include "harness/catalog/pipeline_spec.hpp"
 
 namespace scanbench::harness {
 
@@ -32,19 +29,6 @@ ModuleEntry find_module(std::string_view kind, std::string_view name);
 /// What is known of a chosen module, registered or foreign. It refers to the choice. Throws ConfigError for a name that
 /// is not registered.
 ModuleEntry entry_of(const ModuleChoice& choice);
-
-/// Makes a chosen module. A program is started, a library is loaded into this process, which must be a child: neither
-/// is trusted. Throws ConfigError, ParamError, ForeignFault.
-template <class Interface>
-std::unique_ptr<Interface> make_module(const ModuleChoice& choice, const ForeignSetting& setting) {
-  if (choice.source) {
-    confine();
-    if (!choice.source->program.empty()) return run_program<Interface>(*choice.source, choice.params, setting);
-    if (setting.sandbox) leave_network();  // where the system allows it: the manifest says
-    load_library(choice.source->library);
-  }
-  return Registry<Interface>::make(choice.module, choice.params);
-}
 
 /// Constructs the module and discards it, to check its parameters. Throws ParamError for parameters that contradict
 /// each other.

@@ -1,5 +1,5 @@
 // The table of slots, and the check of a pipeline against it.
-#include "harness/scenario/chain.hpp"
+#include "harness/catalog/chain.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // The grammar of a pipeline: every sequence of up to three slots against a regular expression.
-#include "harness/scenario/chain.hpp"
+#include "harness/catalog/chain.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

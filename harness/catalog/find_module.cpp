@@ -1,12 +1,11 @@
 // Selects the registry of a kind of module.
-#include "harness/scenario/modules.hpp"
+#include "harness/catalog/find_module.hpp"
 
 #include "core/error.hpp"
 #include "core/modules.hpp"
 #include "core/names.hpp"
+#include "harness/catalog/chain.hpp"
 #include "harness/files/text_file.hpp"
-#include "harness/scenario/chain.hpp"
-#include "harness/yaml/reader.hpp"
 #include "metrics/metric.hpp"
 #include "render/figure.hpp"
 #include "sim/trajectory.hpp"

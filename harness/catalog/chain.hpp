@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "harness/scenario/scenario.hpp"
+#include "harness/catalog/pipeline_spec.hpp"
 
 namespace scanbench::harness {
 
