@@ -25,7 +25,6 @@
 namespace scanbench::harness {
 namespace {
 
-
 double memory_kills = 0.0;  // that the kernel had made when a worker was last found killed
 
 /// True if the kernel has killed a process for want of memory that has not been accounted for yet.
@@ -182,7 +181,7 @@ void WorkerPool::start(const std::vector<WorkerTask>& tasks) {
     });
     Worker worker{.tasks = {},
                   .child = std::move(child),
-                  .report = {std::move(report.read_end), kReportLimit},
+                  .report = {std::move(report.read_end), kLargestReport},
                   .output = {std::move(output.read_end), kOutputKept},
                   .start = monotonic_seconds()};
     for (const WorkerTask& task : tasks) worker.tasks.push_back({task.id, task.limits.seconds});

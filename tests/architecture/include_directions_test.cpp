@@ -36,8 +36,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"harness/store", {"core", "metrics", "harness/files", "harness/foreign", "harness/catalog", "harness/scenario"}},
     {"harness/run",
      {"core", "sim", "metrics", "harness/files", "harness/process", "harness/exchange", "harness/foreign",
-      "harness/catalog",
-      "harness/scenario", "harness/store"}},
+      "harness/catalog", "harness/scenario", "harness/store"}},
     {"harness/sweep", {"core", "harness/files", "harness/scenario", "harness/store", "harness/run"}},
     {"harness/analysis", {"core", "metrics", "harness/files", "harness/scenario", "harness/store"}},
     {"harness/page", {"core", "harness/files"}},
@@ -57,9 +56,8 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
       "harness/report"}},
     {"app",
      {"core", "harness/conform", "render", "harness/files", "harness/process", "harness/exchange", "harness/foreign",
-      "harness/catalog",
-      "harness/scenario", "harness/store", "harness/run", "harness/sweep", "harness/analysis", "harness/page",
-      "harness/report", "harness/nightly", "harness/player", "harness/gallery", "harness/film"}},
+      "harness/catalog", "harness/scenario", "harness/store", "harness/run", "harness/sweep", "harness/analysis",
+      "harness/page", "harness/report", "harness/nightly", "harness/player", "harness/gallery", "harness/film"}},
 };
 
 // Headers of a library that only one folder, or one file, may name.

@@ -82,7 +82,7 @@ TEST_F(PlayedRun, HasTheRangesAndLinesOfTheFirstSeedWithinHalfAStep) {
 
 TEST_F(PlayedRun, HasTheSameBytesWhenItsCellsAreInAnArchive) {
   const auto expected = played_run(out_, scenarios_);
-  support::archive_cells(out_);
+  fixtures::archive_cells(out_);
   ASSERT_FALSE(std::filesystem::exists(out_ / "cells"));
   EXPECT_EQ(played_run(out_, scenarios_), expected);
 }

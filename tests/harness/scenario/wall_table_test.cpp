@@ -25,16 +25,16 @@ using testing::StartsWith;
 
 const std::string kHeader = "label,x1_m,y1_m,x2_m,y2_m\n";
 
-std::vector<Wall> walls_of(const std::string& text) {
+std::vector<Wall> table_walls(const std::string& text) {
   return parse_wall_table(text, "w.csv");
 }
 
-std::string refusal_of(const std::string& text) {
-  return config_refusal([&] { walls_of(text); });
+std::string table_refusal(const std::string& text) {
+  return config_refusal([&] { table_walls(text); });
 }
 
 TEST(WallTable, NamesItsColumnsInAnyOrder) {
-  const auto walls = walls_of("y2_m,wall,x1_m,label,y1_m,x2_m\n4,0,1,\"a b\",2,3\n");
+  const auto walls = table_walls("y2_m,wall,x1_m,label,y1_m,x2_m\n4,0,1,\"a b\",2,3\n");
   ASSERT_EQ(walls.size(), 1U);
   EXPECT_EQ(walls[0].label, "a b");
   EXPECT_EQ(walls[0].segment.a, Vec2(1, 2));
@@ -42,26 +42,26 @@ TEST(WallTable, NamesItsColumnsInAnyOrder) {
 }
 
 TEST(WallTable, WithoutLabelsNumbersTheRows) {
-  const auto walls = walls_of("x1_m,y1_m,x2_m,y2_m\n0,0,1,0\n0,0,0,1\n");
+  const auto walls = table_walls("x1_m,y1_m,x2_m,y2_m\n0,0,1,0\n0,0,0,1\n");
   ASSERT_EQ(walls.size(), 2U);
   EXPECT_EQ(walls[0].label, "1");
   EXPECT_EQ(walls[1].label, "2");
 }
 
 TEST(WallTable, RefusesWithTheLine) {
-  EXPECT_THAT(refusal_of("label,x1_m,y1_m,x2_m\n"), StartsWith("w.csv:1: the column 'y2_m' is missing"));
-  EXPECT_THAT(refusal_of("label,x1_m,y1_m,x2_m,y2_m,loss\n"), StartsWith("w.csv:1: unknown column 'loss'; allowed"));
-  EXPECT_THAT(refusal_of("x1_m,x1_m,y1_m,x2_m,y2_m\n"), StartsWith("w.csv:1: two columns are called 'x1_m'"));
-  EXPECT_THAT(refusal_of("x1_m;y1_m;x2_m;y2_m\n"), HasSubstr("allowed: commas"));
+  EXPECT_THAT(table_refusal("label,x1_m,y1_m,x2_m\n"), StartsWith("w.csv:1: the column 'y2_m' is missing"));
+  EXPECT_THAT(table_refusal("label,x1_m,y1_m,x2_m,y2_m,loss\n"), StartsWith("w.csv:1: unknown column 'loss'; allowed"));
+  EXPECT_THAT(table_refusal("x1_m,x1_m,y1_m,x2_m,y2_m\n"), StartsWith("w.csv:1: two columns are called 'x1_m'"));
+  EXPECT_THAT(table_refusal("x1_m;y1_m;x2_m;y2_m\n"), HasSubstr("allowed: commas"));
   const std::string good = kHeader + "a,0,0,1,0\n";
   for (const char* number : {"", "x", "inf", "nan", "1e999", "0x10", " 1", "1 ", "--1"})
-    EXPECT_THAT(refusal_of(good + "b,0,0,1," + number + "\n"), StartsWith("w.csv:3: y2_m is ")) << number;
-  EXPECT_THAT(refusal_of(good + "b,1,2,1,2\n"), StartsWith("w.csv:3: a wall without length"));
-  EXPECT_THAT(refusal_of(good + "b,0,0,0,1\na,0,0,2,0\n"), StartsWith("w.csv:4: wall 'a' occurs a second time"));
-  EXPECT_THAT(refusal_of(good + "b,0,0,1\n"), StartsWith("w.csv:3: found 4 fields"));
+    EXPECT_THAT(table_refusal(good + "b,0,0,1," + number + "\n"), StartsWith("w.csv:3: y2_m is ")) << number;
+  EXPECT_THAT(table_refusal(good + "b,1,2,1,2\n"), StartsWith("w.csv:3: a wall without length"));
+  EXPECT_THAT(table_refusal(good + "b,0,0,0,1\na,0,0,2,0\n"), StartsWith("w.csv:4: wall 'a' occurs a second time"));
+  EXPECT_THAT(table_refusal(good + "b,0,0,1\n"), StartsWith("w.csv:3: found 4 fields"));
   for (const std::string& label : {std::string(), std::string(65, 'x'), std::string("\"a,b\""),
                                    std::string("\"a\"\"b\""), std::string("\"a\nb\""), std::string("a\tb")})
-    EXPECT_THAT(refusal_of(good + label + ",0,0,1,1\n"), StartsWith("w.csv:3: label is ")) << label;
+    EXPECT_THAT(table_refusal(good + label + ",0,0,1,1\n"), StartsWith("w.csv:3: label is ")) << label;
 }
 
 TEST(WallTable, NumbersAreTheDoublesOfTheCLibrary) {
@@ -72,7 +72,7 @@ TEST(WallTable, NumbersAreTheDoublesOfTheCLibrary) {
     for (char& digit : number) digit = static_cast<char>('0' + below(10));
     if (const std::size_t point = 1 + below(18); point < number.size()) number.insert(point, ".");
     if (rng.uniform() < 0.5) number.insert(0, "-");
-    const auto walls = walls_of(kHeader + "a," + number + ",0,1e20,1\n");
+    const auto walls = table_walls(kHeader + "a," + number + ",0,1e20,1\n");
     EXPECT_EQ(walls[0].segment.a.x(), std::strtod(number.c_str(), nullptr)) << number;
   }
 }

@@ -35,7 +35,7 @@ class StoredRun : public ::testing::Test {
             "s", {fixtures::extract_with("a", "test_line"), fixtures::extract_with("b", "test_throw")}, {10, 9})},
         {.out = folders_});
     fs::copy(folders_, archived_, fs::copy_options::recursive);
-    support::archive_cells(archived_);
+    fixtures::archive_cells(archived_);
   }
 
   TemporaryFolder temporary_;
