@@ -39,8 +39,8 @@ class MyLines final : public LineExtractor {
   Params params_;
 };
 
-const bool registered = Registry<LineExtractor>::add<MyLines>(
-    {.name = "my_lines", .summary = "one line through all returns", .reference = "none"});
+SCANBENCH_REGISTER(LineExtractor, MyLines,
+                   {.name = "my_lines", .summary = "one line through all returns", .reference = "none"});
 
 }  // namespace
 }  // namespace scanbench

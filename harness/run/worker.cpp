@@ -58,6 +58,8 @@ struct WorkerPool::Worker {
   bool is_late() const { return seconds_left() < 0.0; }
 
   void read_pipes() {
+    report.drain();
+    output.drain();
     if (report.bytes().size() > kLargestReport && !killed_for_report) {
       killed_for_report = true;
       report.close();
