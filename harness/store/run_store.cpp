@@ -98,7 +98,7 @@ std::vector<RunStore::RecordingKey> RunStore::recordings() const {
   if (archives_)
     for (const auto& recording : archives_->table().recordings) found.emplace_back(recording.scenario, recording.seed);
   std::ranges::sort(found, {}, [](const RecordingKey& key) { return std::tuple(key.first.size(), key); });
-  found.erase(std::ranges::unique(found).begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

@@ -52,7 +52,7 @@ class RunStore {
     std::string content_hash;
     double scans = 0.0;
   };
-  const RecordingFacts& facts_of(const RecordingKey& recording) const;
+  const RecordingFacts& facts_of(const RecordingKey& key) const;
 
   std::filesystem::path run_;
   std::optional<RunArchives> archives_;

@@ -68,7 +68,7 @@ TEST(ComparisonTables, CountNewCellsAndListTheFirst) {
 }
 
 TEST(ComparisonDocument, ListsWhatDiffersBelowTheVerdict) {
-  Comparison comparison = compare(f1_run({0.9}), f1_run({0.9}), f1_gate());
+  Comparison comparison = compare(f1_run({0.9}), f1_run({0.9}), gate_of_f1());
   comparison.differing = {"program: a -> b"};
   EXPECT_THAT(to_markdown(comparison_document(comparison)), HasSubstr("**\n\nWhat differs:\n\n- program: a -&gt; b\n"));
   EXPECT_THAT(to_terminal(comparison_document(comparison), false),
