@@ -186,6 +186,22 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenario
   return ranking;
 }
 
+std::vector<int> not_separated(const std::vector<std::vector<double>>& by_seed, int best, bool geometric) {
+  std::vector<int> others;
+  std::vector<double> p_values;
+  for (int i = 0; i < static_cast<int>(by_seed.size()); ++i) {
+    const auto& values = by_seed[as_index(i)];
+    if (i == best || !std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) continue;
+    others.push_back(i);
+    p_values.push_back(paired_p_value(differences(by_seed[as_index(best)], values, geometric)));
+  }
+  const std::vector<double> adjusted = holm_adjusted(p_values);
+  std::vector<int> together{best};
+  for (std::size_t k = 0; k < others.size(); ++k)
+    if (!(adjusted[k] < 0.05)) together.push_back(others[k]);
+  return together;
+}
+
 std::vector<LevelResult> results_by_level(const std::vector<Scenario>& scenarios, const std::vector<SummaryRow>& rows,
                                           const BenchmarkSpec& spec, const std::vector<std::string>& names) {
   const BenchmarkColumn& rank = spec.subject().rank_column();
@@ -213,6 +229,7 @@ std::vector<LevelResult> results_by_level(const std::vector<Scenario>& scenarios
                            ? kNaN
                            : paired_p_value(differences(by_seed[as_index(result.best)],
                                                         by_seed[as_index(result.second)], rank.geometric)));
+    if (result.best >= 0) result.leaders = not_separated(by_seed, result.best, rank.geometric);
     results.push_back(std::move(result));
   }
   const std::vector<double> adjusted = holm_adjusted(p_values);

@@ -61,7 +61,13 @@ struct LevelResult {
   int best = -1;                     ///< index of the best value; -1 if no pipeline has one
   int second = -1;                   ///< the best of the others
   double p = 1.0;                    ///< of the difference of these two, as RankedPipeline::next_p, over all levels
+  std::vector<int> leaders{};        ///< the best and those that not_separated() finds beside it, best first
 };
+
+/// Indices of the pipelines that the seeds do not separate from pipeline `best`, which comes first: paired t tests at
+/// the 5 % level, corrected for their number after Holm. Pipelines with NaN are left out. With one seed, all are found.
+/// `by_seed`: a value per pipeline and seed.
+std::vector<int> not_separated(const std::vector<std::vector<double>>& by_seed, int best, bool geometric);
 
 /// One result per level of the specification that has scenarios in the run; `names` are pipelines.
 std::vector<LevelResult> results_by_level(const std::vector<Scenario>& scenarios, const std::vector<SummaryRow>& rows,

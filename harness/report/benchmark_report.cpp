@@ -10,6 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "core/geometry/geometry.hpp"
+#include "core/index.hpp"
+#include "harness/analysis/benchmark_finding.hpp"
 #include "harness/catalog/chain.hpp"
 #include "harness/catalog/find_module.hpp"
 #include "harness/report/level_table.hpp"
@@ -192,30 +194,84 @@ std::string bound_text(const RankedPipeline& ranked, const BenchmarkSubject& sub
                      ranked.name, subject.bound.of, ratio);
 }
 
-/// The sentences that answer which pipeline to take, and how far it is from the best possible.
-std::string answer_text(const std::vector<RankedPipeline>& ranking, const BenchmarkSpec& spec) {
-  const BenchmarkSubject& subject = spec.subject();
-  const BenchmarkColumn& rank = subject.rank_column();
-  const RankedPipeline& first = ranking.front();
-  const std::size_t unit = rank.head.find(" [");
-  const bool is_share = rank.head.substr(std::min(unit, rank.head.size())) == " [%]";
-  const auto value = [&](const RankedPipeline& ranked) {
-    return fmt::format("{:.{}f}{}", rank.scale * ranked.values.at(rank.metric).mean, rank.decimals,
-                       is_share ? " %" : "");
-  };
-  if (first.missing > 0 || !std::isfinite(first.values.at(rank.metric).mean))
-    return fmt::format("No {} has a result in every cell, so the ranking has no winner.", subject.noun);
-  std::string text = fmt::format("{} ranks first of {} {}s, with {} {}", first.name, ranking.size(), subject.noun,
-                                 is_share ? rank.head.substr(0, unit) : rank.head, value(first));
-  if (ranking.size() == 1) return text + "." + bound_text(first, subject);
-  const RankedPipeline& next = ranking[1];
-  if (next.missing > 0) {
-    text += fmt::format("; {} has no result in {} cells", next.name, next.missing);
-  } else {
-    text += fmt::format("; {} is next with {}", next.name, value(next));
-    if (std::isfinite(first.next_p) && first.next_p >= 0.05) text += ", a difference that may be chance";
+/// Words for values of the column that decides the rank.
+class RankWords {
+ public:
+  explicit RankWords(const BenchmarkColumn& rank) : rank_(rank) {
+    const std::size_t unit = rank.head.find(" [");
+    is_share_ = rank.head.substr(std::min(unit, rank.head.size())) == " [%]";
+    name_ = is_share_ ? rank.head.substr(0, unit) : rank.head;
   }
+  const std::string& name() const { return name_; }
+  std::string value(double of) const { return number(of) + (is_share_ ? " %" : ""); }
+  /// "95.20 % (95.01 to 95.39)"
+  std::string value(const MeanInterval& of) const {
+    return fmt::format("{} ({} to {})", value(of.mean), number(of.low), number(of.high));
+  }
+
+ private:
+  std::string number(double of) const { return fmt::format("{:.{}f}", rank_.scale * of, rank_.decimals); }
+
+  const BenchmarkColumn& rank_;
+  std::string name_;
+  bool is_share_ = false;
+};
+
+std::string and_list(const std::vector<std::string>& names) {
+  if (names.size() < 2) return fmt::format("{}", fmt::join(names, ""));
+  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
+
+std::string with_count(std::size_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+/// Which pipelines lead: the page's first sentence, and how far the first is from the best possible.
+std::string answer_text(const ReportInput& input, const BenchmarkSpec& spec, const BenchmarkFinding& finding) {
+  const BenchmarkSubject& subject = spec.subject();
+  const RankWords words(subject.rank_column());
+  const RankedPipeline& first = input.ranking.front();
+  const auto value = [&](const RankedPipeline& ranked) {
+    return words.value(ranked.values.at(subject.rank_column().metric).mean);
+  };
+  if (first.missing > 0 || !std::isfinite(first.values.at(subject.rank_column().metric).mean))
+    return fmt::format("No {} has a result in every cell, so the ranking has no winner.", subject.noun);
+  const std::size_t seeds = seeds_of(input.rows).size();
+  if (seeds < kFewestSeedsToSeparate)
+    return fmt::format("{} too few to say which of {} {}s is best (at least {}); {} has the best {} on {}, {}.{}",
+                       with_count(seeds, "seed") + (seeds == 1 ? " is" : " are"), input.ranking.size(), subject.noun,
+                       kFewestSeedsToSeparate, first.name, words.name(), seeds == 1 ? "it" : "them", value(first),
+                       bound_text(first, subject));
+  if (finding.leaders.size() > 1) {
+    const auto last = std::ranges::find(input.ranking, finding.leaders.back(), &RankedPipeline::name);
+    return fmt::format("{} share the best {} of {} {}s, {} to {}: {} seeds do not separate them.{}",
+                       and_list(finding.leaders), words.name(), input.ranking.size(), subject.noun, value(first),
+                       value(*last), seeds, bound_text(first, subject));
+  }
+  std::string text = fmt::format("{} has the best {} of {} {}s, {}", first.name, words.name(), input.ranking.size(),
+                                 subject.noun, value(first));
+  if (input.ranking.size() > 1 && input.ranking[1].missing > 0)
+    text += fmt::format("; {} has no result in {} cells", input.ranking[1].name, input.ranking[1].missing);
+  else if (input.ranking.size() > 1)
+    text += fmt::format("; {} is next with {}", input.ranking[1].name, value(input.ranking[1]));
   return text + "." + bound_text(first, subject);
+}
+
+/// The factor that changes which pipeline leads, with the leaders of its levels; empty without factors.
+std::string split_text(const std::vector<RankedPipeline>& ranking, const BenchmarkSpec& spec,
+                       const BenchmarkFinding& finding) {
+  if (finding.leaders.empty() || finding.levels.empty()) return "";
+  const RankWords words(spec.subject().rank_column());
+  if (finding.factor.empty()) return " No factor changes that beyond chance.";
+  std::vector<std::string> levels;
+  for (const auto& level : finding.levels) {
+    if (level.best < 0) continue;
+    const std::size_t others = level.leaders.size() - 1;
+    levels.push_back(fmt::format("{}: {} with {}{}", level.level, ranking[as_index(level.best)].name,
+                                 words.value(level.values[as_index(level.best)]),
+                                 others == 0 ? "" : fmt::format(", not separated from {} more", others)));
+  }
+  return fmt::format(" Which is best depends most on the {}. {}.", finding.factor, fmt::join(levels, "; "));
 }
 
 /// Adjacent ranks that differ significantly over the seeds, and those that do not.
@@ -306,7 +362,10 @@ Blocks run_section(const ReportInput& input, const BenchmarkSpec& spec) {
 
 Document benchmark_document(const ReportInput& input) {
   const BenchmarkSpec& spec = input.benchmark.value();
-  Document page{input.title, {Paragraph{{bold(answer_text(input.ranking, spec)), " " + spec.about}}}};
+  const BenchmarkFinding finding = find_leaders(input.scenarios, input.rows, spec, input.ranking);
+  Document page{input.title,
+                {Paragraph{{bold(answer_text(input, spec, finding)), split_text(input.ranking, spec, finding)}},
+                 Paragraph{spec.about}}};
   add_blocks(page.blocks, status_blocks(input.cells));
   BulletList limits;
   for (const auto& limit : spec.subject().limits) limits.items.emplace_back(limit);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "harness/analysis/benchmark_finding.hpp"
 #include "harness/analysis/error_bins.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/page/html_page.hpp"
@@ -238,6 +239,69 @@ TEST(Benchmark, NamesAFactorOnceForAllOfItsLevels) {
             "noise 1cm / 3cm, sensor urg (paired t tests, Holm).");
 }
 
+Document page_of(ReportInput input, const BenchmarkSpec& spec) {
+  input.ranking = rank_pipelines(input.scenarios, input.rows, spec);
+  input.benchmark = spec;
+  return benchmark_document(input);
+}
+
+/// F1 of one pipeline at x and y: a mean each, and a deviation per seed.
+void add_levels(std::vector<SummaryRow>& rows, const std::string& pipeline, double x, double y,
+                const std::vector<double>& deviations) {
+  for (std::size_t k = 0; k < deviations.size(); ++k) {
+    rows.push_back({"x", pipeline, k + 1, "f1", "all", x + deviations[k], "", 10});
+    rows.push_back({"y", pipeline, k + 1, "f1", "all", y + deviations[k], "", 10});
+  }
+}
+
+BenchmarkFinding finding_of(const std::vector<SummaryRow>& rows, const BenchmarkSpec& spec) {
+  return find_leaders(two_scenarios(), rows, spec, rank_pipelines(two_scenarios(), rows, spec));
+}
+
+TEST(BenchmarkFinding, LeadersAreThoseThatTheSeedsDoNotSeparate) {
+  std::vector<SummaryRow> rows;  // a - b: 0.03, 0, 0 (t = 1, p = 0.42); a - c: about 0.2 (t > 20, p < 0.003)
+  add_levels(rows, "a", 0.80, 0.80, {0.02, 0.00, -0.02});
+  add_levels(rows, "b", 0.80, 0.80, {-0.01, 0.00, -0.02});
+  add_levels(rows, "c", 0.60, 0.60, {0.01, 0.00, -0.02});
+  EXPECT_THAT(finding_of(rows, spec_with_levels()).leaders, ::testing::ElementsAre("a", "b"));
+  std::erase_if(rows, [](const SummaryRow& row) { return row.seed == 3; });
+  EXPECT_TRUE(finding_of(rows, spec_with_levels()).leaders.empty()) << "two seeds separate nothing";
+}
+
+TEST(BenchmarkFinding, NamesTheFactorThatChangesTheLeader) {
+  std::vector<SummaryRow> rows;  // by day a leads by 0.1, by night b does
+  add_levels(rows, "a", 0.90, 0.70, {0.001, 0.000, -0.001});
+  add_levels(rows, "b", 0.80, 0.80, {0.000, 0.002, -0.001});
+  add_levels(rows, "c", 0.10, 0.30, {0.001, 0.000, 0.001});
+  const BenchmarkFinding finding = finding_of(rows, spec_with_levels());
+  EXPECT_EQ(finding.factor, "light");  // `place` has one level
+  ASSERT_EQ(finding.levels.size(), 2U);
+  EXPECT_EQ(finding.levels[0].leaders.size(), 1U);
+  EXPECT_NE(finding.levels[0].best, finding.levels[1].best);
+  ReportInput input;
+  input.scenarios = two_scenarios();
+  input.rows = rows;
+  const std::string page = to_html(page_of(input, spec_with_levels()));
+  EXPECT_THAT(page,
+              HasSubstr("do not separate them.</b> Which is best depends most on the light. day: a with 90.00 % ("));
+  EXPECT_THAT(page, HasSubstr("; night: b with 80.03 % ("));
+}
+
+TEST(BenchmarkFinding, AFactorThatOnlyWidensALeadChangesNothing) {
+  std::vector<SummaryRow> rows;
+  add_levels(rows, "a", 0.90, 0.80, {0.001, 0.000, -0.001});
+  add_levels(rows, "b", 0.85, 0.30, {0.000, 0.002, -0.001});
+  add_levels(rows, "c", 0.10, 0.20, {0.001, 0.000, 0.001});
+  const BenchmarkFinding finding = finding_of(rows, spec_with_levels());
+  EXPECT_THAT(finding.leaders, ::testing::ElementsAre("a"));
+  EXPECT_EQ(finding.factor, "");
+  ReportInput input;
+  input.scenarios = two_scenarios();
+  input.rows = rows;
+  EXPECT_THAT(to_html(page_of(input, spec_with_levels())),
+              HasSubstr("a has the best F1 of 3 extractors, 85.00 %; b is next with 57.53 %.</b> No factor changes"));
+}
+
 TEST(Benchmark, APipelineWithMissingCellsHasNoValueAtTheirLevel) {
   auto rows = made_up_rows();
   std::erase_if(rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
@@ -261,12 +325,6 @@ TEST(Benchmark, LevelsOfTheRunReadBack) {
   EXPECT_THAT(config_refusal([&] { load_benchmark(folder.path()); }), HasSubstr("benchmark.json"));
 }
 
-Document page_of(ReportInput input, const BenchmarkSpec& spec) {
-  input.ranking = rank_pipelines(input.scenarios, input.rows, spec);
-  input.benchmark = spec;
-  return benchmark_document(input);
-}
-
 TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
   ReportInput input;
   input.title = "scanbench: small";
@@ -275,8 +333,8 @@ TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
   input.cells = {{"x", "a", 1, "ok", "", 0, 0}, {"x", "b", 1, "timeout", "after 3 s", 0, 0}};
   const Document document = page_of(input, kSpec);
   for (const std::string& page : {to_html(document), to_markdown(document)}) {
-    EXPECT_THAT(page, HasSubstr("b ranks first of 3 extractors, with F1 85.00 %; a is next with 80.00 %, a difference "
-                                "that may be chance."));
+    EXPECT_THAT(page, HasSubstr("2 seeds are too few to say which of 3 extractors is best (at least 3); b has the "
+                                "best F1 on them, 85.00 %."));
     EXPECT_THAT(page, HasSubstr("3 extractors on 2 conditions"));
     EXPECT_THAT(page, HasSubstr("2 seeds make 4 recordings with 40 scans"));
     EXPECT_THAT(page, HasSubstr("noise of 2 cm"));
@@ -304,7 +362,7 @@ TEST(Benchmark, PageBeginsWithTheFirstInRankAndNamesMissingCells) {
   input.scenarios = two_scenarios();
   input.rows = made_up_rows();
   std::erase_if(input.rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
-  EXPECT_THAT(to_html(page_of(input, kSpec)), HasSubstr("<p><b>a ranks first of 3 extractors, with F1 80.00 %"));
+  EXPECT_THAT(to_html(page_of(input, kSpec)), HasSubstr("a has the best F1 on them, 80.00 %"));
   std::erase_if(input.rows, [](const SummaryRow& r) { return r.scenario == "y" && r.seed == 2; });
   EXPECT_THAT(to_html(page_of(input, kSpec)), HasSubstr("<p><b>No extractor has a result in every cell"));
 }
@@ -425,8 +483,7 @@ TEST(Benchmark, RanksAlignersByTheShareOfScansPlacedAndAnAlignerThatFailsLast) {
   ReportInput input;
   input.scenarios = scenarios;
   input.rows = rows;
-  EXPECT_THAT(to_html(page_of(input, spec)), HasSubstr("<b>b ranks first of 2 aligners, with scans placed 95.0 %; a is "
-                                                       "next with 75.0 %"));
+  EXPECT_THAT(to_html(page_of(input, spec)), HasSubstr("b has the best scans placed on them, 95.0 %"));
   std::erase_if(rows, [](const SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
   EXPECT_EQ(rank_pipelines(scenarios, rows, spec)[0].name, "a");
 }
