@@ -4,11 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+#include <vector>
+
 #include "core/error.hpp"
 #include "core/special_values.hpp"
 #include "harness/analysis/comparison.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/nightly/comparison_tables.hpp"
+#include "harness/process/child.hpp"
 #include "tests/harness/analysis/made_up_runs.hpp"
 #include "tests/support/inputs.hpp"
 #include "tests/support/runs.hpp"
@@ -107,6 +112,45 @@ TEST(Baseline, MovesOnPurposeOnly) {
   ASSERT_EQ(files.size(), 2U);
   EXPECT_EQ(load_baseline(files[1]).reason, "better corners");
   EXPECT_TRUE(baseline_files(folder.path(), "other").empty());
+}
+
+TEST(Baseline, NumbersFollowTheLargestWhateverElseIsInTheFolder) {
+  const TemporaryFolder folder;
+  const auto accept = [&](double value) {
+    return accept_baseline(folder.path(), "suite", f1_run({value}), f1_gate(), "why").filename().string();
+  };
+  EXPECT_EQ(accept(0.1), "0001.json");
+  for (const char* name : {"old.json", "0007.txt", "-3.json"})
+    write_file_atomically(folder.path() / "suite" / name, "{}");
+  EXPECT_EQ(accept(0.2), "0002.json");
+  write_file_atomically(folder.path() / "suite/10000.json", read_file(folder.path() / "suite/0001.json"));
+  EXPECT_EQ(accept(0.3), "10001.json");
+  EXPECT_EQ(baseline_files(folder.path(), "suite").size(), 4U);
+}
+
+TEST(Baseline, OfSeveralThatAreAcceptedAtOnceNoneIsLost) {
+  const TemporaryFolder folder;
+  constexpr int kProcesses = 6;
+  std::vector<Child> children;
+  for (int i = 0; i < kProcesses; ++i)
+    children.push_back(start_child({}, [&, i] {
+      accept_baseline(folder.path(), "suite", f1_run({0.1 * i}), f1_gate(), std::to_string(i));
+      return 0;
+    }));
+  for (Child& child : children) EXPECT_TRUE(child.reap().is_success());
+  std::set<std::string> reasons;
+  for (const auto& file : baseline_files(folder.path(), "suite")) reasons.insert(load_baseline(file).reason);
+  EXPECT_EQ(reasons.size(), static_cast<std::size_t>(kProcesses));
+}
+
+TEST(Baseline, OfASuiteWhoseNameLeadsElsewhereIsRefused) {
+  const TemporaryFolder folder;
+  for (const char* suite : {"../../evil", "", "..", "a/b"}) {
+    const std::string refusal =
+        config_refusal([&] { accept_baseline(folder.path() / "in", suite, f1_run({0.5}), f1_gate(), "first"); });
+    EXPECT_THAT(refusal, HasSubstr("the name of a suite is '" + std::string(suite) + "'"));
+  }
+  EXPECT_THAT(fixtures::listing(folder.path()), ::testing::IsEmpty());
 }
 
 TEST(Baseline, RefusesFilesOfOthers) {
