@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -170,6 +172,27 @@ TEST_F(Programs, ThatEndSayHow) {
   EXPECT_THAT(fault_of("def extract(header, beams):\n    os.dup2(os.open('/dev/null', os.O_RDWR), 3)\n    return b''\n",
                        kEnded),
               HasSubstr("without answering"));
+}
+
+TEST_F(Programs, ThatStartASessionOfTheirOwnBeforeTheyDescribeThemselvesLeaveNothing) {
+  const auto file = folder_.path() / "daemon";
+  ForeignSource source = by_hand(
+      "if os.fork() == 0:\n"
+      "    os.setsid()\n"
+      "    if os.fork() == 0:\n"
+      "        open('" +
+      file.string() +
+      "', 'w').write(str(os.getpid()) + ' ')\n"
+      "        signal.sigwait([signal.SIGUSR1])\n"
+      "    os._exit(0)\n"
+      "while not os.path.exists('" +
+      file.string() + "') or not open('" + file.string() + "').read().endswith(' '): pass\n");
+  inspect_program(source, false);
+  pid_t daemon = 0;
+  std::ifstream(file) >> daemon;
+  ASSERT_GT(daemon, 1);
+  EXPECT_EQ(::kill(daemon, 0), -1);
+  EXPECT_EQ(errno, ESRCH);
 }
 
 TEST_F(Programs, ThatSpeakAnotherVersionAreRefused) {
