@@ -26,7 +26,11 @@ RunResults gate_values(const RunResults& results, const Gates& gates);
 /// The files of a suite's baselines, oldest first; none if the folder does not exist.
 std::vector<std::filesystem::path> baseline_files(const std::filesystem::path& baselines, const std::string& suite);
 
-/// Throws ConfigError, naming the file, if it is not a baseline.
+/// Those of these files whose values mean what today's do (docs/formats.md, schema of baselines), in their order.
+/// Throws ConfigError for a file that is not a JSON object.
+std::vector<std::filesystem::path> current_baselines(const std::vector<std::filesystem::path>& files);
+
+/// Throws ConfigError, naming the file, if it is not a baseline, or an old one whose values meant something else.
 Baseline load_baseline(const std::filesystem::path& file);
 
 /// Writes the next file of the suite: per pipeline and gate the seeds' values, their median and the 95 % interval of
