@@ -27,7 +27,11 @@ RunResults gate_values(const RunResults& results, const Gates& gates);
 /// Throws ConfigError for a suite that is no FolderName.
 std::vector<std::filesystem::path> baseline_files(const std::filesystem::path& baselines, const std::string& suite);
 
-/// Throws ConfigError, naming the file, if it is not a baseline.
+/// Those of these files whose values mean what today's do (docs/formats.md, schema of baselines), in their order.
+/// Throws ConfigError for a file that is not a JSON object.
+std::vector<std::filesystem::path> current_baselines(const std::vector<std::filesystem::path>& files);
+
+/// Throws ConfigError, naming the file, if it is not a baseline, or an old one whose values meant something else.
 Baseline load_baseline(const std::filesystem::path& file);
 
 /// Writes the next file of the suite, never over another one, also if several processes accept at once: per pipeline

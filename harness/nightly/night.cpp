@@ -269,7 +269,7 @@ NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<s
                outcome.sentence},
               unfinished);
   }
-  if (const auto files = baseline_files(plan.baselines, plan.suite); files.size() > 1) {
+  if (const auto files = current_baselines(baseline_files(plan.baselines, plan.suite)); files.size() > 1) {
     const Baseline oldest = load_baseline(files.front());
     input.drift = compare(oldest.results, gate_values(input.now, plan.gates), plan.gates);
     input.drift_reference = text_of(oldest);

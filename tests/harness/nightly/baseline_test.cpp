@@ -22,6 +22,7 @@ namespace scanbench::harness {
 namespace {
 
 using fixtures::f1_run;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Gates f1_gate() {
@@ -162,7 +163,20 @@ TEST(Baseline, RefusesFilesOfOthers) {
   EXPECT_THAT(refusal("{}"), HasSubstr("0001.json: not a baseline of scanbench"));
   EXPECT_THAT(refusal("[1, 2"), HasSubstr("0001.json"));
   EXPECT_THAT(refusal(R"({"program": "scanbench", "kind": "baseline", "schema": 9})"), HasSubstr("schema is 9"));
-  EXPECT_THAT(refusal(R"({"program": "scanbench", "kind": "baseline", "schema": 1})"), HasSubstr("0001.json"));
+  EXPECT_THAT(refusal(R"({"program": "scanbench", "kind": "baseline", "schema": 2})"), HasSubstr("0001.json"));
+}
+
+TEST(Baseline, OfAnOlderMeaningIsRefusedWithTheReasonAndIsNoneOfTheCurrentOnes) {
+  const TemporaryFolder folder;
+  const auto first = accept_baseline(folder.path(), "suite", f1_run({0.5, 0.6}), f1_gate(), "first");
+  std::string text = read_file(first);
+  text.replace(text.find("\"schema\": 2"), 11, "\"schema\": 1");
+  write_file_atomically(first, text);
+  EXPECT_THAT(config_refusal([&] { load_baseline(first); }),
+              AllOf(HasSubstr("0001.json: schema is 1; allowed: 2."), HasSubstr("walls too small to judge"),
+                    HasSubstr("accept a new run")));
+  const auto second = accept_baseline(folder.path(), "suite", f1_run({0.7, 0.6}), f1_gate(), "new meaning of F1");
+  EXPECT_EQ(current_baselines(baseline_files(folder.path(), "suite")), std::vector{second});
 }
 
 TEST(Baseline, ThatLacksAMetricIsComparedWithoutIt) {
