@@ -176,8 +176,9 @@ class Score {
     const double both = found + sum_["n_true"] + sum_["n_missed"];
     fmt::print(
         "| {} | {:g} cm | {} | {:.4f} | {:.4f} | {:.2f} % | {:.2f} % | {:.2f}, {:.2f} | {:.2f} (2 +- {:.2f}) |\n",
-        scene, 100 * sigma_m, name, 2 * sum_["n_true"] / both, 2 * sum_["n_true"] / (both - sum_["n_small"]),
-        100 * sum_["n_false"] / found, 100 * sum_["n_split"] / found, sum_["offset"] / sum_["bound_offset"],
+        scene, 100 * sigma_m, name, 2 * sum_["n_true"] / (both + sum_["n_small"]), 2 * sum_["n_true"] / both,
+        100 * (sum_["n_false"] + sum_["n_small"]) / (found + sum_["n_small"]),
+        100 * sum_["n_split"] / (found + sum_["n_small"]), sum_["offset"] / sum_["bound_offset"],
         sum_["angle"] / sum_["bound_angle"], sum_["nees"] / sum_["nees_count"],
         1.96 * 2 / std::sqrt(sum_["nees_count"]));
     std::fflush(stdout);

@@ -61,11 +61,12 @@ class Borges2000 : public MetricFamily {
         {"n_lines", "", lower_is_better, 0.05,
          "lines that a wall is broken into, mean over the scans in which it has one; subject: the wall, or mean over "
          "walls"},
-        {"eta", "", higher_is_better, 0.02, "share of valid lines among a wall's lines, mean over the same scans"},
+        share({"eta", "", higher_is_better, 0.02,
+               "share of valid lines among a wall's lines, mean over the scans in which it has a line"}),
         {"eps_rho", "m", lower_is_better, 0.005, "mean absolute error in rho of a wall's valid lines"},
         {"eps_alpha", "deg", lower_is_better, 0.2, "mean absolute error in alpha of a wall's valid lines"},
-        {"missed", "", lower_is_better, 0.02,
-         "share of the scans with enough points on a wall in which it has no line"},
+        share({"missed", "", lower_is_better, 0.02,
+               "share of the scans with enough points on a wall in which it has no line"}),
         {"spurious", "", lower_is_better, 0.0, "lines without a support point on a wall"}};
   }
 

@@ -37,11 +37,14 @@ struct JudgedScan {
 
   std::int64_t count(Outcome outcome) const;
   std::int64_t missed() const;  ///< true lines without a match
-  /// 2 matches / (found lines + true lines), without ignored found lines; NaN if there are neither.
+  /// 2 matches / (found lines + true lines), without found lines that are ignored or too_small; NaN if there are
+  /// neither.
   double f1() const;
 };
 
-/// The input must satisfy has_beam_truth().
+/// Matches found lines with true lines, and then the false ones, each with at most one and by the same rule, with what
+/// the scan shows of walls in pieces too small to be true lines, of at least three returns: those that match are
+/// `too_small`. The input must satisfy has_beam_truth().
 JudgedScan judge_scan(const MetricInput& input, std::size_t frame, const Surfaces& surfaces, const SegmentRules& rules);
 
 }  // namespace scanbench::metrics

@@ -25,7 +25,13 @@ struct Overlap {
 };
 Overlap overlap(const Segment& found, const Segment& truth);
 
-enum class Outcome { true_line, split, false_line, ignored };
+enum class Outcome {
+  true_line,
+  split,
+  false_line,
+  too_small,  ///< right, but on a wall too small to be a true line; match_lines() does not give it, judge_scan() does
+  ignored
+};
 
 /// Per found line its outcome and, for a true_line, the index of its true line (else -1).
 struct LineMatching {

@@ -77,16 +77,17 @@ class MapTruth : public MetricFamily {
     using enum Direction;
     // map_offset and map_angle have no direction: they are means over the lines of the map, and a map that misses the
     // difficult walls has smaller errors than a complete one.
-    return {{"covered_5cm", "", higher_is_better, 0.005,
-             "share of the visible wall length within 5 cm of a map line of its direction"},
-            {"covered_10cm", "", higher_is_better, 0.005, "the same within 10 cm"},
-            {"true_share_5cm", "", higher_is_better, 0.005, "share of the map's length within 5 cm of a wall"},
-            {"true_share_10cm", "", higher_is_better, 0.005, "the same within 10 cm"},
+    return {share({"covered_5cm", "", higher_is_better, 0.005,
+                   "share of the visible wall length within 5 cm of a map line of its direction"}),
+            share({"covered_10cm", "", higher_is_better, 0.005,
+                   "share of the visible wall length within 10 cm of a map line of its direction"}),
+            share({"true_share_5cm", "", higher_is_better, 0.005, "share of the map's length within 5 cm of a wall"}),
+            share({"true_share_10cm", "", higher_is_better, 0.005, "share of the map's length within 10 cm of a wall"}),
             {"lines_per_wall", "", target, 0.02,
              "map lines that represent a visible wall, per visible wall; 1 is the best", false, 1.0},
             {"duplicates", "", lower_is_better, 0.0,
              "map lines that repeat longer lines of the same wall over more than half of their length"},
-            {"fragments", "", lower_is_better, 0.0, "further lines of a wall beyond one for each visible part of it"},
+            {"fragments", "", lower_is_better, 0.0, "lines of a wall in excess of one for each visible part of it"},
             {"over_merged", "", lower_is_better, 0.0,
              "map lines with members, a fifth or more each, from two parallel walls on different lines"},
             {"unassigned", "", lower_is_better, 0.0, "map lines that represent no wall"},

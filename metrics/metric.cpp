@@ -9,6 +9,11 @@
 
 namespace scanbench::metrics {
 
+MetricDescription share(MetricDescription metric) {
+  metric.is_share = true;
+  return metric;
+}
+
 double cost(const MetricDescription& metric, double value) {
   switch (metric.direction) {
     case Direction::lower_is_better:

@@ -37,9 +37,13 @@ struct MetricDescription {
   Direction direction = Direction::neither;
   double tolerance = 0.0;  ///< absolute change, in the metric's unit, that `compare` accepts
   std::string doc;
-  bool timing = false;  ///< depends on the machine: excluded from comparisons of bytes
-  double target = 0.0;  ///< the best value, in the metric's unit, if direction is `target`
+  bool timing = false;    ///< depends on the machine: excluded from comparisons of bytes
+  double target = 0.0;    ///< the best value, in the metric's unit, if direction is `target`
+  bool is_share = false;  ///< no value is above 1; no metric has values below 0
 };
+
+/// The description of a share: a metric between 0 and 1.
+MetricDescription share(MetricDescription metric);
 
 /// The value as a cost, for which lower is better: the value, its negative or its distance from the target. NaN for an
 /// undefined value and for a metric of which no value is better.

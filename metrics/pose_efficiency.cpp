@@ -65,29 +65,32 @@ class PoseEfficiency : public MetricFamily {
 
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
-    return {{"pose_efficiency", "", lower_is_better, 0.05,
-             "geometric mean of pose_efficiency_position and pose_efficiency_heading"},
-            {"pose_efficiency_position", "", lower_is_better, 0.05,
-             "mean squared error of the matched position over its mean Cramer-Rao bound, walls unknown; 1 is the best"},
-            {"pose_efficiency_heading", "", lower_is_better, 0.05, "the same of the heading"},
-            {"pose_known_map_position", "", neither, 0.05,
-             "mean squared error of the matched position over its mean bound if the walls were known"},
-            {"pose_known_map_heading", "", neither, 0.05, "the same of the heading"},
-            {"pose_bound_position", "m", neither, 0.0, "root of the mean bound of the position, walls unknown"},
-            {"pose_bound_heading", "deg", neither, 0.0, "root of the mean bound of the heading, walls unknown"},
-            {"pose_error_position", "m", lower_is_better, 0.001, "root mean square error of the matched position"},
-            {"pose_error_position_max", "m", lower_is_better, 0.001, "largest error of the matched position"},
-            {"pose_error_heading", "deg", lower_is_better, 0.01, "root mean square error of the matched heading"},
-            {"pose_nees", "", target, 0.2,
-             "mean of e' C^-1 e over matches with a covariance C; honest ones give 3, overconfident ones more; ci: the "
-             "band in which it lies with probability 95 % if they are honest",
-             false, 3.0},
-            {"pose_unmatched", "", lower_is_better, 0.001,
-             "share of the pairs that determine a pose for which the matcher has no match or says that a motion is "
-             "open"},
-            {"pose_unobservable", "", neither, 0.0, "share of all pairs that leave a motion open"},
-            {"pose_open_found", "", higher_is_better, 0.01,
-             "share of the pairs that leave a motion open for which the matcher says so"}};
+    return {
+        {"pose_efficiency", "", lower_is_better, 0.05,
+         "geometric mean of pose_efficiency_position and pose_efficiency_heading"},
+        {"pose_efficiency_position", "", lower_is_better, 0.05,
+         "mean squared error of the matched position over its mean Cramer-Rao bound, walls unknown; 1 is the best"},
+        {"pose_efficiency_heading", "", lower_is_better, 0.05,
+         "mean squared error of the matched heading over its mean Cramer-Rao bound, walls unknown; 1 is the best"},
+        {"pose_known_map_position", "", neither, 0.05,
+         "mean squared error of the matched position over its mean bound if the walls were known"},
+        {"pose_known_map_heading", "", neither, 0.05,
+         "mean squared error of the matched heading over its mean bound if the walls were known"},
+        {"pose_bound_position", "m", neither, 0.0, "root of the mean bound of the position, walls unknown"},
+        {"pose_bound_heading", "deg", neither, 0.0, "root of the mean bound of the heading, walls unknown"},
+        {"pose_error_position", "m", lower_is_better, 0.001, "root mean square error of the matched position"},
+        {"pose_error_position_max", "m", lower_is_better, 0.001, "largest error of the matched position"},
+        {"pose_error_heading", "deg", lower_is_better, 0.01, "root mean square error of the matched heading"},
+        {"pose_nees", "", target, 0.2,
+         "mean of e' C^-1 e over matches with a covariance C; honest ones give 3, overconfident ones more; ci: the "
+         "band in which it lies with probability 95 % if they are honest",
+         false, 3.0},
+        share({"pose_unmatched", "", lower_is_better, 0.001,
+               "share of the pairs that determine a pose for which the matcher has no match or says that a motion is "
+               "open"}),
+        share({"pose_unobservable", "", neither, 0.0, "share of all pairs that leave a motion open"}),
+        share({"pose_open_found", "", higher_is_better, 0.01,
+               "share of the pairs that leave a motion open for which the matcher says so"})};
   }
 
   bool applies(const MetricInput& input) const override {

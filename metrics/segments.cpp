@@ -2,10 +2,10 @@
 // and how exact the true ones are. After the region measures of Hoover et al., "An experimental comparison of range
 // image segmentation algorithms", PAMI 1996, applied to the lines of a scan.
 //
-// A correct line on a piece of wall that is too small to be a true line counts as false, although a single return can
-// decide about that. `n_small` is the number of these lines, and `f1_small_ignored` is F1 with them neither true nor
-// false, as detection benchmarks treat objects that are too small to be required (Everingham et al., "The
-// Pascal visual object classes challenge", IJCV 2010, section 3: "difficult" objects).
+// A line that is right on a wall too small to be a true line is neither right nor false, as detection benchmarks treat
+// objects that are too small to be required (Everingham et al., "The Pascal visual object classes challenge", IJCV
+// 2010, section 3: "difficult" objects): a single return can decide whether the wall counts. `n_small` is the number of
+// these lines; `precision_strict` and `f1_strict` count them as false.
 //
 // A merged line is also true for one of its walls; the other wall counts as missed. A wall that a body in front of it
 // cuts in two makes two true lines: one found line across both leaves one of them missed.
@@ -20,19 +20,6 @@
 
 namespace scanbench::metrics {
 namespace {
-
-// Any two returns are on a line, so a piece needs three.
-constexpr TrueLineRule kAnyPiece{.min_beams = 3, .min_length_m = 0.0};
-
-// The number of false lines that match a piece of a wall that is too small to be a true line.
-std::int64_t on_small_pieces(std::span<const LineFeature> found, const LineMatching& matching,
-                             std::span<const TrueLine> pieces, const MatchRule& rule) {
-  std::vector<LineFeature> false_lines;
-  for (std::size_t k = 0; k < found.size(); ++k)
-    if (matching.outcome[k] == Outcome::false_line) false_lines.push_back(found[k]);
-  const LineMatching with_pieces = match_lines(false_lines, pieces, rule);
-  return std::ranges::count(with_pieces.outcome, Outcome::true_line);
-}
 
 constexpr const char* kScans = "scans";  // scans.csv
 
@@ -56,22 +43,25 @@ class Segments : public MetricFamily {
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
     return {
-        {"precision", "", higher_is_better, 0.005, "true / (true + false + split)"},
-        {"recall", "", higher_is_better, 0.005, "true / (true + missed)"},
-        {"f1", "", higher_is_better, 0.005, "harmonic mean of precision and recall"},
-        {"f1_small_ignored", "", higher_is_better, 0.005,
-         "f1 without the correct lines on pieces of walls that are too small to be true lines"},
-        {"split", "", lower_is_better, 0.005, "share of lines that repeat a true line: split / (true + false + split)"},
-        {"merged", "", lower_is_better, 0.005,
-         "share of lines that cover more than half of two true lines of different walls"},
+        share({"precision", "", higher_is_better, 0.005, "true / (true + false + split)"}),
+        share({"recall", "", higher_is_better, 0.005, "true / (true + missed)"}),
+        share({"f1", "", higher_is_better, 0.005, "harmonic mean of precision and recall"}),
+        share({"precision_strict", "", higher_is_better, 0.005,
+               "true / (true + false + split), where right lines on walls too small to be true lines count as false"}),
+        share({"f1_strict", "", higher_is_better, 0.005, "harmonic mean of precision_strict and recall"}),
+        share({"split", "", lower_is_better, 0.005,
+               "share of lines that repeat a true line: split / (true + false + split)"}),
+        share({"merged", "", lower_is_better, 0.005,
+               "share of lines that cover more than half of two true lines of different walls"}),
         {"sigma_offset", "m", lower_is_better, 0.001,
          "root mean square distance of the midpoints of matched lines from their true lines"},
         {"sigma_angle", "deg", lower_is_better, 0.05,
          "root mean square angle between matched lines and their true lines"},
-        {"overlap", "", higher_is_better, 0.005, "intersection over union of the extents, mean over matched lines"},
+        share({"overlap", "", higher_is_better, 0.005,
+               "intersection over union of the extents, mean over matched lines"}),
         {"n_true", "", neither, 0.0, "found lines matched with a true line"},
-        {"n_false", "", neither, 0.0, "found lines that match no true line"},
-        {"n_small", "", neither, 0.0, "false lines that are correct on a piece of a wall too small to be a true line"},
+        {"n_false", "", neither, 0.0, "found lines that match no wall"},
+        {"n_small", "", neither, 0.0, "right lines on walls too small to be true lines: neither true nor false"},
         {"n_missed", "", neither, 0.0, "true lines without a match"},
         {"n_split", "", neither, 0.0, "further found lines of a matched true line"},
         {"n_merged", "", neither, 0.0, "found lines that cover more than half of two true lines of different walls"}};
@@ -91,7 +81,7 @@ class Segments : public MetricFamily {
       n_merged += std::ranges::count(matching.merged, true);
       n_false += std::ranges::count(matching.outcome, Outcome::false_line);
       n_split += std::ranges::count(matching.outcome, Outcome::split);
-      n_small += on_small_pieces(found, matching, true_lines(input, f, surfaces, kAnyPiece), params_.match_rule());
+      n_small += std::ranges::count(matching.outcome, Outcome::too_small);
       for (std::size_t k = 0; k < found.size(); ++k) {
         if (matching.outcome[k] != Outcome::true_line) continue;
         ++n_true;
@@ -109,8 +99,9 @@ class Segments : public MetricFamily {
     rows.add("recall", kAll, ratio(number(n_true), number(n_truth)), n_truth);
     // 2 / (1/precision + 1/recall) in the form that is 0, not 0/0, if lines exist but none is true.
     rows.add("f1", kAll, ratio(2.0 * number(n_true), number(n_found + n_truth)), n_found + n_truth);
-    rows.add("f1_small_ignored", kAll, ratio(2.0 * number(n_true), number(n_found - n_small + n_truth)),
-             n_found - n_small + n_truth);
+    const std::int64_t n_strict = n_found + n_small;
+    rows.add("precision_strict", kAll, ratio(number(n_true), number(n_strict)), n_strict);
+    rows.add("f1_strict", kAll, ratio(2.0 * number(n_true), number(n_strict + n_truth)), n_strict + n_truth);
     rows.add("split", kAll, ratio(number(n_split), number(n_found)), n_found);
     rows.add("merged", kAll, ratio(number(n_merged), number(n_found)), n_found);
     rows.add("sigma_offset", kAll, offset2.root(), n_true);
@@ -118,7 +109,7 @@ class Segments : public MetricFamily {
     rows.add("overlap", kAll, iou);
     rows.add("n_true", kAll, number(n_true), n_found);
     rows.add("n_false", kAll, number(n_false), n_found);
-    rows.add("n_small", kAll, number(n_small), n_found);
+    rows.add("n_small", kAll, number(n_small), n_strict);
     rows.add("n_missed", kAll, number(n_missed), n_truth);
     rows.add("n_split", kAll, number(n_split), n_found);
     rows.add("n_merged", kAll, number(n_merged), n_found);
@@ -127,14 +118,14 @@ class Segments : public MetricFamily {
 
   std::vector<MetricTable> tables(const MetricInput& input) const override {
     const Surfaces surfaces = join_walls(input.truth->walls);
-    MetricTable table{kScans, {"frame", "true", "false", "missed", "split", "merged", "f1", "residual_m"}, {}};
+    MetricTable table{kScans, {"frame", "true", "false", "missed", "split", "merged", "f1", "residual_m", "small"}, {}};
     for (std::size_t f = 0; f < input.observed.frames.size(); ++f) {
       const JudgedScan judged = judge_scan(input, f, surfaces, params_);
-      table.rows.push_back({number(f), number(judged.count(Outcome::true_line)),
-                            number(judged.count(Outcome::false_line)), number(judged.missed()),
-                            number(judged.count(Outcome::split)),
-                            number(std::ranges::count(judged.matching.merged, true)), judged.f1(),
-                            residual(input.observed.scan(f), input.result.lines[f])});
+      table.rows.push_back(
+          {number(f), number(judged.count(Outcome::true_line)), number(judged.count(Outcome::false_line)),
+           number(judged.missed()), number(judged.count(Outcome::split)),
+           number(std::ranges::count(judged.matching.merged, true)), judged.f1(),
+           residual(input.observed.scan(f), input.result.lines[f]), number(judged.count(Outcome::too_small))});
     }
     return {table};
   }

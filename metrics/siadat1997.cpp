@@ -86,13 +86,15 @@ class Siadat1997 : public MetricFamily {
          "mean distance of points from their segment's line, averaged over a segment, a scan's segments, the scans"},
         {"d_max", "m", lower_is_better, 0.002,
          "largest distance of a point from its segment's line, averaged over a scan's segments, the scans"},
-        {"d_mean_pts", "m", lower_is_better, 0.001, "mean distance, averaged over all points of a scan, the scans"},
+        {"d_mean_pts", "m", lower_is_better, 0.001,
+         "mean distance of points from their segment's line, averaged over all points of a scan, the scans"},
         {"d_max_scan", "m", lower_is_better, 0.005, "largest distance in a scan, mean over the scans"},
         {"t_pre", "ms", lower_is_better, 0.0, "CPU time per scan before segmentation", true},
         {"t_seg", "ms", lower_is_better, 0.0, "CPU time per scan of segmentation, searches included", true},
         {"t_post", "ms", lower_is_better, 0.0, "CPU time per scan of all that follows: fits, merges, selection", true},
-        {"t_total", "ms", lower_is_better, 0.0, "CPU time per scan of all three", true},
-        {"polygon_bytes", "B", neither, 0.0, "size of a scan's polygon, 48 bytes per segment (section 6)"},
+        {"t_total", "ms", lower_is_better, 0.0,
+         "CPU time per scan before segmentation, of it and after it: t_pre + t_seg + t_post", true},
+        {"polygon_bytes", "B", neither, 0.0, "size of a scan's polygon, 48 bytes per segment"},
         {"compression", "", neither, 0.0, "size of the scans' ranges, 32 bits per beam, over that of their polygons"}};
   }
 

@@ -21,7 +21,8 @@ enum class LineVerdict {
   right,
   split,       ///< agrees with a true line that another line already explains
   false_line,  ///< agrees with none
-  unjudged     ///< too short to count
+  unjudged,    ///< too short to count
+  too_small    ///< right, but on a wall too small to count
 };
 
 struct ScanVerdict {
@@ -67,6 +68,7 @@ struct MetricLook {
 /// A mean over the seeds with its 95 % interval.
 struct MeanBand {
   double mean = 0, low = 0, high = 0;
+  bool is_range = false;  ///< low and high are the smallest and the largest value, too few for an interval
 };
 
 /// The metrics of one pipeline over all seeds of a run, with its parameters.

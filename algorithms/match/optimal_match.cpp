@@ -61,7 +61,8 @@ class OptimalMatch final : public ScanMatcher {
           field("gate_m", &Params::gate_m, between(1e-6, 1e6), "m", "farthest partner of a return at the start"),
           field("guess_sigma_m", &Params::guess_sigma_m, above(0), "m",
                 "standard deviation of the guess per axis, where walls are paired by it alone"),
-          field("guess_sigma_deg", &Params::guess_sigma_deg, above(0), "deg", "the same of its heading"),
+          field("guess_sigma_deg", &Params::guess_sigma_deg, above(0), "deg",
+                "standard deviation of the guess's heading"),
           field("min_overlap", &Params::min_overlap, between(0, 1), "",
                 "smallest share of returns with a partner; below it there is no match")};
     }

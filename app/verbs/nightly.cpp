@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/inputs.hpp"
@@ -82,7 +83,7 @@ int nightly(const NightlyOptions& options, const std::vector<std::string>& argv)
   plan.run = finished.result.out;
   plan.reused = static_cast<std::size_t>(
       std::ranges::count_if(finished.result.cells, [](const harness::CellResult& cell) { return cell.reused; }));
-  const harness::NightOutcome outcome = harness::close_night(plan, store);
+  const harness::NightOutcome outcome = harness::close_night(plan, std::move(store));
   if (!options.quiet) fmt::print("{}\n", harness::reuse_text(finished.result.cells.size(), plan.reused));
   fmt::print("{}\n", harness::plain_line(outcome.sentence, 2000));
   if (!options.quiet) fmt::print("{}\n", outcome.page.string());

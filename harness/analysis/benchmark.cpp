@@ -148,8 +148,11 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<Scenario>& scenario
     const CellValues values = column.metric == "t_ratio"
                                   ? ratios_to(values_of(rows, subject.time_metric), spec.baseline)
                                   : values_of(rows, column.metric);
-    for (const auto& name : names)
-      by_name[name].values[column.metric] = mean_interval(per_seed(values, name, seeds, conditions, column.geometric));
+    for (const auto& name : names) {
+      std::vector<double>& by_seed = by_name[name].by_seed[column.metric];
+      by_seed = per_seed(values, name, seeds, conditions, column.geometric);
+      by_name[name].values[column.metric] = mean_interval(by_seed);
+    }
   }
   std::vector<RankedPipeline> ranking;
   for (const auto& name : names) {
@@ -216,7 +219,7 @@ std::vector<LevelResult> results_by_level(const std::vector<Scenario>& scenarios
                          [&](const auto& name) { return std::ranges::find(in_run, name) != in_run.end(); });
     if (conditions.empty()) continue;
     LevelResult result{level.factor, level.level, {}};
-    std::vector<std::vector<double>> by_seed;
+    std::vector<std::vector<double>>& by_seed = result.by_seed;
     for (const auto& name : names) {
       by_seed.push_back(is_complete(values, name, seeds, conditions)
                             ? per_seed(values, name, seeds, conditions, rank.geometric)

@@ -28,8 +28,9 @@ double noise_m(const Scenario& scenario);
 
 struct RankedPipeline {
   std::string name;
-  std::map<std::string, MeanInterval> values;  ///< by the metric of a column; in the unit of summary.csv
-  int missing = 0;                             ///< cells without a value of the rank's metric: not ok, or not there
+  std::map<std::string, MeanInterval> values;          ///< by the metric of a column; in the unit of summary.csv
+  std::map<std::string, std::vector<double>> by_seed;  ///< what these are the means of
+  int missing = 0;               ///< cells without a value of the rank's metric: not ok, or not there
   double next_difference = 0.0;  ///< mean of the rank's metric minus that of the next in rank, paired by seed, of the
                                  ///< logarithms where the mean is geometric; NaN for the last
   double next_p = 1.0;           ///< of that difference, paired t test, corrected after Holm; NaN: no test
@@ -62,6 +63,7 @@ struct LevelResult {
   int second = -1;                   ///< the best of the others
   double p = 1.0;                    ///< of the difference of these two, as RankedPipeline::next_p, over all levels
   std::vector<int> leaders{};        ///< the best and those that not_separated() finds beside it, best first
+  std::vector<std::vector<double>> by_seed{};  ///< one per name: what `values` are the means of
 };
 
 /// Indices of the pipelines that the seeds do not separate from pipeline `best`, which comes first: paired t tests at

@@ -82,17 +82,46 @@ Ends bca_bootstrap(std::span<const double> values, double mean) {
 
 }  // namespace
 
-MeanInterval mean_interval(std::span<const double> all) {
+namespace {
+
+/// Maps the ends back from the scale on which the range has no end. The slope of the scale at the mean stretches the
+/// reach.
+Ends within(ValueRange range, Ends ends, double mean) {
+  const double reach = 0.5 * (ends.high - ends.low);
+  if (range == ValueRange::share && mean > 0.0 && mean < 1.0) {
+    const double odds = mean / (1.0 - mean), stretch = std::exp(reach / (mean * (1.0 - mean)));
+    return {odds / (odds + stretch), odds / (odds + 1.0 / stretch)};
+  }
+  if (range == ValueRange::not_negative && mean > 0.0)
+    return {mean * std::exp(-reach / mean), mean * std::exp(reach / mean)};
+  return ends;
+}
+
+MeanInterval interval_within(std::span<const double> all, ValueRange range) {
   const std::vector<double> values = finite(all);
   const auto count = static_cast<std::int64_t>(values.size());
   if (values.empty()) return {kNaN, kNaN, kNaN, 0};
   const double mean = mean_of(values);
   const bool constant = std::ranges::all_of(values, [&](double v) { return v == values.front(); });
   if (constant) return {values.front(), values.front(), values.front(), count};
-  const Ends t = student_t(values, mean);
+  const Ends t = within(range, student_t(values, mean), mean);
   if (values.size() > kMostResampled) return {mean, t.low, t.high, count};
   const Ends bootstrap = bca_bootstrap(values, mean);
   return {mean, std::min(t.low, bootstrap.low), std::max(t.high, bootstrap.high), count};
+}
+
+}  // namespace
+
+MeanInterval mean_interval(std::span<const double> all) {
+  return interval_within(all, ValueRange::any);
+}
+
+MeanInterval seed_interval(std::span<const double> all, ValueRange range) {
+  const std::vector<double> values = finite(all);
+  const auto count = static_cast<std::int64_t>(values.size());
+  if (values.empty() || count >= kFewestForInterval) return interval_within(values, range);
+  const auto [low, high] = std::ranges::minmax(values);
+  return {mean_of(values), low, high, count};
 }
 
 double paired_p_value(std::span<const double> all) {

@@ -26,6 +26,16 @@ MeanInterval mean_interval(std::span<const double> all);
 /// values; 0 or 1 for differences without spread. NaN values are left out.
 double paired_p_value(std::span<const double> all);
 
+/// Where values can lie.
+enum class ValueRange { any, not_negative, share };
+
+constexpr std::int64_t kFewestForInterval = 6;
+
+/// mean_interval() of values in a range, within that range: Student's t interval is taken of the logarithm of the mean,
+/// or of the logit for shares, by the delta method. Of fewer than kFewestForInterval values low and high are the
+/// smallest and the largest one: so few say little about their spread.
+MeanInterval seed_interval(std::span<const double> all, ValueRange range);
+
 /// p-values corrected for multiple tests, in the same order: Holm, "A simple sequentially rejective multiple test
 /// procedure", Scandinavian Journal of Statistics 1979. NaN values do not count as tests and stay NaN.
 std::vector<double> holm_adjusted(std::span<const double> p_values);

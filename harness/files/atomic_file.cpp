@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "harness/files/descriptor.hpp"
+#include "harness/files/folder.hpp"
 #include "harness/files/input_file.hpp"
 #include "harness/files/system_error.hpp"
 
@@ -47,8 +48,34 @@ std::uint64_t half_of_memory() {
                                      : std::uint64_t{1} << 32;
 }
 
+constexpr std::string_view kAside = "-aside";
+
+std::string temporary_prefix(const fs::path& path) {
+  return "." + path.filename().string() + ".tmp-";
+}
+
 fs::path temporary_beside(const fs::path& path) {
-  return path.parent_path() / ("." + path.filename().string() + ".tmp-" + std::to_string(::getpid()));
+  return path.parent_path() / (temporary_prefix(path) + std::to_string(::getpid()));
+}
+
+/// The folders beside `target` whose names temporary_beside() gives, of any process, and those that an exchange has put
+/// aside; sorted.
+std::vector<fs::path> unfinished_beside(const fs::path& target) {
+  const std::string prefix = temporary_prefix(target);
+  const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  std::vector<fs::path> found;
+  for (const std::string& name : names_in(parent)) {
+    std::string_view process = name;
+    if (!process.starts_with(prefix)) continue;
+    process.remove_prefix(prefix.size());
+    if (process.ends_with(kAside)) process.remove_suffix(kAside.size());
+    std::error_code error;
+    if (process.empty() || process.find_first_not_of("0123456789") != std::string_view::npos ||
+        !fs::is_directory(fs::symlink_status(parent / name, error)))
+      continue;
+    found.push_back(parent / name);
+  }
+  return found;
 }
 
 }  // namespace
@@ -81,6 +108,22 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
   flush_folder(path.parent_path());
 }
 
+bool write_new_file(const fs::path& path, std::string_view bytes) {
+  const fs::path temporary = temporary_beside(path);
+  int error = write_and_flush(temporary, bytes, true);
+  if (error == 0 && ::link(temporary.c_str(), path.c_str()) != 0) {
+    error = errno;
+    const bool has_links = error != EPERM && error != EOPNOTSUPP && error != ENOSYS;
+    if (!has_links)
+      error = ::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0 ? 0 : errno;
+  }
+  ::unlink(temporary.c_str());
+  if (error == EEXIST) return false;
+  if (error != 0) refuse("write", path, error);
+  flush_folder(path.parent_path());
+  return true;
+}
+
 void write_staged_file(const fs::path& path, std::string_view bytes) {
   const int error = write_and_flush(path, bytes, false);
   if (error != 0) refuse("write", path, error);
@@ -111,8 +154,12 @@ void make_folders(const fs::path& path) {
 void exchange_folders(const fs::path& a, const fs::path& b) {
   if (::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) return;
   if (errno != EINVAL && errno != ENOSYS) refuse("replace", b, errno);
-  // The file system cannot exchange: for an instant b does not exist, but a complete copy is beside it.
-  const fs::path aside = temporary_beside(b).string() + "-aside";
+  exchange_folders_in_steps(a, b);
+}
+
+void exchange_folders_in_steps(const fs::path& a, const fs::path& b) {
+  // For an instant b does not exist, but a complete copy is beside it.
+  const fs::path aside = temporary_beside(b).string() + std::string(kAside);
   if (::rename(b.c_str(), aside.c_str()) != 0) refuse("replace", b, errno);
   if (::rename(a.c_str(), b.c_str()) != 0) {
     const int error = errno;
@@ -120,6 +167,41 @@ void exchange_folders(const fs::path& a, const fs::path& b) {
     refuse("replace", b, error);
   }
   if (::rename(aside.c_str(), a.c_str()) != 0) refuse("replace", b, errno);
+}
+
+std::vector<fs::path> folders_aside(const fs::path& folder) {
+  std::vector<fs::path> aside;
+  for (const fs::path& path : unfinished_beside(folder))
+    if (path.filename().string().ends_with(kAside)) aside.push_back(path);
+  return aside;
+}
+
+bool put_back(const fs::path& folder) {
+  const auto aside = folders_aside(folder);
+  if (aside.empty()) return false;
+  if (::rename(aside.front().c_str(), folder.c_str()) != 0) {  // does not replace a folder that has files
+    if (errno == ENOTEMPTY || errno == EEXIST) return false;
+    refuse("put back", folder, errno);
+  }
+  flush_folder(folder.parent_path());
+  return true;
+}
+
+void remove_temporaries(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (auto it = fs::recursive_directory_iterator(folder); it != fs::recursive_directory_iterator(); ++it) {
+    if (!is_temporary_name(it->path().filename().string())) continue;
+    found.push_back(it->path());
+    if (it->is_directory() && !it->is_symlink()) it.disable_recursion_pending();
+  }
+  std::error_code ignored;
+  for (const auto& path : found) fs::remove_all(path, ignored);
+}
+
+void remove_unfinished_folders(const fs::path& target) {
+  put_back(target);
+  std::error_code ignored;
+  for (const fs::path& path : unfinished_beside(target)) fs::remove_all(path, ignored);
 }
 
 bool is_temporary_name(std::string_view name) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace scanbench::harness {
 
@@ -16,6 +17,9 @@ std::string read_file(const std::filesystem::path& path);
 /// Writes a complete file: after a failure (disk full, no permission) the target is unchanged and the temporary file is
 /// removed. Throws ConfigError with the file's name and the reason.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// The same for a file that must not exist yet. False, and nothing is changed, if it does.
+bool write_new_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Writes a file inside a StagedFolder, which is flushed and renamed as a whole later. Throws ConfigError.
 void write_staged_file(const std::filesystem::path& path, std::string_view bytes);
@@ -32,8 +36,27 @@ void flush_file_system(const std::filesystem::path& folder);
 /// Makes a folder and its parents. Throws ConfigError.
 void make_folders(const std::filesystem::path& path);
 
-/// Exchanges two existing folders of one file system, in one step if the file system supports it.
+/// Exchanges two existing folders of one file system, in one step if the file system supports it. Else in three: a
+/// process that is killed between them may leave `b` under the name that put_back() looks for.
 void exchange_folders(const std::filesystem::path& a, const std::filesystem::path& b);
+/// The exchange in three steps.
+void exchange_folders_in_steps(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// If a killed exchange has left a folder aside, and at its place there is nothing or an empty folder, gives it its
+/// name back and returns true. The folders that this finds aside are those of ended processes only if the caller
+/// excludes others, for instance by a RunLock. Throws SystemError.
+bool put_back(const std::filesystem::path& folder);
+
+/// The folders that exchange_folders() has left aside of `folder`, sorted.
+std::vector<std::filesystem::path> folders_aside(const std::filesystem::path& folder);
+
+/// Removes the unfinished files and folders of killed processes inside a folder and below it. The caller excludes other
+/// writers.
+void remove_temporaries(const std::filesystem::path& folder);
+
+/// Removes the unfinished folders that killed processes have left beside a target, after put_back(). The caller
+/// excludes other writers of the target.
+void remove_unfinished_folders(const std::filesystem::path& target);
 
 /// True for the names that StagedFolder and write_file_atomically give to unfinished files and folders.
 bool is_temporary_name(std::string_view name);

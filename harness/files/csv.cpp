@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "harness/files/csv_rows.hpp"
+#include "harness/files/folder_name.hpp"
 #include "harness/files/text_file.hpp"
 
 namespace scanbench::harness {
@@ -103,6 +104,15 @@ void CsvTable::refuse(std::size_t row, const std::string& message) const {
 
 std::string CsvTable::text(std::size_t row, std::string_view name) const {
   return std::string(field(row, name));
+}
+
+std::string CsvTable::folder_name(std::size_t row, std::string_view name) const {
+  const std::string found = text(row, name);
+  try {
+    return check_name(std::string(name), found).text();
+  } catch (const ConfigError& error) {
+    refuse(row, error.what());
+  }
 }
 
 std::string_view CsvTable::field(std::size_t row, std::string_view name) const {

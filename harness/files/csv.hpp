@@ -45,8 +45,9 @@ class CsvTable {
   const std::vector<std::string>& columns() const { return columns_; }
   bool has(std::string_view column) const;
   std::string text(std::size_t row, std::string_view name) const;
-  std::string_view field(std::size_t row, std::string_view name) const;  ///< its bytes, as long as the table exists
-  double number(std::size_t row, std::string_view name) const;           ///< NaN for an empty field
+  std::string_view field(std::size_t row, std::string_view name) const;   ///< its bytes, as long as the table exists
+  std::string folder_name(std::size_t row, std::string_view name) const;  ///< refuses what is no FolderName
+  double number(std::size_t row, std::string_view name) const;            ///< NaN for an empty field
   std::optional<double> optional_number(std::size_t row, std::string_view name) const;  ///< nullopt for an empty field
   long long integer(std::size_t row, std::string_view name) const;
   int index(std::size_t row, std::string_view name) const;  ///< an integer that fits an int

@@ -18,6 +18,7 @@
 #include "harness/foreign/library.hpp"
 #include "harness/foreign/program.hpp"
 #include "harness/process/child.hpp"
+#include "harness/process/descendants.hpp"
 #include "harness/process/output_tail.hpp"
 #include "harness/process/pipe.hpp"
 
@@ -45,6 +46,7 @@ int describe(const fs::path& library) {
 
 std::string described_by_child(const fs::path& library) {
   const std::string name = "the library " + library.filename().string();
+  const NothingStays after_this;
   Pipe report;
   Pipe printed;
   Child child;
@@ -73,6 +75,7 @@ std::string described_by_child(const fs::path& library) {
 }
 
 ForeignModule described_by(const ForeignSource& source, bool sandbox) {
+  const NothingStays after_this;
   Program program(source, {.sandbox = sandbox, .writable_folder = {}}, ProgramOutput::captured);
   const Call hello = Call("hello").key("scanbench", kProtocolVersion);
   const Answer answer = program.call(hello.header(), {}, kSeconds);
@@ -106,8 +109,11 @@ void inspect_program(ForeignSource& source, bool sandbox) {
 
 std::vector<ForeignSource> inspect_library(const fs::path& library) {
   check_stamp(library);
-  const nlohmann::json list = parsed_json(described_by_child(library));
-  if (list.is_object() && list.contains("error")) throw ForeignFault(list["error"].get<std::string>());
+  const nlohmann::json list = parsed_foreign_json(described_by_child(library));
+  if (const auto error = list.find("error"); error != list.end())
+    throw ForeignFault(error->is_string() ? error->get<std::string>()
+                                          : "the library " + library.filename().string() +
+                                                " reports an error that is not a text: " + json_line(*error));
   if (!list.is_array() || list.empty())
     throw ForeignFault("the library " + library.filename().string() + " has no module");
   std::vector<ForeignSource> sources;

@@ -34,7 +34,8 @@ const Scenario& scenario_of(const Catalogue& catalogue, const CatalogueEntry& en
 std::vector<Table> tables_of(const fs::path& run, const Scenario& scenario, const std::string& number) {
   const std::string suffix = number == "text" ? "" : number;
   std::vector<Table> tables;
-  for (Table& table : paper_tables(scenario.name, compare_with_paper(scenario, load_summary(run / kSummaryFile))))
+  const std::vector<SummaryRow> rows = load_summary(run / kSummaryFile);
+  for (Table& table : paper_tables(scenario.name, compare_with_paper(scenario, rows), rows))
     if (table.id == scenario.name + "-paper-" + suffix || table.id == scenario.name + "-ratios-" + suffix)
       tables.push_back(std::move(table));
   return tables;

@@ -23,15 +23,21 @@ struct Baseline {
 /// with a baseline after the same reduction.
 RunResults gate_values(const RunResults& results, const Gates& gates);
 
-/// The files of a suite's baselines, oldest first; none if the folder does not exist.
+/// The files of a suite's baselines, by number; none if the folder does not exist. Other files there do not count.
+/// Throws ConfigError for a suite that is no FolderName.
 std::vector<std::filesystem::path> baseline_files(const std::filesystem::path& baselines, const std::string& suite);
 
-/// Throws ConfigError, naming the file, if it is not a baseline.
+/// Those of these files whose values mean what today's do (docs/formats.md, schema of baselines), in their order.
+/// Throws ConfigError for a file that is not a JSON object.
+std::vector<std::filesystem::path> current_baselines(const std::vector<std::filesystem::path>& files);
+
+/// Throws ConfigError, naming the file, if it is not a baseline, or an old one whose values meant something else.
 Baseline load_baseline(const std::filesystem::path& file);
 
-/// Writes the next file of the suite: per pipeline and gate the seeds' values, their median and the 95 % interval of
-/// their mean, and per pipeline the hash of its values. Returns its path. Throws ConfigError if a cell is missing or
-/// not ok, if the reason is empty, and if nothing differs from the newest baseline.
+/// Writes the next file of the suite, never over another one, also if several processes accept at once: per pipeline
+/// and gate the seeds' values, their median and the 95 % interval of their mean, and per pipeline the hash of its
+/// values. Returns its path. Throws ConfigError if a cell is missing or not ok, if the reason is empty, and if nothing
+/// differs from the newest baseline.
 std::filesystem::path accept_baseline(const std::filesystem::path& baselines, const std::string& suite,
                                       const RunResults& results, const Gates& gates, const std::string& reason);
 

@@ -87,15 +87,24 @@ RunResults night_results(const Store& store, const Night& night, const fs::path&
   return results;
 }
 
-std::optional<Reference> reference_of(const NightPlan& plan, const Store& store, std::int64_t tonight) {
+/// The nights of the suite but those of this folder that began at `unfinished`.
+std::vector<Night> earlier_nights(const NightPlan& plan, const Store& store,
+                                  const std::vector<std::string>& unfinished) {
+  std::vector<Night> nights = store.nights(plan.suite);
+  std::erase_if(nights, [&](const Night& night) {
+    return night.folder == folder_in_store(plan.run) && std::ranges::find(unfinished, night.start) != unfinished.end();
+  });
+  return nights;
+}
+
+std::optional<Reference> reference_of(const NightPlan& plan, const Store& store, const std::vector<Night>& nights) {
   if (const auto file = chosen_baseline(plan)) {
     const Baseline baseline = load_baseline(*file);
     return Reference{text_of(baseline), baseline.results, true};
   }
-  const auto nights = store.nights(plan.suite);
   for (std::size_t i = nights.size(); i-- > 0;) {
     const Night& night = nights[i];
-    if (night.id == tonight || night.verdict != "PASS") continue;
+    if (night.verdict != "PASS") continue;
     return Reference{"the last good night, " + night.start, night_results(store, night, plan.run), false};
   }
   return std::nullopt;
@@ -188,24 +197,22 @@ void keep_good_night(const fs::path& run) {
   staged.commit();
 }
 
-}  // namespace
-
-std::string suite_of_run(const fs::path& run) {
-  if (!fs::exists(run / kNightFile)) return fs::absolute(run).lexically_normal().filename().string();
-  return with_json_of(run / kNightFile, [&](const nlohmann::ordered_json& json) {
-    const auto suite = json.at("suite").get<std::string>();
-    check_name("suite", suite);
-    return suite;
-  });
+/// Stands beside the run while a night is being stored. One line per start of a night in this folder that may be in the
+/// store although it was killed.
+fs::path unfinished_nights_file(const fs::path& run) {
+  const fs::path whole = fs::absolute(run).lexically_normal();
+  return whole.parent_path() / ("." + whole.filename().string() + ".night");
 }
 
-void check_plan(const NightPlan& plan) {
-  if (const auto file = chosen_baseline(plan)) load_baseline(*file);
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+    lines.push_back(text.substr(begin, end - begin));
+  return lines;
 }
 
-NightOutcome close_night(const NightPlan& plan, Store& store) {
-  const RunLock lock(plan.run);
-  refuse_linked_folders(plan.run);
+/// Stores, judges and shows the night. `unfinished`: the starts of killed nights in this folder, which it replaces.
+NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<std::string>& unfinished) {
   NightInput input;
   input.suite = plan.suite;
   input.reused = plan.reused;
@@ -219,15 +226,14 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
   input.worst = worst_scans(plan.run, input.now, kWorstScans);
   input.files = {kSummaryFile.name(), kManifestFile.name()};
   write_file_atomically(plan.run / kNightFile, json_line(nlohmann::ordered_json{{"suite", plan.suite}}) + "\n");
-  const std::int64_t tonight = store.add(plan.suite, plan.run, input.now);
-
   NightOutcome outcome;
-  const auto reference = reference_of(plan, store, tonight);
+  const auto earlier = earlier_nights(plan, store, unfinished);
+  const auto reference = reference_of(plan, store, earlier);
   if (reference) {
     const Comparison comparison = compare_with(*reference, input.now, plan.gates);
     outcome.sentence = verdict_sentence(comparison);
     outcome.exit_code = comparison.exit_code();
-    store.set_verdict(tonight, verdict_word(comparison), outcome.sentence);
+    store.add(plan.suite, plan.run, input.now, {verdict_word(comparison), outcome.sentence}, unfinished);
     input.reference = reference->text;
     for (const MetricChange* change : listed_changes(comparison))
       input.trends[change->scenario + "/" + change->pipeline + "/" + change->metric.metric] =
@@ -248,18 +254,22 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
     for (const RunFile* file : {&kComparisonJson, &kComparisonMarkdown, &kComparisonJunit})
       fs::remove(plan.run / *file);  // of an earlier night, which had a reference
     outcome.exit_code = missing ? 4 : bad > 0 ? 1 : 0;
-    const std::string why = store.nights(plan.suite).size() > 1
-                                ? "no earlier night of the suite was good and there is no baseline"
-                                : "this is the first night of the suite";
+    const std::string why = !earlier.empty() ? "no earlier night of the suite was good and there is no baseline"
+                                             : "this is the first night of the suite";
     const auto first = std::ranges::find_if(input.now.cells, [](const CellResults& cell) { return !cell.ok(); });
     outcome.sentence =
         bad == 0 ? fmt::format("PASS: {}, so nothing can be worse; all {} cells are ok.", why, input.now.cells.size())
                  : fmt::format("{}: {} of {} cells are not ok, first {}: {}. There is nothing to compare with: {}.",
                                missing ? "INCOMPLETE" : "FAIL", bad, input.now.cells.size(), to_string(first->key),
                                first->status, why);
-    store.set_verdict(tonight, missing ? "INCOMPLETE" : bad > 0 ? "FAIL" : "PASS", outcome.sentence);
+    store.add(plan.suite, plan.run, input.now,
+              {missing   ? "INCOMPLETE"
+               : bad > 0 ? "FAIL"
+                         : "PASS",
+               outcome.sentence},
+              unfinished);
   }
-  if (const auto files = baseline_files(plan.baselines, plan.suite); files.size() > 1) {
+  if (const auto files = current_baselines(baseline_files(plan.baselines, plan.suite)); files.size() > 1) {
     const Baseline oldest = load_baseline(files.front());
     input.drift = compare(oldest.results, gate_values(input.now, plan.gates), plan.gates);
     input.drift_reference = text_of(oldest);
@@ -270,6 +280,33 @@ NightOutcome close_night(const NightPlan& plan, Store& store) {
   write_file_atomically(outcome.page, to_html(night_document(input)));
   refresh_manifest(plan.run);
   if (outcome.exit_code == 0) keep_good_night(plan.run);
+  return outcome;
+}
+
+}  // namespace
+
+std::string suite_of_run(const fs::path& run) {
+  if (!fs::exists(run / kNightFile)) return fs::absolute(run).lexically_normal().filename().string();
+  return with_json_of(run / kNightFile, [&](const nlohmann::ordered_json& json) {
+    const auto suite = json.at("suite").get<std::string>();
+    check_name("suite", suite);
+    return suite;
+  });
+}
+
+void check_plan(const NightPlan& plan) {
+  if (const auto file = chosen_baseline(plan)) load_baseline(*file);
+}
+
+NightOutcome close_night(const NightPlan& plan, Store store) {
+  const RunLock lock(plan.run);
+  refuse_linked_folders(plan.run);
+  remove_unfinished_folders(last_good_folder(plan.run));
+  const fs::path mark = unfinished_nights_file(plan.run);
+  const std::string starts = fs::exists(mark) ? read_file(mark) : "";
+  write_file_atomically(mark, starts + load_provenance(plan.run).start + "\n");
+  const NightOutcome outcome = judge_night(plan, std::move(store), lines_of(starts));  // closes the store
+  remove_file(mark);
   return outcome;
 }
 

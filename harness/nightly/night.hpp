@@ -40,6 +40,6 @@ struct NightOutcome {
 
 /// Stores the run as a night of its suite, compares it with the baseline, else with the last good night, and writes
 /// nightly.html, comparison.json, comparison.md and comparison.junit.xml into the run folder. Throws ConfigError.
-NightOutcome close_night(const NightPlan& plan, Store& store);
+NightOutcome close_night(const NightPlan& plan, Store store);
 
 }  // namespace scanbench::harness

@@ -75,14 +75,14 @@ void add_cells(Database& database, std::int64_t night, const std::vector<CellRes
   }
 }
 
-std::string place_of(const fs::path& folder) {
+}  // namespace
+
+std::string folder_in_store(const fs::path& folder) {
   return fs::absolute(folder).lexically_normal().string();
 }
 
-}  // namespace
-
 Store::Store(const fs::path& file) : database_(file, Database::Access::write) {
-  database_.execute("PRAGMA foreign_keys = ON; PRAGMA synchronous = NORMAL");
+  database_.execute("PRAGMA foreign_keys = ON; PRAGMA synchronous = FULL");
   if (is_empty()) create();
   check_schema();
 }
@@ -113,29 +113,37 @@ void Store::check_schema() const {
                      " (a store can be made again from the run folders: scanbench store)");
 }
 
-std::int64_t Store::add(const std::string& suite, const fs::path& folder, const RunResults& results) {
+std::int64_t Store::add(const std::string& suite, const fs::path& folder, const RunResults& results,
+                        const StoredVerdict& verdict, const std::vector<std::string>& unfinished) {
   Transaction transaction(database_);
-  const std::int64_t night = insert(suite, place_of(folder), results);
+  for (const auto& start : unfinished) remove(folder_in_store(folder), start);
+  const std::int64_t night = insert(suite, folder_in_store(folder), results, verdict);
   transaction.commit();
   return night;
 }
 
 std::int64_t Store::replace(const std::string& suite, const fs::path& folder, const RunResults& results) {
   Transaction transaction(database_);
-  Statement remove(database_, "DELETE FROM nights WHERE start = ? AND folder = ?");
-  remove.bind(0, results.provenance.start).bind(1, place_of(folder)).run();
-  const std::int64_t night = insert(suite, place_of(folder), results);
+  remove(folder_in_store(folder), results.provenance.start);
+  const std::int64_t night = insert(suite, folder_in_store(folder), results, {});
   transaction.commit();
   return night;
 }
 
-std::int64_t Store::insert(const std::string& suite, const std::string& place, const RunResults& results) {
+void Store::remove(const std::string& place, const std::string& start) {
+  Statement nights(database_, "DELETE FROM nights WHERE start = ? AND folder = ?");
+  nights.bind(0, start).bind(1, place).run();
+}
+
+std::int64_t Store::insert(const std::string& suite, const std::string& place, const RunResults& results,
+                           const StoredVerdict& verdict) {
   Statement head(database_,
-                 "INSERT INTO nights(suite, start, commit_hash, compiler, libraries, processor, command, folder) "
-                 "VALUES(?, ?, ?, ?, ?, ?, ?, ?)");
+                 "INSERT INTO nights(suite, start, commit_hash, compiler, libraries, processor, command, folder, "
+                 "verdict, sentence) VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   const Provenance& by = results.provenance;
   head.bind(0, suite).bind(1, by.start).bind(2, by.commit).bind(3, by.compiler).bind(4, by.libraries);
-  head.bind(5, by.processor).bind(6, by.command).bind(7, place).run();
+  head.bind(5, by.processor).bind(6, by.command).bind(7, place);
+  head.bind(8, verdict.word).bind(9, verdict.sentence).run();
   const std::int64_t night = database_.last_id();
   Statement setting(database_, "INSERT INTO settings VALUES(?, ?, ?, ?)");
   for (const auto& [scenario, settings] : results.settings)
@@ -143,11 +151,6 @@ std::int64_t Store::insert(const std::string& suite, const std::string& place, c
       setting.bind(0, night).bind(1, scenario).bind(2, path).bind(3, value).run();
   add_cells(database_, night, results.cells);
   return night;
-}
-
-void Store::set_verdict(std::int64_t night, const std::string& verdict, const std::string& sentence) {
-  Statement update(database_, "UPDATE nights SET verdict = ?, sentence = ? WHERE night = ?");
-  update.bind(0, verdict).bind(1, sentence).bind(2, night).run();
 }
 
 std::vector<Night> Store::nights(const std::string& suite) const {

@@ -32,6 +32,14 @@ struct Night {
   std::string sentence;  ///< the verdict's sentence
 };
 
+struct StoredVerdict {
+  std::string word;      ///< PASS, FAIL, INCOMPLETE; empty: not judged
+  std::string sentence;  ///< empty: not judged
+};
+
+/// The folder of a run as the store names it: absolute.
+std::string folder_in_store(const std::filesystem::path& folder);
+
 /// The value of one metric of one pipeline in a past night: the mean over its seeds.
 struct TrendPoint {
   std::int64_t night = 0;
@@ -46,11 +54,12 @@ class Store {
   /// version, one that is cut off, and one that another program keeps locked for ten seconds.
   explicit Store(const std::filesystem::path& file);
 
-  /// Adds a night, all of it or nothing.
-  std::int64_t add(const std::string& suite, const std::filesystem::path& folder, const RunResults& results);
+  /// Adds a night with its verdict, all of it or nothing, and flushes it to disk. Nights of the folder that began at
+  /// `unfinished` are removed: they were killed, and this one is the same again.
+  std::int64_t add(const std::string& suite, const std::filesystem::path& folder, const RunResults& results,
+                   const StoredVerdict& verdict = {}, const std::vector<std::string>& unfinished = {});
   /// The same for a run that may be there already (same start and folder): its older rows are removed.
   std::int64_t replace(const std::string& suite, const std::filesystem::path& folder, const RunResults& results);
-  void set_verdict(std::int64_t night, const std::string& verdict, const std::string& sentence);
 
   std::vector<Night> nights(const std::string& suite) const;  ///< oldest first
   RunResults load(std::int64_t night) const;
@@ -62,7 +71,9 @@ class Store {
  private:
   bool is_empty() const;
   void create();
-  std::int64_t insert(const std::string& suite, const std::string& place, const RunResults& results);
+  std::int64_t insert(const std::string& suite, const std::string& place, const RunResults& results,
+                      const StoredVerdict& verdict);
+  void remove(const std::string& place, const std::string& start);
   void check_schema() const;
   mutable Database database_;
 };

@@ -29,7 +29,7 @@ section.table { margin-bottom: .9rem; }
 th, td { padding: .18rem .55rem; text-align: right; white-space: nowrap; } thead { border-bottom: 1.5px solid var(--ink); }
 th.head { text-align: left; font-weight: 600; } th.group { text-align: left; border-bottom: 1px solid var(--rule); }
 .first { padding-left: 1.3rem; } tbody tr:nth-child(even) { background: var(--tint); }
-td.best { font-weight: 700; } td small { display: block; color: var(--faint); font-weight: 400; font-size: .78rem; line-height: 1.1; } .published { color: var(--faint); font-style: italic; }
+td.best { font-weight: 700; } td.not-eligible { color: var(--faint); } td small { display: block; color: var(--faint); font-weight: 400; font-size: .78rem; line-height: 1.1; } .published { color: var(--faint); font-style: italic; }
 figure { margin: 1rem 0; } figure img { max-width: 100%; height: auto; } figcaption { color: var(--faint); font-size: .88rem; }
 .compact table { font-size: .8rem; } .compact th { white-space: normal; } .compact th, .compact td { padding: .18rem .4rem; }
 .prose table { width: 100%; } .prose th.head { white-space: normal; vertical-align: top; } .plain tbody th.head:not(:first-child) { font-weight: 400; }
@@ -50,6 +50,7 @@ input.filter { font: inherit; padding: .05rem .5rem; border: 1px solid var(--rul
 .scans figure { margin: 0; } .scan { width: 100%; fill: none; stroke: var(--faint); stroke-width: 3; border: 1px solid var(--rule); }
 .scan .points { stroke: var(--ink); stroke-linecap: round; stroke-width: 3; } .scan .right { stroke: #009e73; stroke-width: 5; } .scan .sensor { fill: var(--ink); stroke: none; }
 .scan .split { stroke: #e69f00; stroke-width: 6; stroke-dasharray: 12 7; } .scan .false { stroke: #d55e00; stroke-width: 7; stroke-dasharray: 5 6; }
+.scan .small { stroke: #56b4e9; stroke-width: 5; stroke-dasharray: 16 5; }
 .scan .missed { stroke: #cc79a7; stroke-width: 7; stroke-dasharray: 14 5 4 5; } .key { display: flex; flex-wrap: wrap; gap: .3rem 1.2rem; }
 .key .scan { width: 3.2rem; border: 0; vertical-align: middle; } .tools { display: flex; gap: .5rem; margin: .3rem 0; font-size: .86rem; }
 .tools:not(:hover, :focus-within) button { opacity: .55; } .tools button { font: inherit; padding: .05rem .5rem; border: 1px solid var(--rule); background: var(--paper); color: var(--ink); cursor: pointer; }

@@ -20,11 +20,12 @@ constexpr double kSketchWidth = 480.0;
 constexpr double kSketchHeight = 360.0;
 constexpr double kSketchMargin = 14.0;
 
-constexpr std::array<std::pair<const char*, const char*>, 5> kKinds{{{"right", "right"},
+constexpr std::array<std::pair<const char*, const char*>, 6> kKinds{{{"right", "right"},
                                                                      {"split", "split"},
                                                                      {"false", "false"},
                                                                      {"missed", "missed"},
-                                                                     {"unjudged", "too short to judge"}}};
+                                                                     {"unjudged", "too short to judge"},
+                                                                     {"small", "wall too small to judge"}}};
 
 /// From metres to the frame: one scale for both axes, y up.
 class View {

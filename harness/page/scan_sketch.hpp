@@ -8,7 +8,7 @@
 
 namespace scanbench::harness {
 
-enum class SketchLine { right, split, false_line, missed, unjudged };
+enum class SketchLine { right, split, false_line, missed, unjudged, too_small };
 
 /// In the sensor frame, metres.
 struct ScanSketch {

@@ -162,7 +162,8 @@ class TerminalTable {
     for (std::size_t h = 0; h < heads_; ++h)
       line += faint(padded(row.heads[h], widths_[h], false), row.published) + "  ";
     for (std::size_t c = 0; c < row.cells.size(); ++c)
-      line += value_text(with_spread(marked(row.cells[c]), row.cells[c]), c, row.cells[c].published);
+      line += value_text(with_spread(marked(row.cells[c]), row.cells[c]), c,
+                         row.cells[c].published || row.cells[c].not_eligible);
     return without_trailing_blanks(line);
   }
 
@@ -209,9 +210,9 @@ std::string html_row(const Table& table, const Table::Row& row) {
   for (const auto& head : row.heads) out += "<th class=\"head\">" + html_escaped(head) + "</th>";
   for (std::size_t c = 0; c < row.cells.size(); ++c) {
     const auto& cell = row.cells[c];
-    out += fmt::format("<td class=\"{}{}{}{}\">{}</td>", cell.best ? "best " : "", cell.published ? "published " : "",
-                       cell.state.empty() ? "" : cell.state + " ", begins_group(table, c) ? "first" : "",
-                       html_content(cell));
+    out += fmt::format("<td class=\"{}{}{}{}{}\">{}</td>", cell.best ? "best " : "", cell.published ? "published " : "",
+                       cell.not_eligible ? "not-eligible " : "", cell.state.empty() ? "" : cell.state + " ",
+                       begins_group(table, c) ? "first" : "", html_content(cell));
   }
   return out + "</tr>\n";
 }

@@ -15,7 +15,8 @@ struct TableCell {
   std::string link{};      ///< HTML: what the text leads to, a relative address; may be empty
   std::string state{};  ///< HTML: worse, better, uncertain, failed or missing: a colour beside the words; may be empty
   std::string hint{};   ///< HTML: shown when the pointer rests on the text, for example a command
-  std::string drawing{};  ///< HTML: inline SVG after the text
+  std::string drawing{};      ///< HTML: inline SVG after the text
+  bool not_eligible = false;  ///< not compared with the others of its row or column: grey
 };
 
 struct TableColumn {

@@ -137,6 +137,8 @@ char letter(render::LineVerdict verdict) {
       return 's';
     case render::LineVerdict::false_line:
       return 'f';
+    case render::LineVerdict::too_small:
+      return 'w';
     default:
       return 'u';
   }

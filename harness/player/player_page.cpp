@@ -39,8 +39,8 @@ constexpr std::string_view kPlayerBody = R"html(<div class="bar">
 <canvas id="view" tabindex="0" aria-label="the scan and the lines found in it, sensor frame"></canvas>
 <p class="faint"><kbd>←</kbd> <kbd>→</kbd> one scan, <kbd>Page Up</kbd> <kbd>Page Down</kbd> ten,
 <kbd>Home</kbd> <kbd>End</kbd> first and last in this order, <kbd>Space</kbd> play; wheel zooms, dragging moves.
-Solid lines are right or not judged, dashed ones false, dotted ones pieces of a wall that another line explains already;
-thick pale lines are walls that a method missed. The sensor is the triangle; x is upwards.</p>
+Solid lines are right or too short to judge, dashed ones false, dotted ones pieces of a wall that another line explains
+already, those of long dashes right on a wall too small to judge; thick pale lines are walls that a method missed. The sensor is the triangle; x is upwards.</p>
 <div id="facts"><table><thead><tr><th class="head">pipeline</th><th>lines</th><th>false</th><th>missed</th><th>split</th>
 <th>F1</th><th>returns without a line</th><th>RMS distance of the others from their lines</th></tr></thead><tbody></tbody></table></div>)html";
 
@@ -104,7 +104,7 @@ function draw() {
   }
   g.globalAlpha = 1; g.fillStyle = css('--point');
   far_points(i, (x, y) => { g.beginPath(); g.arc(X(x, y), Y(x, y), 1.6, 0, 7); g.fill(); });
-  const dashes = {f: [7, 6], s: [2, 5], r: [], u: []};
+  const dashes = {f: [7, 6], s: [2, 5], r: [], u: [], w: [12, 3]};
   const shown = rec.pipelines.filter(p => p.shown);
   for (const [n, p] of shown.entries()) {  // the first lies widest below the others, so that equal lines all show
     g.strokeStyle = ink(p, css); g.lineWidth = 2 + 2.5 * Math.min(6, shown.length - 1 - n);

@@ -65,6 +65,16 @@ void kill_orphans(const std::vector<pid_t>& spared) {
   }
 }
 
+NothingStays::NothingStays() : before_(children()) {
+  ::prctl(PR_GET_CHILD_SUBREAPER, &adopted_before_);
+  adopt_orphans();
+}
+
+NothingStays::~NothingStays() {
+  kill_orphans(before_);
+  ::prctl(PR_SET_CHILD_SUBREAPER, adopted_before_);
+}
+
 pid_t branch_of(pid_t pid) {
   constexpr int kDeepest = 1000;
   for (int depth = 0; pid > 1 && depth < kDeepest; ++depth) {

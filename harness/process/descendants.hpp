@@ -17,6 +17,20 @@ std::vector<pid_t> children();
 /// second: nothing that a task started outlives it, not even in a session of its own.
 void kill_orphans(const std::vector<pid_t>& spared);
 
+/// While one exists, this process, which must have one thread, adopts orphans. At its end it kills those processes
+/// below this one that were not children of it before: nothing that was started meanwhile stays.
+class NothingStays {
+ public:
+  NothingStays();
+  ~NothingStays();
+  NothingStays(const NothingStays&) = delete;
+  NothingStays& operator=(const NothingStays&) = delete;
+
+ private:
+  std::vector<pid_t> before_;
+  int adopted_before_ = 0;
+};
+
 /// The child of this process that `pid` descends from, or is; 0 if it is no descendant or does not exist any more.
 pid_t branch_of(pid_t pid);
 

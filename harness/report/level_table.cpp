@@ -51,18 +51,20 @@ Table level_table(const std::vector<LevelResult>& results, const std::vector<std
   for (const auto& name : names) table.rows.push_back({{name}, {}, false});
   for (const auto& result : results) {
     table.columns.push_back({result.factor, result.level, false});
-    std::vector<double> means;
+    std::vector<std::vector<double>> seeds;
     for (std::size_t i = 0; i < names.size(); ++i) {
       const double mean = result.values[i].mean;
-      means.push_back(mean);
+      seeds.push_back(result.by_seed[i]);
       table.rows[i].cells.push_back(
           {std::isfinite(mean) ? fmt::format("{:.{}f}", rank.scale * mean, rank.decimals) : "–"});
     }
     std::vector<TableCell*> cells;
     for (auto& row : table.rows) cells.push_back(&row.cells.back());
-    mark_best(cells, means, rank.description());
+    mark_best(cells, seeds, rank.description());
   }
-  table.caption = "Means over all conditions of one level. * marks the best of a column. – marks missing cells.";
+  table.caption =
+      "Means over all conditions of one level. * marks the best of a column and those that the seeds do not tell "
+      "apart from it. – marks missing cells.";
   return table;
 }
 

@@ -17,6 +17,8 @@ render::LineVerdict verdict_of(metrics::Outcome outcome) {
       return render::LineVerdict::split;
     case metrics::Outcome::false_line:
       return render::LineVerdict::false_line;
+    case metrics::Outcome::too_small:
+      return render::LineVerdict::too_small;
     default:
       return render::LineVerdict::unjudged;
   }

@@ -34,10 +34,6 @@ std::string with_interval(const MeanInterval& interval, const Display& display) 
                      value_text(interval.high, display));
 }
 
-bool excludes(const MeanInterval& interval, double value) {
-  return interval.count > 1 && (interval.low > value || interval.high < value);
-}
-
 struct Pair {
   MeanInterval difference;
   MeanInterval ratio;  ///< geometric mean
@@ -57,23 +53,25 @@ Pair compare(const BySeed& first, const BySeed& second) {
     differences.push_back(a - b);
     if (a > 0 && b > 0) logarithms.push_back(std::log(a / b));
   }
-  pair.difference = mean_interval(differences);
+  pair.difference = seed_interval(differences, ValueRange::any);
   const MeanInterval log_ratio =
-      logarithms.size() == differences.size() ? mean_interval(logarithms) : mean_interval({});
+      seed_interval(logarithms.size() == differences.size() ? logarithms : std::vector<double>(), ValueRange::any);
   pair.ratio = {std::exp(log_ratio.mean), std::exp(log_ratio.low), std::exp(log_ratio.high), log_ratio.count};
   return pair;
 }
 
 /// Every pair of pipelines by one error; no rows if fewer than two pipelines have it.
 Table pairs_by(const std::string& metric, const Scenario& scenario, const ComparableRows& results) {
-  Table table{"paired_" + metric,
-              scenario.name + ": " + metric + ", seed by seed",
-              fmt::format("Means over {} seeds with 95 % intervals, paired: both pipelines on the same recordings. "
-                          "* the interval excludes equality. The ratio is a geometric mean.",
-                          results.seeds.size()),
-              {"pipeline", "against"},
-              {},
-              {}};
+  Table table{
+      "paired_" + metric,
+      scenario.name + ": " + metric + ", seed by seed",
+      fmt::format("Means over {} seeds with {}, paired: both pipelines on the same recordings. The ratio is a "
+                  "geometric mean.",
+                  results.seeds.size(),
+                  results.seeds.size() < kFewestForInterval ? "the smallest and the largest value" : "95 % intervals"),
+      {"pipeline", "against"},
+      {},
+      {}};
   double largest = 0.0;
   for (const SummaryRow& row : results.rows)
     if (row.metric == metric && std::isfinite(row.value)) largest = std::max(largest, row.value);
@@ -85,8 +83,8 @@ Table pairs_by(const std::string& metric, const Scenario& scenario, const Compar
           compare(values_of(results, results.pipelines[i], metric), values_of(results, results.pipelines[j], metric));
       if (pair.seeds < 2) continue;
       table.rows.push_back({{results.pipelines[i], results.pipelines[j]},
-                            {{with_interval(pair.difference, length), excludes(pair.difference, 0.0)},
-                             {with_interval(pair.ratio, {}), excludes(pair.ratio, 1.0)},
+                            {{with_interval(pair.difference, length)},
+                             {with_interval(pair.ratio, {})},
                              {fmt::format("{} of {} seeds", pair.smaller, pair.seeds)}},
                             false});
     }

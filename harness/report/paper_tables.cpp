@@ -78,11 +78,16 @@ std::vector<std::string> subjects_of_all(const Columns& columns) {
   return all;
 }
 
-Table lines_table(const std::string& scenario, const Columns& columns) {
+/// Whether a pipeline finds a line at all.
+using Finds = std::function<bool(const std::string& pipeline, const std::string& line)>;
+
+Table lines_table(const std::string& scenario, const Columns& columns, const Finds& finds) {
   const ComparedColumn& first = *columns.front();
   Table table{scenario + "-paper-" + first.table,
               title_of(scenario, first),
-              caption_of(first) + " * marks the best.",
+              caption_of(first) +
+                  " * marks the best and those that the seeds do not tell apart from it; grey: of a "
+                  "line that a pipeline misses in most scans.",
               {"line"},
               {},
               {}};
@@ -105,22 +110,24 @@ Table lines_table(const std::string& scenario, const Columns& columns) {
         continue;
       }
       const auto s = static_cast<std::size_t>(place - column->subjects.begin());
-      std::vector<double> ours, theirs;
+      std::vector<std::vector<double>> ours, theirs;
+      std::vector<bool> eligible;
       for (std::size_t m = 0; m < column->methods.size(); ++m) {
         const ComparedCell& cell = column->at(s, m);
         if (!column->methods[m].pipeline.empty()) {
           cells.push_back(our_cell(cell, display));
-          ours.push_back(cell.our_median());
+          ours.push_back(cell.ours);
+          eligible.push_back(finds(column->methods[m].pipeline, subjects[r]));
         }
         if (!column->methods[m].published.empty()) {
           cells.push_back({cell.printed, false, true});
-          theirs.push_back(cell.paper);
+          theirs.push_back({cell.paper});
         }
       }
       std::vector<TableCell*> our_cells, their_cells;
       for (std::size_t c = from; c < cells.size(); ++c)
         (cells[c].published ? their_cells : our_cells).push_back(&cells[c]);
-      mark_best(our_cells, ours, column->metric);
+      mark_best(our_cells, ours, column->metric, eligible);
       mark_best(their_cells, theirs, column->metric);
     }
   }
@@ -190,11 +197,18 @@ std::optional<Table> ratio_table(const std::string& scenario, const Columns& col
 
 }  // namespace
 
-std::vector<Table> paper_tables(const std::string& scenario, const std::vector<ComparedColumn>& columns) {
+std::vector<Table> paper_tables(const std::string& scenario, const std::vector<ComparedColumn>& columns,
+                                const std::vector<SummaryRow>& rows) {
+  const Finds finds = [&rows](const std::string& pipeline, const std::string& line) {
+    std::vector<double> missed;
+    for (const auto& row : rows)
+      if (row.metric == "missed" && row.pipeline == pipeline && row.subject == line) missed.push_back(row.value);
+    return !(median(missed) > kMostMissed);
+  };
   std::vector<Table> tables;
   for (const auto& table : by_table(columns)) {
     if (table.front()->of_lines()) {
-      tables.push_back(lines_table(scenario, table));
+      tables.push_back(lines_table(scenario, table, finds));
       continue;
     }
     tables.push_back(methods_table(scenario, table));

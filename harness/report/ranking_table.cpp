@@ -82,15 +82,15 @@ void mark_columns(Table& table, const std::vector<RankedPipeline>& ranking, cons
   for (const auto& column : subject.columns) {
     const bool is_time = column.metric == subject.time_metric || column.metric == "t_ratio";
     std::vector<TableCell*> cells;
-    std::vector<double> means;
+    std::vector<std::vector<double>> seeds;
     std::vector<bool> eligible;
     for (std::size_t r = 0; r < ranking.size(); ++r) {
       cells.push_back(&table.rows[r].cells[c]);
-      means.push_back(ranking[r].values.at(column.metric).mean);
+      seeds.push_back(ranking[r].by_seed.at(column.metric));
       eligible.push_back(ranking[r].missing == 0 && (enough[r] || column.direction == Direction::higher_is_better) &&
                          (accurate[r] || !is_time));
     }
-    mark_best(cells, means, column.description(), eligible);
+    mark_best(cells, seeds, column.description(), eligible);
     ++c;
   }
 }

@@ -100,7 +100,7 @@ class TableBuilder {
  private:
   /// A value of a table, before it becomes text.
   struct Value {
-    double mean = kNaN;
+    std::vector<double> seeds;
     TableCell cell;
     bool complete = false;  ///< every cell of the pipeline is ok and gives a value
   };
@@ -131,7 +131,7 @@ class TableBuilder {
     return passed;
   }
 
-  Value value_of(const std::string& pipeline, const Key& key, const Display& display) const {
+  Value value_of(const std::string& pipeline, const Key& key, const Display& display, ValueRange range) const {
     const std::vector<double>& seeds = values_.of(pipeline, key);
     const Coverage& coverage = results_.coverage.at(pipeline);
     Value value;
@@ -139,25 +139,35 @@ class TableBuilder {
       value.cell.text = coverage.ok == 0 ? coverage.status() : "";
       return value;
     }
-    const MeanInterval interval = mean_interval(seeds);
-    value.mean = interval.mean;
-    value.cell.text = value_text(interval.mean, display);
-    if (interval.count > 1) value.cell.text += " " + spread_text(interval.half_width(), display);
-    const auto defined = static_cast<std::size_t>(interval.count);
+    value.seeds = seeds;
+    value.cell.text = seeds_text(seeds, range, display);
+    const auto defined =
+        static_cast<std::size_t>(std::ranges::count_if(seeds, [](double v) { return std::isfinite(v); }));
     if (defined > 0 && defined < seeds.size()) value.cell.text += fmt::format(" ({} of {})", defined, seeds.size());
     value.complete = coverage.complete() && defined == seeds.size();
     return value;
   }
 
-  /// Errors, costs and deviations from a target are marked only for pipelines of comparable completeness.
-  void mark(const std::vector<TableCell*>& cells, const std::vector<Value>& values, const MetricDescription& metric) {
-    std::vector<double> means;
+  /// Errors, costs and deviations from a target are marked only for pipelines of comparable completeness, and nothing
+  /// for those that find nothing of the subject.
+  void mark(const std::vector<TableCell*>& cells, const std::vector<Value>& values, const MetricDescription& metric,
+            const std::string& subject) {
+    if (unjudged(metric)) return;
+    std::vector<std::vector<double>> seeds;
     std::vector<bool> eligible;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      means.push_back(values[i].mean);
-      eligible.push_back(values[i].complete && !unjudged(metric) && (!gated(metric) || gate_passed_[i]));
+      seeds.push_back(values[i].seeds);
+      eligible.push_back(values[i].complete && finds(results_.pipelines[i], subject) &&
+                         (!gated(metric) || gate_passed_[i]));
     }
-    mark_best(cells, means, metric, eligible);
+    mark_best(cells, seeds, metric, eligible);
+  }
+
+  /// False if a pipeline finds no line of the truth, or misses the subject in most scans.
+  bool finds(const std::string& pipeline, const std::string& subject) const {
+    if (gate_ == nullptr) return true;
+    const double value = mean_interval(values_.of(pipeline, {gate_->metric, subject})).mean;
+    return !(gate_->direction == Direction::higher_is_better ? value <= 0.0 : value > kMostMissed);
   }
 
   Display display_of(const MetricDescription& metric) const {
@@ -204,12 +214,12 @@ class TableBuilder {
         auto& cells = table.rows[r].cells;
         std::vector<Value> values;
         for (const auto& pipeline : results_.pipelines) {
-          values.push_back(value_of(pipeline, {metric.metric, subjects[r]}, display));
+          values.push_back(value_of(pipeline, {metric.metric, subjects[r]}, display, range_of(metric)));
           cells.push_back(values.back().cell);
         }
         std::vector<TableCell*> added;
         for (std::size_t c = first; c < cells.size(); ++c) added.push_back(&cells[c]);
-        mark(added, values, metric);
+        mark(added, values, metric, subjects[r]);
       }
     }
     return table;
@@ -226,12 +236,12 @@ class TableBuilder {
       std::vector<Value> values;
       const std::string subject = reported(metric.metric, {"all"}) ? "all" : "mean";  // of all walls
       for (std::size_t r = 0; r < table.rows.size(); ++r) {
-        values.push_back(value_of(results_.pipelines[r], {metric.metric, subject}, display));
+        values.push_back(value_of(results_.pipelines[r], {metric.metric, subject}, display, range_of(metric)));
         table.rows[r].cells.push_back(values.back().cell);
       }
       std::vector<TableCell*> added;
       for (auto& row : table.rows) added.push_back(&row.cells.back());
-      mark(added, values, metric);
+      mark(added, values, metric, reported(gate_ == nullptr ? metric.metric : gate_->metric, {"all"}) ? "all" : "mean");
     }
     return table;
   }
@@ -261,7 +271,9 @@ class TableBuilder {
     std::vector<std::string> parts;
     if (results_.pipelines.size() > 1) explain_marks(family, parts);
     if (scenario_.seeds.size() > 1)
-      parts.push_back(fmt::format("mean over {} seeds ± half width of the 95 % interval", scenario_.seeds.size()));
+      parts.push_back(fmt::format(
+          "mean over {} seeds {}", scenario_.seeds.size(),
+          scenario_.seeds.size() < kFewestForInterval ? "(smallest to largest value)" : "with the 95 % interval"));
     parts.insert(parts.end(), results_.notes.begin(), results_.notes.end());
     for (const auto& note : results_.line_notes)
       if (std::ranges::any_of(family.metrics,
@@ -280,11 +292,14 @@ class TableBuilder {
       return;
     }
     parts.emplace_back("* marks the best value");
+    if (scenario_.seeds.size() > 1) parts.back() += " and those that the seeds do not tell apart from it";
     if (any([&](const auto& m) { return has_best(m) && unjudged(m); }))
       parts.back() += "; times and distances from lines have no mark, because they do not show which pipeline is right";
+    if (gate_ != nullptr) parts.back() += "; of pipelines that find what is judged";
     if (std::ranges::any_of(family.metrics, [&](const auto& m) { return gated(m) && reported(m.metric); }))
       parts.back() += fmt::format("; of errors and costs among pipelines within {} of the best {}", kCompletenessMargin,
                                   gate_->metric);
+    if (gate_ != nullptr) parts.back() += "; values of the others are grey";
     const bool incomplete =
         std::ranges::any_of(results_.coverage, [](const auto& of_pipeline) { return !of_pipeline.second.complete(); });
     if (incomplete) parts.emplace_back("a pipeline with cells that are not ok has no mark");
@@ -405,15 +420,20 @@ std::string overview_sentence(const Table& overview) {
   if (best.size() <= kMostNamed)
     return fmt::format("Best {} of {} pipelines: {}{}.", overview.columns[c].head, overview.rows.size(), named(best, c),
                        other_best(overview, c, best, rows));
-  std::string text = fmt::format("{} of {} pipelines share the best {}, {}", best.size(), overview.rows.size(),
-                                 overview.columns[c].head, best.front()->cells[c].text);
+  const auto value_shared = [](const std::vector<const Table::Row*>& rows_of, std::size_t column) {
+    const std::string& value = rows_of.front()->cells[column].text;
+    const bool one = std::ranges::all_of(rows_of, [&](const auto* row) { return row->cells[column].text == value; });
+    return one ? ", " + value : "";
+  };
+  std::string text = fmt::format("{} of {} pipelines share the best {}{}", best.size(), overview.rows.size(),
+                                 overview.columns[c].head, value_shared(best, c));
   for (std::size_t next = c + 1; next < overview.columns.size(); ++next) {
     const auto also = best_of(overview, next, best);
     if (also.empty()) continue;
     const std::string& metric = overview.columns[next].head;
     return text + (also.size() <= kMostNamed ? fmt::format("; of these, best {}: {}.", metric, named(also, next))
-                                             : fmt::format("; {} of these share the best {}, {}.", also.size(), metric,
-                                                           also.front()->cells[next].text));
+                                             : fmt::format("; {} of these share the best {}{}.", also.size(), metric,
+                                                           value_shared(also, next)));
   }
   return text + ".";
 }

@@ -25,7 +25,7 @@ std::vector<Table> annotated_paper_tables(const std::string& scenario, const Com
   };
   for (const auto& note : results.line_notes)
     if (std::ranges::any_of(note.metrics, is_printed)) captions.push_back(note.text);
-  std::vector<Table> tables = paper_tables(scenario, columns);
+  std::vector<Table> tables = paper_tables(scenario, columns, results.rows);
   for (auto& table : tables)
     for (const auto& note : captions) table.caption += " " + note + ".";
   return tables;

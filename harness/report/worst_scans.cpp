@@ -62,6 +62,8 @@ SketchLine kind_of(render::LineVerdict verdict) {
       return SketchLine::split;
     case render::LineVerdict::false_line:
       return SketchLine::false_line;
+    case render::LineVerdict::too_small:
+      return SketchLine::too_small;
     default:
       return SketchLine::unjudged;
   }

@@ -2,12 +2,12 @@
 #include "harness/store/archived_run.hpp"
 
 #include <algorithm>
-#include <set>
 #include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/folder.hpp"
 #include "harness/store/manifest.hpp"
 
 namespace scanbench::harness {
@@ -35,15 +35,23 @@ void write_folder(const fs::path& folder, const RunArchives& archives, const Arc
   staged.place();
 }
 
-void remove_archives(const fs::path& run, const CellTable& table) {
-  std::set<std::string> archives;
-  for (const auto& cell : table.cells) archives.insert(cell.archive);
-  for (const auto& recording : table.recordings) archives.insert(recording.archive);
+/// True if the archives of a run are being removed, or were when the program was killed.
+bool is_half_unpacked(const fs::path& run) {
+  std::error_code absent;
+  if (fs::exists(run / kRecordingTable, absent) || fs::exists(run / "archives", absent)) return true;
+  if (!fs::exists(run / kManifestFile, absent) || load_manifest(run).state != "complete") return false;
+  const FileHashes listed = listed_hashes(run);  // empty: killed while the list was written
+  return listed.empty() || listed.contains(kCellTable.name());
+}
+
+void remove_archives(const fs::path& run) {
   remove_file(run / kCellTable);  // from here on, the run is an ordinary one
   remove_file(run / kRecordingTable);
-  for (const auto& name : archives) remove_file(archive_path(run, name));
+  for (const auto& name : names_in(run / "archives"))
+    if (is_run_file(fs::path("archives") / name)) remove_file(run / "archives" / name);
   std::error_code not_empty;
   fs::remove(run / "archives", not_empty);
+  refresh_manifest(run);
 }
 
 }  // namespace
@@ -54,7 +62,7 @@ bool has_archives(const fs::path& run) {
 }
 
 fs::path archive_path(const fs::path& run, const std::string& name) {
-  return run / "archives" / name;
+  return run / "archives" / check_name("archive", name);
 }
 
 void write_archive_tables(const fs::path& run, const CellTable& table) {
@@ -88,7 +96,12 @@ FolderFiles RunArchives::files(const std::string& archive, const ArchivePart& pa
 
 std::size_t unpack_cells(const fs::path& run, const std::vector<CellKey>& keys,
                          const std::function<void(double)>& progress) {
-  if (!has_archives(run)) throw ConfigError(run.string() + " has no archives: its cells are files");
+  remove_temporaries(run);
+  if (!has_archives(run)) {
+    if (!is_half_unpacked(run)) throw ConfigError(run.string() + " has no archives: its cells are files");
+    remove_archives(run);
+    return 0;
+  }
   const RunArchives archives(run);
   const auto is_unpacked = [&](const ArchivedCell& cell) { return fs::exists(cell_path(run, cell.key)); };
   std::size_t written = 0;
@@ -102,8 +115,10 @@ std::size_t unpack_cells(const fs::path& run, const std::vector<CellKey>& keys,
     write_folder(cell_path(run, key), archives, *chosen[i]);
   }
   flush_file_system(run);
-  if (std::ranges::all_of(archives.table().cells, is_unpacked)) remove_archives(run, archives.table());
-  refresh_manifest(run);
+  if (std::ranges::all_of(archives.table().cells, is_unpacked))
+    remove_archives(run);
+  else
+    refresh_manifest(run);
   return written;
 }
 

@@ -52,8 +52,8 @@ class RunArchives {
 
 /// Writes the folders of these cells and their recordings into an archived run, whose lock the caller has; those that
 /// exist are kept. Returns how many cells were written. With all cells unpacked it is an ordinary run: the archives and
-/// their tables are removed. Throws ConfigError for a run without archives, for a cell that the run does not have and
-/// for a damaged archive.
+/// their tables are removed; a call that was killed can be repeated. Throws ConfigError for a run without archives, for
+/// a cell that the run does not have and for a damaged archive.
 std::size_t unpack_cells(const std::filesystem::path& run, const std::vector<CellKey>& keys,
                          const std::function<void(double share)>& progress = {});
 

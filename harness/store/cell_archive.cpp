@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/folder.hpp"
+#include "harness/files/folder_name.hpp"
 #include "harness/files/system_error.hpp"
 #include "harness/files/tar.hpp"
 
@@ -21,10 +22,6 @@ namespace {
 
 [[noreturn]] void refuse(const fs::path& file, int error) {
   throw SystemError("cannot write " + file.string() + ": " + std::strerror(error));
-}
-
-bool is_plain_name(std::string_view name) {
-  return !name.empty() && name.front() != '.' && name.find('/') == std::string_view::npos;
 }
 
 }  // namespace
@@ -90,7 +87,7 @@ FolderFiles ArchiveReader::files(const ArchivePart& part, const fs::path& folder
   FolderFiles files;
   for (const auto& member : tar_members(bytes, file_.path())) {
     const std::string name = member.path.starts_with(prefix) ? member.path.substr(prefix.size()) : "";
-    if (!is_plain_name(name))
+    if (!is_folder_name(name))
       throw ConfigError(file_.path().string() + ": a file of " + folder.generic_string() + " is called " + member.path);
     files.emplace(name, member.bytes);
   }

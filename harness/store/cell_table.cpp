@@ -43,13 +43,11 @@ ArchivePart part_from(const CsvTable& csv, std::size_t row) {
 
 std::string archive_from(const CsvTable& csv, std::size_t row) {
   if (!csv.has(kArchive)) return "";
-  std::string name = csv.text(row, kArchive);
-  check_name("archive", name);
-  return name;
+  return csv.folder_name(row, kArchive);
 }
 
 ArchivedCell cell_from(const CsvTable& csv, std::size_t row) {
-  return {.key = {csv.text(row, "scenario"), csv.text(row, "pipeline"), whole_number(csv, row, "seed")},
+  return {.key = {csv.folder_name(row, "scenario"), csv.folder_name(row, "pipeline"), whole_number(csv, row, "seed")},
           .record = {{.status = cell_status_from(csv.text(row, "status")),
                       .message = csv.text(row, "message"),
                       .wall_seconds = csv.number(row, "wall_seconds"),
@@ -110,7 +108,7 @@ CellTable parse_cell_table(std::string cells, std::string recordings, const fs::
   }
   const CsvTable of_recordings(std::move(recordings), folder / kRecordingTable, required_of_recordings);
   for (std::size_t r = 0; r < of_recordings.rows(); ++r)
-    table.recordings.push_back({of_recordings.text(r, "scenario"), whole_number(of_recordings, r, "seed"),
+    table.recordings.push_back({of_recordings.folder_name(r, "scenario"), whole_number(of_recordings, r, "seed"),
                                 of_recordings.text(r, "content_hash"), archive_from(of_recordings, r),
                                 part_from(of_recordings, r)});
   return table;

@@ -15,18 +15,12 @@ std::string to_string(const CellKey& key) {
 }
 
 fs::path cell_path(const fs::path& run, const CellKey& key) {
-  return run / "cells" / key.scenario / key.pipeline / std::to_string(key.seed);
+  return run / "cells" / check_name("scenario", key.scenario) / check_name("pipeline", key.pipeline) /
+         std::to_string(key.seed);
 }
 
 fs::path recording_path(const fs::path& run, const std::string& scenario, std::uint64_t seed) {
-  return run / "recordings" / scenario / std::to_string(seed);
-}
-
-void check_name(const std::string& what, const std::string& name) {
-  if (name.empty() || name.front() == '.' || name.find('/') != std::string::npos ||
-      name.find('\0') != std::string::npos || name.size() > 200)
-    throw ConfigError("the name of a " + what + " is '" + name +
-                      "'; it names a folder: allowed are 1 to 200 characters, no '/', no leading '.'");
+  return run / "recordings" / check_name("scenario", scenario) / std::to_string(seed);
 }
 
 void refuse_linked_folders(const fs::path& run) {

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "harness/files/folder_name.hpp"
+
 namespace scanbench::harness {
 
 struct CellKey {
@@ -16,11 +18,9 @@ struct CellKey {
 };
 std::string to_string(const CellKey& key);  ///< "scenario/pipeline/seed"
 
+/// Throw ConfigError for names that are no FolderName.
 std::filesystem::path cell_path(const std::filesystem::path& run, const CellKey& key);
 std::filesystem::path recording_path(const std::filesystem::path& run, const std::string& scenario, std::uint64_t seed);
-
-/// Throws ConfigError unless the name can be a folder's name: not empty, no '/', no leading '.'.
-void check_name(const std::string& what, const std::string& name);
 
 /// Throws ConfigError if a folder that a run writes into is a symbolic link: its files would be written elsewhere.
 void refuse_linked_folders(const std::filesystem::path& run);

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "harness/files/atomic_file.hpp"
+#include "harness/files/folder_name.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/files/json.hpp"
 #include "harness/scenario/scenario_file.hpp"
@@ -37,7 +38,7 @@ constexpr std::size_t kMostWallsInYaml = 1000;
 using Json = nlohmann::ordered_json;
 
 fs::path inputs_path(const fs::path& run, const std::string& scenario) {
-  return run / "inputs" / scenario;
+  return run / "inputs" / check_name("scenario", scenario);
 }
 
 Json source_json(const fs::path& file, const std::string& sha256) {
@@ -111,7 +112,7 @@ void add_sources(const fs::path& run, Scenario& scenario) {
 fs::path effective_file(const fs::path& run, const std::vector<std::string>& names, const std::string& name) {
   const fs::path alone = run / kEffectiveFile;
   const bool many = names.size() > 1 || !fs::exists(alone);
-  return many ? run / "effective" / (name + ".yaml") : alone;
+  return many ? run / "effective" / (check_name("scenario", name).text() + ".yaml") : alone;
 }
 
 }  // namespace

@@ -24,31 +24,19 @@ bool holds_only_temporaries(const fs::path& folder) {
   return !error;
 }
 
-/// Removes temporary folders that a killed run left beside `out`. The caller holds the lock of `out`, so no run uses
-/// them.
-void remove_stale_siblings(const fs::path& out) {
-  const std::string prefix = "." + out.filename().string() + ".tmp-";
-  std::error_code ignored;
-  std::vector<fs::path> stale;
-  for (const auto& entry : fs::directory_iterator(out.parent_path(), ignored)) {
-    const fs::path& path = entry.path();
-    if (!path.filename().string().starts_with(prefix) || !fs::is_directory(entry.symlink_status(ignored))) continue;
-    if (fs::exists(path / kManifestFile, ignored) || holds_only_temporaries(path)) stale.push_back(path);
+/// Gives a run its name back if its replacement was killed between two renames. The lock of a folder goes with it, so a
+/// replacement that is still under way is found. Throws ConfigError for that.
+void put_back_run(const fs::path& out) {
+  std::error_code error;
+  const auto aside = folders_aside(out);
+  const bool exists = fs::exists(out, error);
+  if (aside.empty() || (exists && !holds_only_temporaries(out))) return;
+  const RunLock lock(aside.front());
+  if (exists) {
+    const RunLock empty(out);
+    remove_temporaries(out);
   }
-  for (const auto& path : stale) fs::remove_all(path, ignored);
-}
-
-/// Removes unfinished files and folders of a killed run inside its folder. The caller holds the lock, so no run uses
-/// them.
-void remove_temporaries(const fs::path& run) {
-  std::vector<fs::path> found;
-  for (auto it = fs::recursive_directory_iterator(run); it != fs::recursive_directory_iterator(); ++it) {
-    if (!is_temporary_name(it->path().filename().string())) continue;
-    found.push_back(it->path());
-    if (it->is_directory() && !it->is_symlink()) it.disable_recursion_pending();
-  }
-  std::error_code ignored;
-  for (const auto& path : found) fs::remove_all(path, ignored);
+  put_back(out);
 }
 
 /// Keeps files that no run writes: makes hard links to them, or copies if the file system has no hard links. Throws
@@ -85,6 +73,7 @@ RunTarget::RunTarget(fs::path out, bool resume) : out_(fs::absolute(out).lexical
     if (error) throw ConfigError(out_.string() + " is a broken symbolic link; allowed: a folder");
     out_ = real;
   }
+  put_back_run(out_);
   if (fs::exists(out_, error) && !fs::is_directory(out_, error))
     throw ConfigError(out_.string() + " is a file; allowed: a folder");
   const bool empty = !fs::is_directory(out_, error) || holds_only_temporaries(out_);
@@ -96,7 +85,7 @@ RunTarget::RunTarget(fs::path out, bool resume) : out_(fs::absolute(out).lexical
     first_made_ = folder;
   make_folders(out_);
   lock_.emplace(out_);
-  remove_stale_siblings(out_);
+  remove_unfinished_folders(out_);
   resumed_ = resume && !empty;
   if (resumed_) {
     refuse_linked_folders(out_);

@@ -29,6 +29,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSweepFile = "sweep.json";
+constexpr const char* kUnfinishedPlan = ".plan.tmp-unfinished";  // says whose a folder without sweep.json is
 constexpr const char* kPlanFile = "cells.csv";
 const std::vector<std::string> kPlanColumns{"shard", "address", "scenario", "pipeline", "seed"};
 
@@ -39,13 +40,26 @@ void require_sweep_or_nothing(const fs::path& folder) {
   if (!fs::is_directory(folder, error)) throw ConfigError(folder.string() + " is a file; allowed: a folder");
   const auto names = names_in(folder);
   const bool is_empty = std::ranges::all_of(names, [](const std::string& name) { return is_temporary_name(name); });
-  if (is_empty) return;
+  if (is_empty || fs::exists(folder / kUnfinishedPlan)) return;
   if (!fs::exists(folder / kSweepFile))
     throw ConfigError(folder.string() +
                       " is not empty and has no sweep.json, so it is not the folder of a sweep; it stays unchanged");
   const Json json = load_json_object(folder / kSweepFile);
   if (json.value("program", Json()) != "scanbench")
     throw ConfigError((folder / kSweepFile).string() + " is not the plan of a sweep");
+}
+
+/// Removes what a killed plan has left. Shards may be at work in a folder of their own.
+void remove_unfinished_files(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (auto it = fs::recursive_directory_iterator(folder); it != fs::recursive_directory_iterator(); ++it) {
+    if (it->is_directory() && (it->is_symlink() || it->path() == folder / "shards"))
+      it.disable_recursion_pending();
+    else if (is_temporary_name(it->path().filename().string()) && it->path() != folder / kUnfinishedPlan)
+      found.push_back(it->path());
+  }
+  std::error_code ignored;
+  for (const auto& path : found) fs::remove_all(path, ignored);
 }
 
 /// Deals the recordings that have cells to run to the shards, one after the other, so that each shard gets a part of
@@ -112,10 +126,10 @@ void load_cells(SweepPlan& plan) {
   const CsvTable csv(read_file(file), file, kPlanColumns);
   plan.cells.reserve(csv.rows());
   for (std::size_t r = 0; r < csv.rows(); ++r)
-    plan.cells.push_back(
-        {{csv.text(r, "scenario"), csv.text(r, "pipeline"), static_cast<std::uint64_t>(csv.integer(r, "seed"))},
-         csv.text(r, "address"),
-         csv.index(r, "shard")});
+    plan.cells.push_back({{csv.folder_name(r, "scenario"), csv.folder_name(r, "pipeline"),
+                           static_cast<std::uint64_t>(csv.integer(r, "seed"))},
+                          csv.text(r, "address"),
+                          csv.index(r, "shard")});
 }
 
 }  // namespace
@@ -135,10 +149,14 @@ SweepPlan plan_sweep(const std::vector<Scenario>& scenarios, const SweepOptions&
   plan.cells.reserve(cells.cells.size());
   for (const PlannedCell& cell : cells.cells) plan.cells.push_back({cells.key(cell), cells.address(cell), 0});
   plan.shards = deal(cells, options, plan.cells);
+  make_folders(options.out);
+  remove_unfinished_files(options.out);
+  if (!fs::exists(options.out / kSweepFile)) write_file_atomically(options.out / kUnfinishedPlan, "");
   make_folders(options.out / "shards");
   write_suite_rules(options.out, options.rules);
   write_run_scenarios(options.out, scenarios, effective_yaml);
   write_plan(plan, options);
+  remove_file(options.out / kUnfinishedPlan);
   return plan;
 }
 
@@ -160,6 +178,7 @@ SweepPlan load_sweep(const fs::path& folder) {
     }
     plan.name = json.at("name").get<std::string>();
     plan.scenarios = json.at("scenarios").get<std::vector<std::string>>();
+    for (const auto& scenario : plan.scenarios) check_name("scenario", scenario);
     plan.shards = json.at("shards").get<int>();
     plan.journal = json.at("trace").get<bool>();
     plan.code = json.at("code_version").get<std::string>();

@@ -42,16 +42,18 @@ class RasterTruth : public MetricFamily {
 
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
-    return {{"raster_precision", "", higher_is_better, 0.005,
-             "share of the pixels of found lines within tolerance_m of a pixel of a wall"},
-            {"raster_recall", "", higher_is_better, 0.005,
-             "share of the pixels of visible walls within tolerance_m of a pixel of a found line"},
-            {"raster_f1", "", higher_is_better, 0.005, "harmonic mean of both"},
+    return {share({"raster_precision", "", higher_is_better, 0.005,
+                   "share of the pixels of found lines within tolerance_m of a pixel of a wall"}),
+            share({"raster_recall", "", higher_is_better, 0.005,
+                   "share of the pixels of visible walls within tolerance_m of a pixel of a found line"}),
+            share({"raster_f1", "", higher_is_better, 0.005, "harmonic mean of raster_precision and raster_recall"}),
             {"raster_chamfer", "m", lower_is_better, 0.002,
              "mean distance from found pixels to walls and mean distance from visible pixels to found ones, averaged"},
             {"raster_hausdorff95", "m", lower_is_better, 0.01,
-             "95 % of the pixels are at most this far from the other set, in the worse of both directions"},
-            {"raster_hausdorff", "m", lower_is_better, 0.02, "the largest distance in either direction"},
+             "distance within which 95 % of the found pixels have a pixel of a wall, and 95 % of the visible pixels of "
+             "walls a found one"},
+            {"raster_hausdorff", "m", lower_is_better, 0.02,
+             "largest distance from a found pixel to a wall, or from a visible pixel of a wall to a found one"},
             {"raster_pixels", "", neither, 0.0, "pixels of the visible parts of the walls"}};
   }
 

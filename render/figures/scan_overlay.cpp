@@ -28,8 +28,9 @@ struct ShownScan {
 /// Right lines as a share of those found and missed; 1 where there is neither.
 double share_right(const ScanVerdict& verdict) {
   const auto right = std::ranges::count(verdict.lines, LineVerdict::right);
-  const auto judged =
-      static_cast<std::ptrdiff_t>(verdict.lines.size()) - std::ranges::count(verdict.lines, LineVerdict::unjudged);
+  const auto judged = std::ranges::count_if(verdict.lines, [](LineVerdict of_line) {
+    return of_line != LineVerdict::unjudged && of_line != LineVerdict::too_small;
+  });
   const auto all = judged + static_cast<std::ptrdiff_t>(verdict.missed.size());
   return all > 0 ? static_cast<double>(right) / static_cast<double>(all) : 1.0;
 }

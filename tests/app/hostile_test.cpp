@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <iterator>
 #include <map>
@@ -95,6 +96,16 @@ TEST_F(Plugins, AreDescribedAndCheckedWithoutBeingLoadedHere) {
   const auto checked = run({"check", file});
   EXPECT_EQ(checked.code, 2);
   EXPECT_THAT(checked.err, AllOf(HasSubstr("p.yaml:11:"), HasSubstr("min_points is 0; allowed: a whole number >= 2")));
+}
+
+TEST_F(Plugins, ThatStartADaemonWhileTheyAreLoadedLeaveNothing) {
+  const auto begun = std::chrono::steady_clock::now();
+  run({"check", scenario(""), "--plugin", places::plugin("hostile")},
+      {{"HOSTILE_DAEMON", (folder_ / "daemon").string()}});
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(30));
+  // A daemon that was killed before it had written its number has left nothing either.
+  const std::string daemon = read(folder_ / "daemon");
+  EXPECT_TRUE(daemon.empty() || kill(std::stoi(daemon), 0) != 0) << daemon;
 }
 
 TEST_F(Plugins, OfAnotherBuildAreRefused) {

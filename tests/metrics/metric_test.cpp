@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "core/registry.hpp"
 #include "core/special_values.hpp"
@@ -75,6 +77,28 @@ TEST(Direction, HasATargetOnlyWhereItIsTarget) {
       if (d.direction != Direction::target) {
         EXPECT_EQ(d.target, 0.0) << d.metric;
       }
+    }
+}
+
+// A definition is read alone, in a table's head or in `describe`: it names what it is about.
+TEST(Definition, StandsAlone) {
+  const std::regex reference(
+      R"(\bthe same\b(?! wall| scan| frame)|\bboth\b|\ball three\b|\bthat (distance|error|deviation)\b|the other set)");
+  for (const auto& [name, entry] : Registry<MetricFamily>::all())
+    for (const MetricDescription& d : entry.make({})->describe()) {
+      EXPECT_GE(std::ranges::count(d.doc, ' '), 2) << name << ": " << d.metric;
+      EXPECT_FALSE(std::regex_search(d.doc, reference)) << name << ": " << d.metric << ": " << d.doc;
+    }
+}
+
+// A share has no unit and is not a ratio to a best value.
+TEST(Definition, OfAShareHasNoUnitAndNoTarget) {
+  for (const auto& [name, entry] : Registry<MetricFamily>::all())
+    for (const MetricDescription& d : entry.make({})->describe()) {
+      EXPECT_TRUE(d.is_share || !d.doc.starts_with("share of")) << d.metric;
+      if (!d.is_share) continue;
+      EXPECT_EQ(d.unit, "") << d.metric;
+      EXPECT_NE(d.direction, Direction::target) << d.metric;
     }
 }
 

@@ -49,8 +49,8 @@ render::MeasuredPipeline measured_pipeline(const RunStore& store, const Scenario
       if (std::isfinite(row.value)) measured.metrics[row.metric].push_back(row.value);
     }
   for (const auto& [metric, values] : measured.metrics) {
-    const MeanInterval interval = mean_interval(values);
-    measured.bands[metric] = {interval.mean, interval.low, interval.high};
+    const MeanInterval interval = seed_interval(values, ValueRange::any);
+    measured.bands[metric] = {interval.mean, interval.low, interval.high, interval.count < kFewestForInterval};
   }
   return measured;
 }

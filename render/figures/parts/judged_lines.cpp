@@ -17,11 +17,12 @@ struct Look {
   bool filled;
 };
 
-constexpr std::size_t kUnjudged = 3, kMissed = 4, kOwn = 5;
-constexpr std::array<Look, 5> kVerdictLooks{{{"right", kGreen, Dash::solid, 1.0, Marker::circle, true},
+constexpr std::size_t kUnjudged = 3, kTooSmall = 4, kMissed = 5, kOwn = 6;
+constexpr std::array<Look, 6> kVerdictLooks{{{"right", kGreen, Dash::solid, 1.0, Marker::circle, true},
                                              {"split", kOrange, Dash::dashed, 1.2, Marker::square, true},
                                              {"false", kVermillion, Dash::dotted, 1.5, Marker::cross, true},
                                              {"too short to judge", kGrey, Dash::solid, 0.6, Marker::none, true},
+                                             {"wall too small to judge", kSky, Dash::dashed, 1.0, Marker::none, true},
                                              {"missed", kPurple, Dash::dash_dot, 1.5, Marker::diamond, false}}};
 
 std::size_t kind_of(LineVerdict verdict) {
@@ -32,6 +33,8 @@ std::size_t kind_of(LineVerdict verdict) {
       return 1;
     case LineVerdict::false_line:
       return 2;
+    case LineVerdict::too_small:
+      return kTooSmall;
     default:
       return kUnjudged;
   }
@@ -62,7 +65,7 @@ std::vector<Segment> JudgedLines::found() const {
 void JudgedLines::draw(const Stroke& own, bool ends, Panel& panel) const {
   // Draws usual verdicts before rare ones, so that nothing rare is hidden; missed lines are below all, where no found
   // line is.
-  for (const std::size_t kind : {kMissed, kUnjudged, std::size_t{0}, std::size_t{1}, std::size_t{2}, kOwn}) {
+  for (const std::size_t kind : {kMissed, kUnjudged, kTooSmall, std::size_t{0}, std::size_t{1}, std::size_t{2}, kOwn}) {
     if (lines_[kind].empty()) continue;
     const Look look = kind == kOwn ? Look{"", own.color, own.dash, 1.0, Marker::circle, true} : kVerdictLooks[kind];
     panel.items.emplace_back(

@@ -24,7 +24,7 @@ class JudgedLines {
   bool operator==(const JudgedLines&) const = default;
 
  private:
-  static constexpr std::size_t kKinds = 6;
+  static constexpr std::size_t kKinds = 7;
   std::array<std::vector<Segment>, kKinds> lines_{};
 };
 

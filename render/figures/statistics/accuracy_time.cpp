@@ -95,16 +95,26 @@ class AccuracyTime : public Figure {
     const std::size_t seeds = most_seeds(input, params_.metric);
     std::string names_of_front;
     for (const PlacedPipeline& p : front) names_of_front += (names_of_front.empty() ? "" : ", ") + p.name;
-    return {{"accuracy_time",
-             fmt::format("{}: {} against {}{}. No pipeline is better in one of both and as good in the other than one "
-                         "of the Pareto front: {}.",
-                         input.title, params_.metric, params_.time,
-                         seeds > 1 ? fmt::format(", means over {} seeds with their 95 % intervals", seeds) : "",
-                         names_of_front),
-             std::move(scene)}};
+    return {
+        {"accuracy_time",
+         fmt::format("{}: {} against {}{}. No pipeline is better in one of both and as good in the other than one "
+                     "of the Pareto front: {}.",
+                     input.title, params_.metric, params_.time,
+                     seeds > 1 ? fmt::format(", means over {} seeds with {}", seeds,
+                                             has_ranges(input) ? "the range of their values" : "their 95 % intervals")
+                               : "",
+                     names_of_front),
+         std::move(scene)}};
   }
 
  private:
+  bool has_ranges(const FigureInput& input) const {
+    return std::ranges::any_of(input.measured, [&](const MeasuredPipeline& measured) {
+      const auto band = measured.bands.find(params_.metric);
+      return band != measured.bands.end() && band->second.is_range;
+    });
+  }
+
   std::vector<PlacedPipeline> place(const FigureInput& input) const {
     std::vector<PlacedPipeline> placed;
     for (const MeasuredPipeline& measured : input.measured) {

@@ -72,18 +72,21 @@ class Seeds : public Figure {
     }
     Scene scene{.title = fmt::format("{}: {} over the seeds", input.title, params_.metric),
                 .box_aspect = std::clamp(0.13 * rows, 0.3, 2.0)};
+    const bool few = band_of(*shown.front(), params_.metric)->is_range;
+    const std::string spread = few ? "range" : "95 % interval";
     scene.legend = {{.text = "one seed", .marker = Marker::circle, .marker_color = kGrey, .marker_size_pt = kSeedDotPt},
-                    {.text = "mean and 95 % interval",
+                    {.text = "mean and " + spread,
                      .stroke = kInterval,
                      .marker = Marker::diamond,
                      .marker_color = kBlack,
                      .marker_size_pt = 4.5}};
     scene.panels.push_back(std::move(panel));
     const std::size_t seeds = most_seeds(input, params_.metric);
-    return {{"seeds",
-             fmt::format("{}: {} of each of {}, with the mean and its 95 % interval.", input.title, params_.metric,
-                         counted(seeds, "seed")),
-             std::move(scene)}};
+    return {
+        {"seeds",
+         fmt::format("{}: {} of each of {}, with the mean and {}.", input.title, params_.metric, counted(seeds, "seed"),
+                     few ? "the range, because so few have no interval" : "its 95 % interval"),
+         std::move(scene)}};
   }
 
  private:
@@ -106,11 +109,11 @@ class Seeds : public Figure {
   Params params_;
 };
 
-SCANBENCH_REGISTER(
-    Figure, Seeds,
-    {.name = "seeds",
-     .summary = "a metric over the seeds: a dot for each, the mean and its 95 % interval, a row per pipeline",
-     .reference = ""});
+SCANBENCH_REGISTER(Figure, Seeds,
+                   {.name = "seeds",
+                    .summary = "a metric over the seeds: a dot for each, the mean and its 95 % interval (their range "
+                               "below six seeds), a row per pipeline",
+                    .reference = ""});
 
 }  // namespace
 }  // namespace scanbench::render

@@ -24,7 +24,7 @@ std::vector<ScanRow> scan_rows(const fs::path& file) {
   std::istringstream in(read(file));
   std::string line;
   std::getline(in, line);
-  EXPECT_EQ(line, "frame,true,false,missed,split,merged,f1,residual_m");
+  EXPECT_EQ(line, "frame,true,false,missed,split,merged,f1,residual_m,small");
   std::vector<ScanRow> rows;
   while (std::getline(in, line)) {
     std::istringstream fields(line);

@@ -122,7 +122,8 @@ TEST(Benchmark, TableMarksTheBestOfEveryColumn) {
   EXPECT_EQ(table.rows[0].cells[0].text, "85.00");
   EXPECT_THAT(table.rows[0].cells[0].spread, HasSubstr("± "));
   EXPECT_TRUE(table.rows[0].cells[0].best);
-  EXPECT_FALSE(table.rows[1].cells[0].best);
+  EXPECT_TRUE(table.rows[1].cells[0].best);  // as good in the first seed: not told apart
+  EXPECT_FALSE(table.rows[2].cells[0].best);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     if (table.columns[c].head == "σ offset [cm]") {
       EXPECT_EQ(table.rows[0].cells[c].text, "–");
@@ -397,7 +398,7 @@ TEST(Benchmark, RanksMatchersByTheLowestErrorOverBound) {
   const Table table = ranking_table(ranking, spec);
   EXPECT_EQ(table.columns[0].head, "MSE / bound");
   EXPECT_TRUE(table.rows[0].cells[0].best);
-  EXPECT_FALSE(table.rows[1].cells[0].best);
+  EXPECT_TRUE(table.rows[1].cells[0].best);  // 2 of both in the first seed: not told apart
   ReportInput input;
   input.title = "small";
   input.scenarios = scenarios;

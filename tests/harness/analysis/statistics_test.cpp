@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/distributions.hpp"
 #include "core/geometry/portable_math.hpp"
 #include "core/rng.hpp"
 #include "core/special_values.hpp"
@@ -165,6 +166,32 @@ TEST(RankTest, IsCloseToTheExactDistributionOfRanks) {
               0.03);  // ties
   EXPECT_EQ(rank_p_value(std::vector<double>{1, 1}, std::vector<double>{1, 1, 1}), 1.0);
   EXPECT_TRUE(std::isnan(rank_p_value(std::vector<double>{kNaN}, a)));
+}
+
+TEST(SeedInterval, OfFewValuesIsTheirRange) {
+  const MeanInterval few = seed_interval(std::array{0.5, 0.97, 1.0}, ValueRange::share);
+  EXPECT_NEAR(few.mean, 2.47 / 3, 1e-12);
+  EXPECT_EQ(few.low, 0.5);
+  EXPECT_EQ(few.high, 1.0);
+  EXPECT_EQ(seed_interval(std::array{2.0}, ValueRange::any).low, 2.0);
+  EXPECT_TRUE(std::isnan(seed_interval({}, ValueRange::any).mean));
+}
+
+TEST(SeedInterval, StaysWithinTheRangeOfTheValuesAndHoldsTheMean) {
+  // Six values with mean 0.05 or 0.95, of which t(0.975, 5) s / sqrt(6) = 2.5706 * 0.05 = 0.1285 reaches beyond 0 or 1.
+  const std::array rare{0.0, 0.0, 0.0, 0.0, 0.0, 0.3}, most{1.0, 1.0, 1.0, 1.0, 1.0, 0.7};
+  EXPECT_LT(mean_interval(rare).low, 0.0);
+  const double stretch = std::exp(student_quantile(0.975, 5) * 0.05 / (0.05 * 0.95));
+  for (const ValueRange range : {ValueRange::share, ValueRange::not_negative}) {
+    const MeanInterval interval = seed_interval(rare, range);
+    EXPECT_GE(interval.low, 0.0);
+    EXPECT_LT(interval.low, 0.05);
+    EXPECT_GT(interval.high, 0.05);
+  }
+  const MeanInterval high = seed_interval(most, ValueRange::share), low = seed_interval(rare, ValueRange::share);
+  EXPECT_LE(high.high, 1.0);
+  EXPECT_GE(high.high, 19 * stretch / (1 + 19 * stretch) - 1e-9);  // odds 19, stretched on the scale of the logit
+  EXPECT_NEAR(high.low, 1 - low.high, 1e-9);                       // a share and its complement
 }
 
 }  // namespace

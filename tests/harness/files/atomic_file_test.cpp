@@ -121,11 +121,42 @@ TEST(StagedFolder, AppearsAsAWholeOrNotAtAll) {
 }
 
 TEST(ExchangeFolders, SwapsTwoFolders) {
+  for (const auto exchange : {exchange_folders, exchange_folders_in_steps}) {
+    const TemporaryFolder folder;
+    make_folders(folder.path() / "a" / "in a");
+    make_folders(folder.path() / "b" / "in b");
+    exchange(folder.path() / "a", folder.path() / "b");
+    EXPECT_THAT(fixtures::listing(folder.path()), ElementsAre("a", "a/in b", "b", "b/in a"));
+  }
+}
+
+TEST(ExchangeFolders, WhatAKilledOneLeftAsideIsPutBack) {
   const TemporaryFolder folder;
-  make_folders(folder.path() / "a" / "in a");
-  make_folders(folder.path() / "b" / "in b");
-  exchange_folders(folder.path() / "a", folder.path() / "b");
-  EXPECT_THAT(fixtures::listing(folder.path()), ElementsAre("a", "a/in b", "b", "b/in a"));
+  make_folders(folder.path() / ".run.tmp-12-aside" / "old");
+  make_folders(folder.path() / ".run.tmp-12" / "new");
+  make_folders(folder.path() / ".run.tmp-mine");
+  make_folders(folder.path() / "run");
+  EXPECT_TRUE(put_back(folder.path() / "run")) << "an empty folder is nothing";
+  EXPECT_FALSE(put_back(folder.path() / "run"));
+  remove_unfinished_folders(folder.path() / "run");
+  EXPECT_THAT(fixtures::listing(folder.path()), ElementsAre(".run.tmp-mine", "run", "run/old"));
+}
+
+TEST(ExchangeFolders, WhatIsAsideOfAFolderWithFilesIsNotPutBack) {
+  const TemporaryFolder folder;
+  make_folders(folder.path() / ".run.tmp-12-aside" / "old");
+  make_folders(folder.path() / "run" / "new");
+  EXPECT_FALSE(put_back(folder.path() / "run"));
+  remove_unfinished_folders(folder.path() / "run");
+  EXPECT_THAT(fixtures::listing(folder.path()), ElementsAre("run", "run/new"));
+}
+
+TEST(AtomicFile, ANewFileReplacesNone) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(write_new_file(folder.path() / "f", "first"));
+  EXPECT_FALSE(write_new_file(folder.path() / "f", "second"));
+  EXPECT_EQ(read_file(folder.path() / "f"), "first");
+  EXPECT_THAT(fixtures::listing(folder.path()), ElementsAre("f"));
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -172,6 +174,27 @@ TEST_F(Programs, ThatEndSayHow) {
               HasSubstr("without answering"));
 }
 
+TEST_F(Programs, ThatStartASessionOfTheirOwnBeforeTheyDescribeThemselvesLeaveNothing) {
+  const auto file = folder_.path() / "daemon";
+  ForeignSource source = by_hand(
+      "if os.fork() == 0:\n"
+      "    os.setsid()\n"
+      "    if os.fork() == 0:\n"
+      "        open('" +
+      file.string() +
+      "', 'w').write(str(os.getpid()) + ' ')\n"
+      "        signal.sigwait([signal.SIGUSR1])\n"
+      "    os._exit(0)\n"
+      "while not os.path.exists('" +
+      file.string() + "') or not open('" + file.string() + "').read().endswith(' '): pass\n");
+  inspect_program(source, false);
+  pid_t daemon = 0;
+  std::ifstream(file) >> daemon;
+  ASSERT_GT(daemon, 1);
+  EXPECT_EQ(::kill(daemon, 0), -1);
+  EXPECT_EQ(errno, ESRCH);
+}
+
 TEST_F(Programs, ThatSpeakAnotherVersionAreRefused) {
   EXPECT_THAT(fault_of("hello['protocol'] = 2\n"),
               HasSubstr("speaks version 2 of the protocol; this program speaks version 1"));
@@ -233,6 +256,17 @@ TEST_F(Programs, ThatAnswerTooMuchAreRefused) {
               HasSubstr("announces 1099511627776 numbers; allowed: up to 8388608"));
   EXPECT_THAT(fault_of("def extract(header, beams): return struct.pack('<4sIQ', b'SBF1', 1 << 30, 0)\n"),
               HasSubstr("announces a header of 1073741824 bytes"));
+}
+
+TEST_F(Programs, ThatNestTooDeeplyAreRefused) {
+  for (const std::string key : {"error", "id", "default"})
+    EXPECT_THAT(fault_of("def extract(header, beams):\n    text = b'{\"" + key +
+                         "\":' + b'[' * 500000 + b']' * 500000 + b'}'\n"
+                         "    return struct.pack('<4sIQ', b'SBF1', len(text), 0) + text\n"),
+                HasSubstr("nested more than 32 deep"));
+  EXPECT_THAT(fault_of("def extract(header, beams): return frame({'id': header['id'], 'error': '[' * 100})\n"),
+              HasSubstr("reports an error: [[["))
+      << "brackets in a text do not nest";
 }
 
 TEST_F(Programs, ThatAnswerWrongFramesAreRefused) {

@@ -4,11 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+#include <vector>
+
 #include "core/error.hpp"
 #include "core/special_values.hpp"
 #include "harness/analysis/comparison.hpp"
 #include "harness/files/atomic_file.hpp"
 #include "harness/nightly/comparison_tables.hpp"
+#include "harness/process/child.hpp"
 #include "tests/harness/analysis/made_up_runs.hpp"
 #include "tests/support/inputs.hpp"
 #include "tests/support/runs.hpp"
@@ -17,6 +22,7 @@ namespace scanbench::harness {
 namespace {
 
 using fixtures::f1_run;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Gates f1_gate() {
@@ -109,6 +115,45 @@ TEST(Baseline, MovesOnPurposeOnly) {
   EXPECT_TRUE(baseline_files(folder.path(), "other").empty());
 }
 
+TEST(Baseline, NumbersFollowTheLargestWhateverElseIsInTheFolder) {
+  const TemporaryFolder folder;
+  const auto accept = [&](double value) {
+    return accept_baseline(folder.path(), "suite", f1_run({value}), f1_gate(), "why").filename().string();
+  };
+  EXPECT_EQ(accept(0.1), "0001.json");
+  for (const char* name : {"old.json", "0007.txt", "-3.json"})
+    write_file_atomically(folder.path() / "suite" / name, "{}");
+  EXPECT_EQ(accept(0.2), "0002.json");
+  write_file_atomically(folder.path() / "suite/10000.json", read_file(folder.path() / "suite/0001.json"));
+  EXPECT_EQ(accept(0.3), "10001.json");
+  EXPECT_EQ(baseline_files(folder.path(), "suite").size(), 4U);
+}
+
+TEST(Baseline, OfSeveralThatAreAcceptedAtOnceNoneIsLost) {
+  const TemporaryFolder folder;
+  constexpr int kProcesses = 6;
+  std::vector<Child> children;
+  for (int i = 0; i < kProcesses; ++i)
+    children.push_back(start_child({}, [&, i] {
+      accept_baseline(folder.path(), "suite", f1_run({0.1 * i}), f1_gate(), std::to_string(i));
+      return 0;
+    }));
+  for (Child& child : children) EXPECT_TRUE(child.reap().is_success());
+  std::set<std::string> reasons;
+  for (const auto& file : baseline_files(folder.path(), "suite")) reasons.insert(load_baseline(file).reason);
+  EXPECT_EQ(reasons.size(), static_cast<std::size_t>(kProcesses));
+}
+
+TEST(Baseline, OfASuiteWhoseNameLeadsElsewhereIsRefused) {
+  const TemporaryFolder folder;
+  for (const char* suite : {"../../evil", "", "..", "a/b"}) {
+    const std::string refusal =
+        config_refusal([&] { accept_baseline(folder.path() / "in", suite, f1_run({0.5}), f1_gate(), "first"); });
+    EXPECT_THAT(refusal, HasSubstr("the name of a suite is '" + std::string(suite) + "'"));
+  }
+  EXPECT_THAT(fixtures::listing(folder.path()), ::testing::IsEmpty());
+}
+
 TEST(Baseline, RefusesFilesOfOthers) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::string& text) {
@@ -118,7 +163,20 @@ TEST(Baseline, RefusesFilesOfOthers) {
   EXPECT_THAT(refusal("{}"), HasSubstr("0001.json: not a baseline of scanbench"));
   EXPECT_THAT(refusal("[1, 2"), HasSubstr("0001.json"));
   EXPECT_THAT(refusal(R"({"program": "scanbench", "kind": "baseline", "schema": 9})"), HasSubstr("schema is 9"));
-  EXPECT_THAT(refusal(R"({"program": "scanbench", "kind": "baseline", "schema": 1})"), HasSubstr("0001.json"));
+  EXPECT_THAT(refusal(R"({"program": "scanbench", "kind": "baseline", "schema": 2})"), HasSubstr("0001.json"));
+}
+
+TEST(Baseline, OfAnOlderMeaningIsRefusedWithTheReasonAndIsNoneOfTheCurrentOnes) {
+  const TemporaryFolder folder;
+  const auto first = accept_baseline(folder.path(), "suite", f1_run({0.5, 0.6}), f1_gate(), "first");
+  std::string text = read_file(first);
+  text.replace(text.find("\"schema\": 2"), 11, "\"schema\": 1");
+  write_file_atomically(first, text);
+  EXPECT_THAT(config_refusal([&] { load_baseline(first); }),
+              AllOf(HasSubstr("0001.json: schema is 1; allowed: 2."), HasSubstr("walls too small to judge"),
+                    HasSubstr("accept a new run")));
+  const auto second = accept_baseline(folder.path(), "suite", f1_run({0.7, 0.6}), f1_gate(), "new meaning of F1");
+  EXPECT_EQ(current_baselines(baseline_files(folder.path(), "suite")), std::vector{second});
 }
 
 TEST(Baseline, ThatLacksAMetricIsComparedWithoutIt) {

@@ -78,15 +78,29 @@ TEST(Store, ListsTheNightsOfASuiteAndTheirTrend) {
   Store store(folder.path() / "nights.sqlite");
   for (int n = 1; n <= 5; ++n)
     store.add(n == 3 ? "other" : "suite", "run",
-              night_of("2026-01-0" + std::to_string(n) + "T00:00:00Z", {0.1 * n, 0.1 * n + 0.02}));
+              night_of("2026-01-0" + std::to_string(n) + "T00:00:00Z", {0.1 * n, 0.1 * n + 0.02}),
+              {"PASS", "PASS: all is well."});
   const auto nights = store.nights("suite");
   ASSERT_EQ(nights.size(), 4U);
   EXPECT_EQ(nights.front().start, "2026-01-01T00:00:00Z");
-  store.set_verdict(nights.back().id, "PASS", "PASS: all is well.");
-  EXPECT_EQ(store.nights("suite").back().sentence, "PASS: all is well.");
+  EXPECT_EQ(nights.back().verdict, "PASS");
+  EXPECT_EQ(nights.back().sentence, "PASS: all is well.");
   std::vector<double> values;
   for (const auto& point : store.trend("suite", "room", "iepf", "f1", 3)) values.push_back(point.value);
   EXPECT_THAT(values, ElementsAre(::testing::DoubleEq(0.21), ::testing::DoubleEq(0.41), ::testing::DoubleEq(0.51)));
+}
+
+TEST(Store, ReplacesTheKilledNightsOfTheSameFolder) {
+  const TemporaryFolder folder;
+  Store store(folder.path() / "nights.sqlite");
+  for (const char* run : {"run", "other"})
+    for (const char* day : {"1", "2", "3"}) store.add("suite", run, night_of("2026-01-0" + std::string(day), {0.1}));
+  store.add("suite", "run", night_of("2026-01-04", {0.1}), {}, {"2026-01-02", "2026-01-03"});
+  std::vector<std::string> starts;
+  for (const Night& night : store.nights("suite"))
+    if (night.folder == folder_in_store("run")) starts.push_back(night.start);
+  EXPECT_THAT(starts, ElementsAre("2026-01-01", "2026-01-04"));
+  EXPECT_EQ(store.nights("suite").size(), 5U);
 }
 
 TEST(Store, ReplacesARunThatItHasAlready) {

@@ -58,10 +58,13 @@ TEST(ScatterChart, OfEqualPointsStillHasAnAxis) {
 TEST(ScanSketch, KeepsTheShapeAndDrawsEveryKindOfLineInItsClass) {
   ScanSketch sketch;
   sketch.points = {{4, 3}, {kNaN, 1}};
-  sketch.lines = {{{{0, 3}, {4, 3}}, SketchLine::right}, {{{4, 0}, {4, 3}}, SketchLine::missed}};
+  sketch.lines = {{{{0, 3}, {4, 3}}, SketchLine::right},
+                  {{{1, 1}, {2, 1}}, SketchLine::too_small},
+                  {{{4, 0}, {4, 3}}, SketchLine::missed}};
   const std::string svg = scan_sketch(sketch);
   // 4 m by 3 m from the sensor at the lower left corner fill 452 x 332 of 480 x 360: the height decides the scale.
   EXPECT_THAT(svg, HasSubstr("class=\"right\" d=\"M19 14L461 14\""));
+  EXPECT_THAT(svg, HasSubstr("class=\"small\" d=\""));
   EXPECT_THAT(svg, HasSubstr("class=\"missed\" d=\"M461 346L461 14\""));
   EXPECT_THAT(svg, HasSubstr("class=\"points\" d=\"M461 14h0\""));
   EXPECT_THAT(svg, HasSubstr("M19 346m"));  // the sensor

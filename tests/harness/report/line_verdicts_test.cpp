@@ -54,6 +54,18 @@ TEST(LineVerdicts, AreRightSplitFalseAndMissed) {
   EXPECT_NEAR(verdicts[0].missed[0].b.y(), 3.0, 1e-9);
 }
 
+TEST(LineVerdicts, AreTooSmallForRightLinesOnWallsOfWhichTooLittleIsSeen) {
+  Recording recording = two_walls();
+  for (std::size_t beam = 0; beam < kBeams; ++beam)  // eight returns of the wall at y = 3 m, about 0.4 m
+    if (beam < 131 && recording.truth->wall_ids[beam] == 1) recording.observed.frames[0].ranges[beam] = INFINITY;
+  for (std::size_t beam = 139; beam < kBeams; ++beam) recording.observed.frames[0].ranges[beam] = INFINITY;
+  PipelineResult result;
+  result.lines.resize(1);
+  result.lines[0].lines = {line({{2, -2}, {2, 2}}), line({{0.1, 3}, {-0.5, 3}}), line({{0.1, 2}, {-0.5, 2}})};
+  using enum render::LineVerdict;
+  EXPECT_EQ(line_verdicts(recording, result)[0].lines, (std::vector{right, too_small, false_line}));
+}
+
 TEST(LineVerdicts, FollowTheRulesOfTheScenario) {
   const Recording recording = two_walls();
   PipelineResult result;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/error.hpp"
@@ -62,7 +63,9 @@ std::vector<bool> marked(const std::vector<double>& values, const MetricDescript
   for (const double value : values) cells.push_back({value_text(value, {})});
   std::vector<TableCell*> pointers;
   for (auto& c : cells) pointers.push_back(&c);
-  mark_best(pointers, values, metric, eligible);
+  std::vector<std::vector<double>> of_one_seed;
+  for (const double value : values) of_one_seed.push_back({value});
+  mark_best(pointers, of_one_seed, metric, eligible);
   std::vector<bool> best;
   for (const auto& c : cells) best.push_back(c.best);
   return best;
@@ -91,6 +94,76 @@ TEST(MarkBest, MarksNothingWithoutADirectionACompetitorOrADifference) {
   EXPECT_THAT(marked({1, 2, nan}, lower), ElementsAre(true, false, false));
   EXPECT_THAT(marked({1, 2, 2}, lower, {false, true, true}), ElementsAre(false, true, true));
   EXPECT_THAT(marked({-std::numeric_limits<double>::infinity(), 2, 3}, lower), ElementsAre(false, true, false));
+}
+
+TEST(MarkBest, SharesTheMarkAmongValuesThatTheSeedsDoNotTellApart) {
+  const MetricDescription lower{"x", "", Direction::lower_is_better, 0, ""};
+  std::vector<TableCell> cells{{"a"}, {"b"}, {"c"}, {"d"}};
+  std::vector<TableCell*> pointers;
+  for (auto& c : cells) pointers.push_back(&c);
+  const std::vector<double> a{1.0, 1.2, 1.4, 1.6, 1.8, 2.0};
+  std::vector<double> b = a, c = a;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    b[k] += k % 2 == 0 ? 0.3 : -0.2;  // differences +0.3 and -0.2: 0.05 on average, by no means other than zero
+    c[k] += 0.10 + 0.001 * static_cast<double>(k);  // far less than the spread over seeds, but in every seed
+  }
+  mark_best(pointers, {a, b, c, std::vector<double>(6, 0.1)}, lower, {true, true, true, false});
+  EXPECT_TRUE(cells[0].best);
+  EXPECT_TRUE(cells[1].best);
+  EXPECT_FALSE(cells[2].best);
+  EXPECT_FALSE(cells[3].best);
+  EXPECT_TRUE(cells[3].not_eligible);
+  EXPECT_FALSE(cells[2].not_eligible);
+  Table table{"t", "", "", {"pipeline"}, {{"", "x", false}}, {{{"d"}, {cells[3]}, false}}};
+  EXPECT_THAT(to_html(table), HasSubstr("<td class=\"not-eligible "));
+}
+
+TEST(MarkBest, OfFewSeedsNeedsEverySeedToAgree) {
+  const MetricDescription higher{"x", "", Direction::higher_is_better, 0, ""};
+  std::vector<TableCell> cells{{"a"}, {"b"}, {"c"}};
+  std::vector<TableCell*> pointers;
+  for (auto& c : cells) pointers.push_back(&c);
+  const std::vector<std::vector<double>> seeds{{0.9, 0.8, 0.9}, {0.8, 0.81, 0.8}, {0.8, 0.79, 0.89}};
+  mark_best(pointers, seeds, higher);
+  EXPECT_TRUE(cells[0].best);
+  EXPECT_TRUE(cells[1].best);   // better in the second seed
+  EXPECT_FALSE(cells[2].best);  // worse in each
+}
+
+TEST(SeedsText, ShowsARangeOfFewSeedsAndNoValueThatCannotBe) {
+  EXPECT_EQ(seeds_text({0.5}, ValueRange::share, {}), "0.500");
+  EXPECT_EQ(seeds_text({0.97, 1.0, 0.5}, ValueRange::share, {}), "0.823 (0.500 to 1.00)");
+  EXPECT_EQ(seeds_text({0.50, 0.51, 0.49, 0.50, 0.52, 0.48}, ValueRange::share, {}).substr(0, 8), "0.500 \u00B1");
+  const std::string lopsided = seeds_text({1, 1, 1, 1, 1, 0.7}, ValueRange::share, {});
+  EXPECT_THAT(lopsided, AllOf(HasSubstr("0.950 ("), HasSubstr(" to 1.00)"), Not(HasSubstr("\u00B1"))));
+}
+
+TEST(ResultTables, GiveAPipelineThatFindsNothingNoMarkForItsTime) {
+  const Scenario scenario = scenario_of({"a", "b"}, {"segments", "timing"});
+  const auto tables = result_tables(
+      scenario,
+      comparable_rows(scenario, {row("a", "f1", 0), row("b", "f1", 0), row("a", "t_scan", 2), row("b", "t_scan", 3)}));
+  for (const auto& table : tables)
+    for (const auto& line : table.rows)
+      for (const auto& value : line.cells) EXPECT_FALSE(value.best) << table.id;
+}
+
+TEST(ResultTables, GiveNoMarkOnALineThatIsMissedInMostScans) {
+  const Scenario scenario = scenario_of({"a", "b"}, {"borges2000"});
+  std::vector<SummaryRow> rows;
+  for (const auto& [pipeline, missed, eta] : {std::tuple{"a", 0.98, 1.0}, std::tuple{"b", 0.10, 0.7}}) {
+    rows.push_back(row(pipeline, "missed", missed, 1, "7"));
+    rows.push_back(row(pipeline, "eta", eta, 1, "7"));
+    rows.push_back(row(pipeline, "missed", 0.05, 1, "mean"));
+  }
+  const auto tables = result_tables(scenario, comparable_rows(scenario, rows));
+  ASSERT_EQ(tables.size(), 1U);
+  const auto& line = tables[0].rows.at(0);
+  ASSERT_EQ(line.heads.front(), "7");
+  for (std::size_t c = 0; c < line.cells.size(); ++c) {
+    EXPECT_EQ(line.cells[c].best, tables[0].columns[c].head == "b") << tables[0].columns[c].group;
+    EXPECT_EQ(line.cells[c].not_eligible, tables[0].columns[c].head == "a") << tables[0].columns[c].group;
+  }
 }
 
 // Thirty walls: one map has all of them, one has twelve lines and covers a third.
@@ -132,7 +205,8 @@ TEST(ResultTables, SayHowManyCellsAPipelineFinishedAndMarkNoneThatDidNotFinishAl
   EXPECT_THAT(tables[0].rows[1].heads.front(), HasSubstr("2 of 3 ok, 1 crashed"));
   EXPECT_FALSE(at(tables[0], "fragile", "f1").best);
   EXPECT_TRUE(at(tables[0], "good", "f1").best);
-  EXPECT_THAT(at(tables[0], "good", "f1").text, HasSubstr("0.800 ±"));  // of seeds 1 and 2, as the other's
+  EXPECT_THAT(at(tables[0], "good", "f1").text,
+              HasSubstr("0.800 (0.700 to 0.900)"));  // of seeds 1 and 2, as the other's
   EXPECT_EQ(at(tables[0], "broken", "f1").text, "timeout");
   EXPECT_THAT(tables[0].caption, AllOf(HasSubstr("2 of 3 seeds"), HasSubstr("no mark")));
 }

@@ -12,6 +12,8 @@
 
 #include <sys/resource.h>
 
+#include <nlohmann/json.hpp>
+
 #include "harness/files/atomic_file.hpp"
 #include "harness/files/hash.hpp"
 #include "harness/files/system_error.hpp"
@@ -105,6 +107,28 @@ TEST(SweepMerge, RefusesTwoCommitsOfACellWithDifferentBytes) {
     for (const fs::path& commit : commits_of(plan)) EXPECT_THAT(message, HasSubstr(commit.string()));
     EXPECT_FALSE(fs::exists(folder.path() / "other"));
   }
+}
+
+/// Replaces `from` in a file of the plan, and seals the plan again.
+void tamper(const fs::path& sweep, const std::string& file, const std::string& from, const std::string& to) {
+  std::string text = read_file(sweep / file);
+  const std::size_t at = text.find(from);
+  ASSERT_NE(at, std::string::npos);
+  write_file_atomically(sweep / file, text.replace(at, from.size(), to));
+  auto json = nlohmann::ordered_json::parse(read_file(sweep / "sweep.json"));
+  for (auto& entry : json["files"])
+    if (entry["path"] == file) entry["sha256"] = sha256_of_file(sweep / file);
+  json.erase("seal");
+  json["seal"] = sha256_hex(json.dump());
+  write_file_atomically(sweep / "sweep.json", json.dump());
+}
+
+TEST(SweepMerge, ANameThatLeadsOutOfTheRunIsRefusedWithItsPlaceAlsoInASealedPlan) {
+  const TemporaryFolder folder;
+  const SweepPlan plan = plan_of({room("one", "[1, 2]", kLine)}, folder.path() / "s", 1);
+  tamper(plan.folder, "cells.csv", ",one,line,2", ",one,../../../../PWNED,2");
+  const std::string refusal = config_refusal([&] { load_sweep(plan.folder); });
+  EXPECT_THAT(refusal, HasSubstr("cells.csv:3: the name of a pipeline is '../../../../PWNED'")) << refusal;
 }
 
 TEST(SweepMerge, RefusesTwoCommitsOfARecordingWithDifferentBytes) {

@@ -30,12 +30,12 @@ void keep(const std::string& name, const std::string& bytes) {
 
 const std::vector<std::string> kNames{"iepf", "line_tracking", "smf", "ransac", "hough"};
 
-/// The first four lines of a scan are right, split, false and unjudged, and one true line is missed.
+/// The first five lines of a scan are right, split, false, unjudged and too small, and one true line is missed.
 std::vector<ScanVerdict> some_verdicts(const PipelineResult& result) {
   std::vector<ScanVerdict> verdicts(result.lines.size());
   for (std::size_t f = 0; f < verdicts.size(); ++f) {
     for (std::size_t k = 0; k < result.lines[f].lines.size(); ++k)
-      verdicts[f].lines.push_back(k < 4 ? static_cast<LineVerdict>(k) : LineVerdict::right);
+      verdicts[f].lines.push_back(k < 5 ? static_cast<LineVerdict>(k) : LineVerdict::right);
     verdicts[f].missed.push_back({{1, 1}, {2, 1}});
   }
   return verdicts;
