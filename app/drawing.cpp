@@ -7,10 +7,10 @@
 #include <cstddef>
 
 #include "core/error.hpp"
-#include "harness/page/plain_text.hpp"
-#include "harness/report/run_report.hpp"
-#include "harness/run/worker.hpp"
-#include "harness/store/cell_status.hpp"
+#include "harness/results/document/plain_text.hpp"
+#include "harness/results/pages/run_report.hpp"
+#include "harness/runs/execute/worker.hpp"
+#include "harness/runs/store/cell_status.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -19,21 +19,21 @@ constexpr int kRendererThreads = 2;  // of OSMesa: each needs address space
 
 }  // namespace
 
-std::string draw_within_limits(const std::filesystem::path& run, const std::vector<harness::Scenario>& scenarios,
-                               const harness::FigureOptions& options, Progress& progress) {
-  harness::WorkerLimits limits{.seconds = 0.0, .memory_bytes = 0.0, .threads = kRendererThreads + 1};
+std::string draw_within_limits(const std::filesystem::path& run, const std::vector<study::Scenario>& scenarios,
+                               const results::FigureOptions& options, Progress& progress) {
+  runs::WorkerLimits limits{.seconds = 0.0, .memory_bytes = 0.0, .threads = kRendererThreads + 1};
   for (const auto& scenario : scenarios) {
     const std::size_t cells = std::max<std::size_t>(1, scenario.pipelines.size() * scenario.seeds.size());
     limits.seconds += 10.0 * scenario.limits.seconds * static_cast<double>(cells);
     limits.memory_bytes = std::max(limits.memory_bytes, scenario.limits.memory_bytes);
   }
   progress.update(0.95, "figures");
-  harness::WorkerOutcome outcome;
+  runs::WorkerOutcome outcome;
   {
-    harness::WorkerPool pool;
+    runs::WorkerPool pool;
     const auto draw = [&] {
       setenv("LP_NUM_THREADS", std::to_string(kRendererThreads).c_str(), 0);  // pictures do not depend on it
-      harness::draw_run_figures(run, scenarios, options);
+      results::draw_run_figures(run, scenarios, options);
       return std::string();
     };
     pool.start(0, draw, limits);
@@ -41,11 +41,11 @@ std::string draw_within_limits(const std::filesystem::path& run, const std::vect
     if (pool.interrupted()) throw Interrupted{};
     outcome = finished.front().outcome;
   }
-  if (outcome.status == harness::CellStatus::ok) return "";
+  if (outcome.status == runs::CellStatus::ok) return "";
   if (outcome.bad_input || outcome.system_error) throw ConfigError(outcome.message);
-  if (options.folder.empty()) harness::save_figure_index(run / "figures", {});
+  if (options.folder.empty()) results::save_figure_index(run / "figures", {});
   return "the figures were not drawn: " + std::string(to_string(outcome.status)) + ": " +
-         harness::plain_line(outcome.message);
+         results::plain_line(outcome.message);
 }
 
 }  // namespace scanbench::app

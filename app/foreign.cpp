@@ -2,9 +2,9 @@
 #include "app/foreign.hpp"
 
 #include "core/error.hpp"
-#include "harness/files/input_file.hpp"
-#include "harness/foreign/fault.hpp"
-#include "harness/foreign/inspect.hpp"
+#include "harness/io/files/input_file.hpp"
+#include "harness/study/foreign/fault.hpp"
+#include "harness/study/foreign/inspect.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -32,29 +32,29 @@ std::vector<std::string> with_foreign(std::vector<std::string> sets, const Forei
   return sets;
 }
 
-std::vector<harness::ForeignSource> foreign_sources(const ForeignOptions& options) {
-  std::vector<harness::ForeignSource> sources;
+std::vector<study::ForeignSource> foreign_sources(const ForeignOptions& options) {
+  std::vector<study::ForeignSource> sources;
   try {
     for (const std::string& plugin : options.plugins) {
-      const harness::InputFile file(plugin);  // refuses what is no regular file
-      for (auto& source : harness::inspect_library(plugin)) sources.push_back(std::move(source));
+      const io::InputFile file(plugin);  // refuses what is no regular file
+      for (auto& source : study::inspect_library(plugin)) sources.push_back(std::move(source));
     }
     if (!options.program.empty()) {
-      harness::ForeignSource source;
+      study::ForeignSource source;
       source.program = options.program;
-      harness::inspect_program(source, false);
+      study::inspect_program(source, false);
       sources.push_back(std::move(source));
     }
-  } catch (const harness::ForeignFault& fault) {
+  } catch (const study::ForeignFault& fault) {
     throw ConfigError(fault.what());
   }
   return sources;
 }
 
-std::vector<harness::CatalogEntry> foreign_entries(const ForeignOptions& options) {
-  std::vector<harness::CatalogEntry> entries;
+std::vector<results::CatalogEntry> foreign_entries(const ForeignOptions& options) {
+  std::vector<results::CatalogEntry> entries;
   for (const auto& source : foreign_sources(options)) {
-    const harness::ForeignModule& module = source.module;
+    const study::ForeignModule& module = source.module;
     entries.push_back({module.kind, module.info, module.params, {}});
     if (!module.version.empty()) entries.back().notes.push_back("version " + module.version);
     entries.back().notes.push_back("from " + source.text());

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/options.hpp"
-#include "harness/foreign/source.hpp"
-#include "harness/report/catalog.hpp"
+#include "harness/results/figures/catalog.hpp"
+#include "harness/study/foreign/source.hpp"
 
 namespace scanbench::app {
 
@@ -21,9 +21,9 @@ void add_foreign_options(Verb& verb, ForeignOptions& options, bool programs);
 std::vector<std::string> with_foreign(std::vector<std::string> sets, const ForeignOptions& options, bool sandbox);
 
 /// The modules of the libraries and of the program. Throws ConfigError for those that cannot be asked.
-std::vector<harness::ForeignSource> foreign_sources(const ForeignOptions& options);
+std::vector<study::ForeignSource> foreign_sources(const ForeignOptions& options);
 
 /// The same for the catalog.
-std::vector<harness::CatalogEntry> foreign_entries(const ForeignOptions& options);
+std::vector<results::CatalogEntry> foreign_entries(const ForeignOptions& options);
 
 }  // namespace scanbench::app

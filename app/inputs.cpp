@@ -8,10 +8,10 @@
 
 #include "core/error.hpp"
 #include "core/names.hpp"
-#include "harness/files/folder.hpp"
-#include "harness/scenario/scenario_file.hpp"
-#include "harness/scenario/suite.hpp"
-#include "harness/store/run_scenarios.hpp"
+#include "harness/io/files/folder.hpp"
+#include "harness/runs/store/run_scenarios.hpp"
+#include "harness/study/scenario/scenario_file.hpp"
+#include "harness/study/scenario/suite.hpp"
 
 namespace scanbench::app {
 
@@ -48,29 +48,29 @@ void add_jobs_option(Verb& verb, int& jobs, const std::string& help, const std::
 std::string nearest_file(const fs::path& path) {
   const bool bare = !path.has_parent_path();
   const std::string name = path.filename().string();
-  if (const std::string near = nearest_name(name, harness::names_in(bare ? "." : path.parent_path())); !near.empty())
+  if (const std::string near = nearest_name(name, io::names_in(bare ? "." : path.parent_path())); !near.empty())
     return (path.parent_path() / near).string();
   if (!bare) return "";
   for (const fs::path folder : {"scenarios", "scenarios/suites", "scenarios/logs", "out"}) {
-    const auto names = harness::names_in(folder);
+    const auto names = io::names_in(folder);
     for (const std::string& candidate : {name, path.stem().string() + ".yaml"})
       if (const std::string near = nearest_name(candidate, names); !near.empty()) return (folder / near).string();
   }
   return "";
 }
 
-std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
-                                           std::string* name, harness::SuiteRules* rules) {
-  std::vector<harness::Scenario> scenarios;
+std::vector<study::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
+                                         std::string* name, study::SuiteRules* rules) {
+  std::vector<study::Scenario> scenarios;
   for (const auto& file : files) {
     check_exists(file);
     if (name != nullptr && name->empty()) *name = fs::path(file).stem().string();
-    if (harness::is_suite(file)) {
-      harness::Suite suite = harness::load_suite(file, sets);
+    if (study::is_suite(file)) {
+      study::Suite suite = study::load_suite(file, sets);
       for (auto& scenario : suite.scenarios) scenarios.push_back(std::move(scenario));
       if (rules != nullptr && files.size() == 1) *rules = suite.rules;
     } else {
-      scenarios.push_back(harness::load_scenario(file, sets));
+      scenarios.push_back(study::load_scenario(file, sets));
       if (name != nullptr && files.size() == 1) *name = scenarios.back().name;
     }
   }
@@ -92,20 +92,20 @@ void check_run_exists(const fs::path& run) {
   throw ConfigError(run.string() + ": no such folder" + (suggested ? "; did you mean '" + near + "'?" : ""));
 }
 
-std::vector<harness::Scenario> scenarios_for(const fs::path& run, const std::vector<std::string>& files) {
+std::vector<study::Scenario> scenarios_for(const fs::path& run, const std::vector<std::string>& files) {
   check_run_exists(run);
-  return files.empty() ? harness::load_run_scenarios(run) : load_inputs(files, {});
+  return files.empty() ? runs::load_run_scenarios(run) : load_inputs(files, {});
 }
 
-void give_seeds(std::vector<harness::Scenario>& scenarios, const std::vector<std::string>& texts) {
+void give_seeds(std::vector<study::Scenario>& scenarios, const std::vector<std::string>& texts) {
   std::vector<std::uint64_t> seeds;
   for (const auto& text : texts) {
     std::uint64_t seed = 0;
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, seed);
-    if (text.empty() || error != std::errc() || stop != end || seed > harness::kLargestSeed)
+    if (text.empty() || error != std::errc() || stop != end || seed > study::kLargestSeed)
       throw ConfigError("--seed: '" + text + "' is no seed; allowed: whole numbers 0 .. " +
-                        std::to_string(harness::kLargestSeed) + ", separated by commas");
+                        std::to_string(study::kLargestSeed) + ", separated by commas");
     if (std::ranges::count(seeds, seed) > 0) throw ConfigError("--seed: " + text + " is given twice");
     seeds.push_back(seed);
   }

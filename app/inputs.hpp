@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/options.hpp"
-#include "harness/scenario/scenario.hpp"
-#include "harness/scenario/suite_rules.hpp"
+#include "harness/study/scenario/scenario.hpp"
+#include "harness/study/scenario/suite_rules.hpp"
 
 namespace scanbench::app {
 
@@ -26,17 +26,17 @@ std::string nearest_file(const std::filesystem::path& path);
 
 /// Scenarios of scenario and suite files, in order; `name` receives the first file's name without extension,
 /// `rules` those of a suite that is the only file.
-std::vector<harness::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
-                                           std::string* name = nullptr, harness::SuiteRules* rules = nullptr);
+std::vector<study::Scenario> load_inputs(const std::vector<std::string>& files, const std::vector<std::string>& sets,
+                                         std::string* name = nullptr, study::SuiteRules* rules = nullptr);
 
 /// Throws ConfigError, with the nearest name, for a folder that does not exist.
 void check_run_exists(const std::filesystem::path& run);
 
 /// The scenarios of a run, or those of files that replace them: to score with other metrics, to draw other figures.
-std::vector<harness::Scenario> scenarios_for(const std::filesystem::path& run, const std::vector<std::string>& files);
+std::vector<study::Scenario> scenarios_for(const std::filesystem::path& run, const std::vector<std::string>& files);
 
 /// Replaces the scenarios' seeds by those of `--seed`, if there are any. Throws ConfigError for a seed that a scenario
 /// file could not have, and for one that is given twice.
-void give_seeds(std::vector<harness::Scenario>& scenarios, const std::vector<std::string>& texts);
+void give_seeds(std::vector<study::Scenario>& scenarios, const std::vector<std::string>& texts);
 
 }  // namespace scanbench::app

@@ -24,8 +24,8 @@
 #include "app/verbs/show.hpp"
 #include "app/verbs/sweep.hpp"
 #include "core/error.hpp"
-#include "harness/page/plain_text.hpp"
-#include "harness/store/manifest.hpp"
+#include "harness/results/document/plain_text.hpp"
+#include "harness/runs/store/manifest.hpp"
 
 namespace {
 
@@ -39,7 +39,7 @@ int run_program(int argc, char** argv) {
       "Exit codes: 0 good, 1 a gate failed, 2 bad input, 3 some cells failed, 4 incomplete, 5 both 1 and 4, 70 a bug "
       "of the program, 130 "
       "interrupted.",
-      harness::version_text());
+      runs::version_text());
   app::add_run(line);
   app::add_sweep(line);
   app::add_inspection(line);
@@ -68,22 +68,22 @@ int main(int argc, char** argv) {
   try {
     return run_program(argc, argv);
   } catch (const ConfigError& error) {
-    app::say(fmt::format("scanbench: {}\n", harness::plain_text(error.what())));
+    app::say(fmt::format("scanbench: {}\n", results::plain_text(error.what())));
     return app::kBadInput;
   } catch (const app::Interrupted&) {
     app::say("\nscanbench: interrupted\n");
     return app::kInterrupted;
   } catch (const std::filesystem::filesystem_error& error) {
-    app::say(fmt::format("scanbench: {}: {}\n", harness::plain_text(error.path1().string()), error.code().message()));
+    app::say(fmt::format("scanbench: {}: {}\n", results::plain_text(error.path1().string()), error.code().message()));
     return app::kBadInput;
   } catch (const std::system_error& error) {  // standard output or a folder cannot be used
-    app::say(fmt::format("scanbench: {}\n", harness::plain_text(error.what())));
+    app::say(fmt::format("scanbench: {}\n", results::plain_text(error.what())));
     return app::kBadInput;
   } catch (const std::bad_alloc&) {
     app::say("scanbench: out of memory\n");
     return app::kBadInput;
   } catch (const std::exception& error) {
-    app::say(fmt::format("scanbench: internal error, please report it: {}\n", harness::plain_text(error.what())));
+    app::say(fmt::format("scanbench: internal error, please report it: {}\n", results::plain_text(error.what())));
     return app::kOurBug;
   }
 }

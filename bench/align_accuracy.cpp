@@ -16,11 +16,11 @@
 
 #include "core/error.hpp"
 #include "core/registry.hpp"
-#include "harness/analysis/statistics.hpp"
-#include "harness/run/make_recording.hpp"
-#include "harness/run/pipeline.hpp"
-#include "harness/scenario/scenario.hpp"
-#include "harness/scenario/scenario_file.hpp"
+#include "harness/results/analysis/statistics.hpp"
+#include "harness/runs/execute/make_recording.hpp"
+#include "harness/runs/execute/pipeline.hpp"
+#include "harness/study/scenario/scenario.hpp"
+#include "harness/study/scenario/scenario_file.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::accuracy {
@@ -30,7 +30,7 @@ namespace {
 using Scores = std::map<std::string, std::vector<double>>;
 
 std::string interval_text(const std::vector<double>& values, int digits) {
-  const harness::MeanInterval i = harness::mean_interval(values);
+  const results::MeanInterval i = results::mean_interval(values);
   return fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", i.mean, digits, i.low, digits, i.high, digits);
 }
 
@@ -40,12 +40,12 @@ int count_above(const std::vector<double>& values, double limit) {
   return n;
 }
 
-Scores scores_of(const harness::Scenario& scenario, const harness::PipelineSpec& pipeline,
+Scores scores_of(const study::Scenario& scenario, const study::PipelineSpec& pipeline,
                  const std::vector<Recording>& recordings) {
   Scores scores;
   for (const Recording& recording : recordings) {
     const auto start = std::chrono::steady_clock::now();
-    const harness::PipelineRun run = harness::run_pipeline(pipeline, recording.observed);
+    const runs::PipelineRun run = runs::run_pipeline(pipeline, recording.observed);
     scores["seconds"].push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     scores["said_good"].push_back(run.remarks.empty() ? 1.0 : 0.0);
     for (const auto& choice : scenario.metrics) {
@@ -70,30 +70,30 @@ int run(const std::vector<std::string>& args) {
       numbers.push_back(std::atoi(args[k].c_str()));
     }
   }
-  const harness::Scenario scenario = harness::load_scenario(args[0], sets);
+  const study::Scenario scenario = study::load_scenario(args[0], sets);
   std::vector<Recording> recordings;
   const int seeds = numbers.empty() ? 20 : numbers[0], first_seed = numbers.size() < 2 ? 1 : numbers[1];
   for (int seed = first_seed; seed < first_seed + seeds; ++seed)
-    recordings.push_back(harness::make_recording(scenario, static_cast<std::uint64_t>(seed), 1));
+    recordings.push_back(runs::make_recording(scenario, static_cast<std::uint64_t>(seed), 1));
 
   fmt::print(
       "| pipeline | position [m] | heading [deg] | largest [m] | largest [deg] | all placed | worse | "
       "said good | ratio to {} | difference [m] | seconds |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
       scenario.pipelines.front().name);
   Scores first;
-  for (const harness::PipelineSpec& pipeline : scenario.pipelines) {
+  for (const study::PipelineSpec& pipeline : scenario.pipelines) {
     Scores s = scores_of(scenario, pipeline, recordings);
     if (first.empty()) first = s;
     std::vector<double> difference;
     for (std::size_t k = 0; k < s["position_error"].size(); ++k)
       difference.push_back(s["position_error"][k] - first["position_error"][k]);
     const double ratio =
-        harness::mean_interval(s["position_error"]).mean / harness::mean_interval(first["position_error"]).mean;
+        results::mean_interval(s["position_error"]).mean / results::mean_interval(first["position_error"]).mean;
     fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {:.3f} | {} | {:.3f} |\n", pipeline.name,
                interval_text(s["position_error"], 4), interval_text(s["heading_error"], 3),
                interval_text(s["position_error_max"], 3), interval_text(s["heading_error_max"], 2),
                count_above(s["all_placed"], 0.5), count_above(s["error_ratio"], 1.0), count_above(s["said_good"], 0.5),
-               ratio, interval_text(difference, 4), harness::mean_interval(s["seconds"]).mean);
+               ratio, interval_text(difference, 4), results::mean_interval(s["seconds"]).mean);
     std::fflush(stdout);
   }
   return 0;

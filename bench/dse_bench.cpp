@@ -18,8 +18,8 @@
 
 #include "core/modules.hpp"
 #include "core/registry.hpp"
-#include "harness/run/make_recording.hpp"
-#include "harness/scenario/scenario_file.hpp"
+#include "harness/runs/execute/make_recording.hpp"
+#include "harness/study/scenario/scenario_file.hpp"
 #include "tests/support/scan_builder.hpp"
 
 namespace {
@@ -111,8 +111,8 @@ void log(benchmark::State& state, const char* mapper, const char* name) {
   }
   const std::filesystem::path file =
       std::filesystem::path(SCANBENCH_SOURCE_DIR) / "scenarios/logs" / (std::string("lakaemper2005_") + name + ".yaml");
-  const harness::Scenario scenario = harness::load_scenario(file);
-  const Recording recording = harness::make_recording(scenario, 1, 1);
+  const study::Scenario scenario = study::load_scenario(file);
+  const Recording recording = runs::make_recording(scenario, 1, 1);
   for (auto _ : state) {
     Drive drive(mapper, {{"step_matcher", "icp"}, {"search_deg", 60.0}});  // as in the scenario
     for (std::size_t k = 0; k < recording.observed.frames.size(); ++k)

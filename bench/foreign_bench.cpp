@@ -23,8 +23,8 @@
 
 #include "core/modules.hpp"
 #include "core/scan.hpp"
-#include "harness/foreign/inspect.hpp"
-#include "harness/foreign/program_modules.hpp"
+#include "harness/study/foreign/inspect.hpp"
+#include "harness/study/foreign/program_modules.hpp"
 
 namespace scanbench {
 namespace {
@@ -60,10 +60,10 @@ void in_this_process(benchmark::State& state) {
 BENCHMARK(in_this_process)->UseRealTime();
 
 std::unique_ptr<LineExtractor> echo_program() {
-  harness::ForeignSource source;
+  study::ForeignSource source;
   source.program = {SCANBENCH_ECHO};
-  harness::inspect_program(source, false);
-  return harness::run_program<LineExtractor>(source, {}, {});
+  study::inspect_program(source, false);
+  return study::run_program<LineExtractor>(source, {}, {});
 }
 
 void in_a_program(benchmark::State& state) {

@@ -12,15 +12,15 @@
 #include <string>
 #include <vector>
 
-#include "harness/analysis/comparison.hpp"
-#include "harness/analysis/verdict.hpp"
-#include "harness/nightly/store.hpp"
+#include "harness/results/analysis/comparison.hpp"
+#include "harness/results/analysis/verdict.hpp"
+#include "harness/results/nightly/store.hpp"
 
 namespace {
 
 using namespace scanbench;
-using harness::CellResults;
-using harness::RunResults;
+using results::CellResults;
+using results::RunResults;
 
 const char* const kMetrics[] = {"f1",         "precision",   "recall",   "overlap", "sigma_offset", "sigma_angle",
                                 "true_lines", "false_lines", "n_missed", "n_split", "n_merged",     "t_extract"};
@@ -81,14 +81,14 @@ std::filesystem::path empty_store() {
 void night_stored(benchmark::State& state) {
   const RunResults results = night(state.range(0), false);
   for (auto _ : state) {
-    harness::Store store(empty_store());
+    results::Store store(empty_store());
     benchmark::DoNotOptimize(store.add("suite", "run", results));
   }
   report_memory(state);
 }
 
 void night_read(benchmark::State& state) {
-  harness::Store store(empty_store());
+  results::Store store(empty_store());
   const auto id = store.add("suite", "run", night(state.range(0), false));
   for (auto _ : state) benchmark::DoNotOptimize(store.load(id));
   report_memory(state);
@@ -98,7 +98,7 @@ void nights_compared(benchmark::State& state) {
   const RunResults before = night(state.range(0), false);
   const RunResults after = night(state.range(0), true);
   for (auto _ : state)
-    benchmark::DoNotOptimize(harness::verdict_sentence(harness::compare(before, after, harness::Gates{})));
+    benchmark::DoNotOptimize(results::verdict_sentence(results::compare(before, after, results::Gates{})));
   report_memory(state);
 }
 

@@ -18,8 +18,8 @@
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/special_values.hpp"
-#include "harness/files/csv.hpp"
-#include "harness/files/text_file.hpp"
+#include "harness/io/files/csv.hpp"
+#include "harness/io/files/text_file.hpp"
 
 namespace scanbench::accuracy {
 namespace {
@@ -47,14 +47,14 @@ SensorModel sensor_of(double angle_min, double step, int beams) {
 
 // Simulated rows: id, ranges. Real rows: id, log, index, x, y, theta, largest range, n, first angle, increment, ranges.
 std::vector<BenchScan> read_scans(const fs::path& file, bool real) {
-  const std::string text = harness::read_text_file(file, kMaxBytes);
+  const std::string text = io::read_text_file(file, kMaxBytes);
   std::string_view rest = text;
   std::vector<BenchScan> scans;
   std::vector<std::string_view> fields;
   while (!rest.empty()) {
-    const std::string_view line = harness::take_line(rest);
+    const std::string_view line = io::take_line(rest);
     if (line.empty() || line[0] == '#') continue;
-    harness::split_fields(line, fields);
+    io::split_fields(line, fields);
     const std::size_t head = real ? 10 : 1;
     if (fields.size() <= head) throw ConfigError(file.string() + ": a row without ranges");
     BenchScan scan;
@@ -127,8 +127,8 @@ void print_table(const fs::path& folder, const std::string& set, std::size_t mos
   if (real)
     for (const double sigma_m : {0.06, 0.1}) print_row(scans, sigma_m, true);
   const fs::path file = folder / "published_results.csv";
-  const harness::CsvTable published(harness::read_text_file(file, kMaxBytes), file,
-                                    {"dataset", "method", "max_vertices", "rmse_m", "fraction_of_returns_explained"});
+  const io::CsvTable published(io::read_text_file(file, kMaxBytes), file,
+                               {"dataset", "method", "max_vertices", "rmse_m", "fraction_of_returns_explained"});
   std::map<std::string, std::string> rows;
   for (std::size_t i = 0; i < published.rows(); ++i)
     if (published.text(i, "dataset") == set)

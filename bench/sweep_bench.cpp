@@ -14,21 +14,21 @@
 #include <string>
 #include <vector>
 
-#include "harness/files/atomic_file.hpp"
-#include "harness/scenario/scenario_file.hpp"
-#include "harness/sweep/shard.hpp"
-#include "harness/sweep/shard_commit.hpp"
-#include "harness/sweep/sweep_merge.hpp"
-#include "harness/sweep/sweep_plan.hpp"
+#include "harness/io/files/atomic_file.hpp"
+#include "harness/runs/sweep/shard.hpp"
+#include "harness/runs/sweep/shard_commit.hpp"
+#include "harness/runs/sweep/sweep_merge.hpp"
+#include "harness/runs/sweep/sweep_plan.hpp"
+#include "harness/study/scenario/scenario_file.hpp"
 
 namespace {
 
 using namespace scanbench;
-using harness::SweepPlan;
+using runs::SweepPlan;
 namespace fs = std::filesystem;
 
-std::vector<harness::Scenario> room(std::int64_t seeds) {
-  return {harness::parse_scenario("schema: 1\nseeds: {first: 1, count: " + std::to_string(seeds) + R"(}
+std::vector<study::Scenario> room(std::int64_t seeds) {
+  return {study::parse_scenario("schema: 1\nseeds: {first: 1, count: " + std::to_string(seeds) + R"(}
 name: room
 world: {segments: [[a, 0, 0, 10, 0], [b, 10, 0, 10, 8], [c, 10, 8, 0, 8], [d, 0, 8, 0, 0]]}
 sensor: {preset: sick_lms200}
@@ -36,7 +36,7 @@ trajectory: {kind: waypoints, points_m: {A: [2, 2], B: [7, 5]}, scans: 2}
 pipelines: [{name: iepf, extract: {module: iepf, params: {threshold_m: 0.10}}}]
 metrics: [segments]
 )",
-                                  "room.yaml")};
+                                "room.yaml")};
 }
 
 fs::path folder(const std::string& name) {
@@ -44,7 +44,7 @@ fs::path folder(const std::string& name) {
 }
 
 SweepPlan planned(const fs::path& out, std::int64_t seeds) {
-  return harness::plan_sweep(room(seeds), {.out = out, .name = "room"});
+  return runs::plan_sweep(room(seeds), {.out = out, .name = "room"});
 }
 
 /// The lines of a summary of seed 1 as those of another seed.
@@ -61,15 +61,15 @@ std::string lines_of(const std::string& summary, std::uint64_t seed) {
 void commit_all(const SweepPlan& plan) {
   fs::remove_all(folder("one"));
   const SweepPlan one = planned(folder("one"), 1);
-  harness::run_shard(one.folder, {.shard = 1});
-  const harness::ShardCommit commit = harness::load_commits(one.folder).whole.at(0);
-  const harness::ArchiveReader reader(commit.archive());
+  runs::run_shard(one.folder, {.shard = 1});
+  const runs::ShardCommit commit = runs::load_commits(one.folder).whole.at(0);
+  const runs::ArchiveReader reader(commit.archive());
   const auto cell = reader.files(commit.table.cells[0].part, "cells/room/iepf/1");
   const auto recording = reader.files(commit.table.recordings[0].part, "recordings/room/1");
-  const std::string summary = harness::read_file(commit.folder / "summary.csv");
+  const std::string summary = io::read_file(commit.folder / "summary.csv");
   for (int shard = 1; shard <= plan.shards; ++shard) {
-    harness::CommitWriter writer(plan.folder, shard);
-    std::vector<harness::ArchivedCell> cells;
+    runs::CommitWriter writer(plan.folder, shard);
+    std::vector<runs::ArchivedCell> cells;
     std::string lines = summary.substr(0, summary.find('\n') + 1);
     for (const auto& planned_cell : plan.cells) {
       if (planned_cell.shard != shard) continue;
@@ -117,7 +117,7 @@ void sweep_merged(benchmark::State& state) {
     state.PauseTiming();
     fs::remove_all(folder("merged"));
     state.ResumeTiming();
-    const auto result = harness::merge_sweep(harness::load_sweep(sweep), {.out = folder("merged")});
+    const auto result = runs::merge_sweep(runs::load_sweep(sweep), {.out = folder("merged")});
     if (result.missing) state.SkipWithError("the sweep is not complete; remove its folder");
   }
   report_memory(state);

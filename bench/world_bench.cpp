@@ -16,10 +16,10 @@
 
 #include "bench/ratios.hpp"
 #include "core/rng.hpp"
-#include "harness/files/atomic_file.hpp"
-#include "harness/scenario/wall_table.hpp"
-#include "harness/scenario/world_file.hpp"
-#include "harness/yaml/writer.hpp"
+#include "harness/io/files/atomic_file.hpp"
+#include "harness/io/yaml/writer.hpp"
+#include "harness/study/scenario/wall_table.hpp"
+#include "harness/study/scenario/world_file.hpp"
 
 namespace scanbench::bench {
 namespace {
@@ -38,7 +38,7 @@ sim::World random_world(int walls) {
 }
 
 std::string world_text(const sim::World& world, const std::string& table) {
-  return "schema: 1\n" + harness::write_yaml(harness::to_yaml(world, table));
+  return "schema: 1\n" + io::write_yaml(study::to_yaml(world, table));
 }
 
 std::size_t load_by_tree(const std::string& text) {
@@ -60,9 +60,9 @@ int main(int argc, char** argv) {
   std::string folder = (std::filesystem::temp_directory_path() / "scanbench-walls-XXXXXX").string();
   if (::mkdtemp(folder.data()) == nullptr) return 1;
   const std::string table = folder + "/walls.csv";
-  harness::write_file_atomically(table, harness::wall_table(world.walls));
+  io::write_file_atomically(table, study::wall_table(world.walls));
   const std::string rows = bench::world_text(world, ""), named = bench::world_text(world, table);
-  const auto load = [](const std::string& text) { return harness::parse_world(text, "w.yaml").walls.size(); };
+  const auto load = [](const std::string& text) { return study::parse_world(text, "w.yaml").walls.size(); };
   const bench::Method reader{"table of walls", [&] { return load(named); }, 50};
   bench::measure("load 100 000 walls, a wall", {{"yaml-cpp", [&] { return bench::load_by_tree(rows); }}, reader},
                  rounds);

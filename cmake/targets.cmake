@@ -115,7 +115,8 @@ function(scanbench_executable name)
   cmake_parse_arguments(arg "" "FOLDER" "SOURCES;ROOMS" ${ARGN})
   if(NOT arg_ROOMS)
     # Ordered from the top layer down, so that no whole archive must be listed twice.
-    set(arg_ROOMS algorithms nightly player gallery film report page analysis sweep run store scenario catalog exchange yaml conform foreign
+    set(arg_ROOMS algorithms nightly player gallery film pages tables figures document analysis sweep execute store scenario
+                  catalog exchange yaml conform foreign
                   process files sim metrics render core)
   endif()
   if(arg_FOLDER)

@@ -1,5 +1,5 @@
 # Writes the version and the commit of the tree to a header at build time. The file is written only when it changes, so
-# that an unchanged tree links nothing again. One source file of harness/store includes it.
+# that an unchanged tree links nothing again. One source file of harness/runs/store includes it.
 string(TOUPPER "${CMAKE_BUILD_TYPE}" config)
 set(versions "")
 foreach(package Eigen3 fmt box2d yaml-cpp nlohmann_json CLI11 nanoflann)

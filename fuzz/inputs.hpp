@@ -9,15 +9,15 @@
 
 #include "core/error.hpp"
 #include "core/truth.hpp"
-#include "harness/exchange/export.hpp"
-#include "harness/exchange/log.hpp"
-#include "harness/scenario/effective.hpp"
-#include "harness/scenario/scenario.hpp"
-#include "harness/scenario/scenario_file.hpp"
-#include "harness/scenario/suite.hpp"
-#include "harness/scenario/wall_table.hpp"
-#include "harness/scenario/world_file.hpp"
-#include "harness/yaml/writer.hpp"
+#include "harness/io/exchange/export.hpp"
+#include "harness/io/exchange/log.hpp"
+#include "harness/io/yaml/writer.hpp"
+#include "harness/study/scenario/effective.hpp"
+#include "harness/study/scenario/scenario.hpp"
+#include "harness/study/scenario/scenario_file.hpp"
+#include "harness/study/scenario/suite.hpp"
+#include "harness/study/scenario/wall_table.hpp"
+#include "harness/study/scenario/world_file.hpp"
 #include "sim/sensors.hpp"
 #include "sim/world.hpp"
 
@@ -35,13 +35,13 @@ void allow_refusal(Work&& work) {
 /// Reads the bytes as a scenario, as a world of either format and as a suite. If a scenario loads, its effective form
 /// must load too and have the same effective form.
 inline void run_yaml(std::string_view bytes) {
-  allow_refusal([&] { harness::parse_world(bytes, "fuzz.yaml"); });
-  allow_refusal([&] { harness::parse_vector_map(bytes, "fuzz.txt"); });
-  allow_refusal([&] { harness::parse_suite(bytes, "/nonexistent/fuzz.yaml"); });
+  allow_refusal([&] { study::parse_world(bytes, "fuzz.yaml"); });
+  allow_refusal([&] { study::parse_vector_map(bytes, "fuzz.txt"); });
+  allow_refusal([&] { study::parse_suite(bytes, "/nonexistent/fuzz.yaml"); });
   std::string effective;
-  allow_refusal([&] { effective = harness::effective_yaml(harness::parse_scenario(bytes, "/nonexistent/fuzz.yaml")); });
+  allow_refusal([&] { effective = study::effective_yaml(study::parse_scenario(bytes, "/nonexistent/fuzz.yaml")); });
   if (effective.empty()) return;
-  const std::string again = harness::effective_yaml(harness::parse_scenario(effective, "/nonexistent/fuzz.yaml"));
+  const std::string again = study::effective_yaml(study::parse_scenario(effective, "/nonexistent/fuzz.yaml"));
   if (again != effective) throw InternalError("the effective scenario is not stable");
 }
 
@@ -49,17 +49,17 @@ inline void run_yaml(std::string_view bytes) {
 /// the same table, and the walls must be those of a world that lists them as YAML.
 inline void run_world(std::string_view bytes) {
   std::vector<Wall> walls;
-  allow_refusal([&] { walls = harness::parse_wall_table(std::string(bytes), "fuzz.csv"); });
+  allow_refusal([&] { walls = study::parse_wall_table(std::string(bytes), "fuzz.csv"); });
   if (walls.empty()) return;
-  const std::string table = harness::wall_table(walls);
-  if (harness::wall_table(harness::parse_wall_table(table, "fuzz.csv")) != table)
+  const std::string table = study::wall_table(walls);
+  if (study::wall_table(study::parse_wall_table(table, "fuzz.csv")) != table)
     throw InternalError("the table of walls is not stable");
   sim::World world;
   world.walls = std::move(walls);
   allow_refusal([&] {
     sim::validate(world);
-    const std::string text = "schema: 1\n" + harness::write_yaml(harness::to_yaml(world));
-    if (harness::wall_table(harness::parse_world(text, "fuzz.yaml").walls) != table)
+    const std::string text = "schema: 1\n" + io::write_yaml(study::to_yaml(world));
+    if (study::wall_table(study::parse_world(text, "fuzz.yaml").walls) != table)
       throw InternalError("the walls have other values for the YAML parser");
   });
 }
@@ -80,14 +80,13 @@ inline void run_log(std::string_view bytes) {
   const auto& reader = kReaders[static_cast<unsigned char>(bytes.front()) % kReaders.size()];
   Recording recording;
   allow_refusal([&] {
-    recording =
-        harness::parse_log(bytes.substr(1), "fuzz.log", reader.first, reader.second, sim::make_sensor("custom", {}));
+    recording = io::parse_log(bytes.substr(1), "fuzz.log", reader.first, reader.second, sim::make_sensor("custom", {}));
   });
   if (recording.observed.frames.empty()) return;
   for (const char* target : {"carmen", "csv"}) {
-    const std::string text = harness::export_text(recording, target);
-    const Recording back = harness::parse_log(text, "fuzz.log", target, harness::import_params(recording, target),
-                                              recording.observed.sensor);
+    const std::string text = io::export_text(recording, target);
+    const Recording back =
+        io::parse_log(text, "fuzz.log", target, io::import_params(recording, target), recording.observed.sensor);
     if (back.observed.frames.size() != recording.observed.frames.size())
       throw InternalError("frames were lost in export and import");
   }

@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "harness/files/atomic_file.hpp"
+#include "harness/io/files/atomic_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
-    const std::string bytes = scanbench::harness::read_file(argv[i]);
+    const std::string bytes = scanbench::io::read_file(argv[i]);
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   }
   std::printf("%d files\n", argc - 1);

@@ -31,7 +31,7 @@ struct ScanVerdict {
 };
 
 /// The lines that a pipeline found beside the true walls, drawn as pixels (the metric family raster_truth).
-struct LineDifference {
+struct PixelDifference {
   std::vector<Segment> right{};   ///< parts of found lines near a wall, world frame
   std::vector<Segment> wrong{};   ///< the other parts of found lines
   std::vector<Segment> missed{};  ///< visible parts of walls without a found line near them
@@ -45,13 +45,13 @@ struct LineDifference {
 struct NamedResult {
   std::string pipeline;
   const PipelineResult* result;
-  const TraceRows* trace = nullptr;            ///< the rows that the figures request; absent if none were kept
-  std::vector<ScanVerdict> verdicts{};         ///< per frame; empty without truth
-  std::optional<LineDifference> difference{};  ///< if a figure compares_pixels(), and there is a truth
+  const TraceRows* trace = nullptr;             ///< the rows that the figures request; absent if none were kept
+  std::vector<ScanVerdict> verdicts{};          ///< per frame; empty without truth
+  std::optional<PixelDifference> difference{};  ///< if a figure compares_pixels(), and there is a truth
 };
 
 /// A round object of a simulated world.
-struct Circle {
+struct RoundObject {
   Vec2 center;  ///< [m], world frame
   double radius_m = 0;
 };
@@ -92,7 +92,7 @@ struct FigureInput {
   std::string title;  ///< the scenario's name
   const Recording& recording;
   NamedPoints waypoints;  ///< may be empty
-  std::vector<Circle> circles{};
+  std::vector<RoundObject> circles{};
   std::vector<std::vector<Vec2>> body_paths{};  ///< of bodies that move through the world
   /// True if the sensor moves from each pose to the next; false if it is placed at each of them.
   bool continuous = true;

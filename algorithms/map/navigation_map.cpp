@@ -92,7 +92,7 @@ class NavigationMap final : public Mapper {
   Registration locate(const std::vector<ScanSegment>& scan, const std::vector<Vec2>& points,
                       const Pose2& predicted) const;
   void update(const Observation& observation, const std::vector<ScanSegment>& scan, const Pose2& pose, Trace& trace);
-  void add(Wall wall, Trace& trace);
+  void add(MapWall wall, Trace& trace);
   void erase(std::size_t number, Trace& trace);
   Insertion outcome(Status status, const Pose2& map_from_sensor, std::string message);
 
@@ -103,7 +103,7 @@ class NavigationMap final : public Mapper {
   StepMatching steps_;
   Pose2 world_from_map_;
   bool begun_ = false;
-  std::map<std::size_t, Wall> walls_;
+  std::map<std::size_t, MapWall> walls_;
   SegmentIndex index_;
   PointMap points_;  ///< of point_point only
   std::size_t next_ = 0;
@@ -194,7 +194,7 @@ void NavigationMap::erase(std::size_t number, Trace& trace) {
 
 /// Unites the wall with the nearest wall of the map that is the same surface, again and again, for a wall that has
 /// grown can touch others.
-void NavigationMap::add(Wall wall, Trace& trace) {
+void NavigationMap::add(MapWall wall, Trace& trace) {
   for (bool grown = true; grown;) {
     grown = false;
     double nearest = kNovelWallM;

@@ -10,8 +10,8 @@
 #include "app/authoring/module_templates.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
-#include "harness/catalog/find_module.hpp"
-#include "harness/files/atomic_file.hpp"
+#include "harness/io/files/atomic_file.hpp"
+#include "harness/study/catalog/find_module.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -25,7 +25,7 @@ void check_name(const std::string& kind, const std::string& name) {
       name.find("__") != std::string::npos || !std::ranges::all_of(name, allowed))
     throw ConfigError("the name is '" + name +
                       "'; allowed: up to 60 small letters, digits and single _, beginning with a letter: my_lines");
-  const auto known = harness::module_names(kind);
+  const auto known = study::module_names(kind);
   if (std::ranges::count(known, name) > 0)
     throw ConfigError("there is a module '" + name + "' of the kind " + kind + " already; give another name");
 }
@@ -47,8 +47,8 @@ int write_module(const std::string& kind, const std::string& name, const fs::pat
                       "--sources");
   const fs::path file = folder / (name + ".cpp");
   if (fs::exists(fs::symlink_status(file))) throw ConfigError(file.string() + " exists already; give another name");
-  harness::make_folders(folder);
-  harness::write_file_atomically(file, module_source(kind, name));
+  io::make_folders(folder);
+  io::write_file_atomically(file, module_source(kind, name));
   fmt::print("{}\n", file.lexically_normal().string());
   fmt::print(
       "./scanbench test --module {} builds it and runs the conformance suite on it; docs/write-a-module.md says "

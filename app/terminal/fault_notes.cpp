@@ -7,8 +7,8 @@
 #include <cctype>
 #include <string_view>
 
-#include "harness/page/plain_text.hpp"
-#include "harness/store/cell_status.hpp"
+#include "harness/results/document/plain_text.hpp"
+#include "harness/runs/store/cell_status.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -33,11 +33,11 @@ std::string shortened(const std::string& text) {
 
 }  // namespace
 
-std::string FaultNotes::note(const harness::CellResult& cell) {
+std::string FaultNotes::note(const runs::CellResult& cell) {
   const auto& outcome = cell.record.outcome;
   const std::string status = cell.done ? std::string(to_string(outcome.status)) : "missing";
-  const std::string message = harness::plain_line(outcome.message);
-  const std::string& subject = outcome.status == harness::CellStatus::skipped ? cell.key.scenario : cell.key.pipeline;
+  const std::string message = results::plain_line(outcome.message);
+  const std::string& subject = outcome.status == runs::CellStatus::skipped ? cell.key.scenario : cell.key.pipeline;
   const std::string key = subject + '\n' + status + '\n' + without_numbers(message);
   const auto known = std::ranges::find(faults_, key, &Fault::key);
   if (known != faults_.end()) {
@@ -45,7 +45,7 @@ std::string FaultNotes::note(const harness::CellResult& cell) {
     return "";
   }
   faults_.push_back({key, fmt::format("{}: {}: {}", subject, status, shortened(message)), 1});
-  return fmt::format("{}: {}: {}", harness::to_string(cell.key), status, message);
+  return fmt::format("{}: {}: {}", runs::to_string(cell.key), status, message);
 }
 
 std::vector<std::string> FaultNotes::repeated() const {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/run/run_options.hpp"
+#include "harness/runs/execute/run_options.hpp"
 
 namespace scanbench::app {
 
@@ -14,7 +14,7 @@ namespace scanbench::app {
 class FaultNotes {
  public:
   /// The note about this cell if it is the first with its fault, else empty.
-  std::string note(const harness::CellResult& cell);
+  std::string note(const runs::CellResult& cell);
   /// A line for each fault that more than one cell has: "iepf: failed: ...: 39 more cells".
   std::vector<std::string> repeated() const;
 

@@ -10,75 +10,75 @@
 #include "app/terminal/fault_notes.hpp"
 #include "app/terminal/progress.hpp"
 #include "core/error.hpp"
-#include "harness/page/document.hpp"
-#include "harness/page/plain_text.hpp"
-#include "harness/report/run_report.hpp"
-#include "harness/run/runner.hpp"
-#include "harness/store/cell_status.hpp"
-#include "harness/store/run_scenarios.hpp"
+#include "harness/results/document/document.hpp"
+#include "harness/results/document/plain_text.hpp"
+#include "harness/results/pages/run_report.hpp"
+#include "harness/runs/execute/runner.hpp"
+#include "harness/runs/store/cell_status.hpp"
+#include "harness/runs/store/run_scenarios.hpp"
 
 namespace scanbench::app {
 namespace {
 
-void note_cell(Progress& progress, FaultNotes& faults, const harness::CellResult& cell) {
-  if (cell.record.outcome.status == harness::CellStatus::ok) return;
+void note_cell(Progress& progress, FaultNotes& faults, const runs::CellResult& cell) {
+  if (cell.record.outcome.status == runs::CellStatus::ok) return;
   progress.failure();
   if (const std::string note = faults.note(cell); !note.empty()) progress.note(note);
 }
 
 /// Draws the figures of a run, unless the user wants none, and writes its report. `failure`: why they were not drawn.
-harness::ReportInput write_report(const harness::RunResult& result, bool figures, Progress& progress,
+results::ReportInput write_report(const runs::RunResult& result, bool figures, Progress& progress,
                                   std::string& failure) {
-  const auto scenarios = harness::load_run_scenarios(result.out);
+  const auto scenarios = runs::load_run_scenarios(result.out);
   if (figures) failure = draw_within_limits(result.out, scenarios, {}, progress);
-  auto report = harness::load_report_input(result.out, scenarios);
-  harness::write_reports(result.out, report);
+  auto report = results::load_report_input(result.out, scenarios);
+  results::write_reports(result.out, report);
   return report;
 }
 
 /// The message about missing cells: their number, the reason of the first, and whether an earlier run remains.
-std::string missing_text(const harness::RunResult& result) {
-  const auto is_missing = [](const harness::CellResult& cell) { return !cell.done; };
+std::string missing_text(const runs::RunResult& result) {
+  const auto is_missing = [](const runs::CellResult& cell) { return !cell.done; };
   const auto first = std::ranges::find_if(result.cells, is_missing);
   return fmt::format("scanbench: {} of {} cells are missing; {}: {}{}\n",
-                     std::ranges::count_if(result.cells, is_missing), result.cells.size(),
-                     harness::to_string(first->key), harness::plain_line(first->record.outcome.message),
+                     std::ranges::count_if(result.cells, is_missing), result.cells.size(), runs::to_string(first->key),
+                     results::plain_line(first->record.outcome.message),
                      result.old_run_kept ? "; the earlier run in " + result.out.string() + " is unchanged" : "");
 }
 
 }  // namespace
 
-void print_tables(const harness::ReportInput& input) {
-  const harness::Document closing = harness::closing_document(input);
-  if (!closing.blocks.empty()) fmt::print("{}\n", harness::to_terminal(closing, use_color(), terminal_width()));
+void print_tables(const results::ReportInput& input) {
+  const results::Document closing = results::closing_document(input);
+  if (!closing.blocks.empty()) fmt::print("{}\n", results::to_terminal(closing, use_color(), terminal_width()));
 }
 
-void note_absent_figures(const harness::ReportInput& report) {
+void note_absent_figures(const results::ReportInput& report) {
   for (const auto& figure : report.figures)
     if (figure.name.empty()) say(fmt::format("{}: note: {}\n", figure.scenario, figure.caption));
 }
 
-std::string failed_text(const std::vector<harness::CellResult>& cells) {
-  const auto has_failed = [](const harness::CellResult& cell) {
-    return cell.done && cell.record.outcome.status != harness::CellStatus::ok;
+std::string failed_text(const std::vector<runs::CellResult>& cells) {
+  const auto has_failed = [](const runs::CellResult& cell) {
+    return cell.done && cell.record.outcome.status != runs::CellStatus::ok;
   };
   const auto first = std::ranges::find_if(cells, has_failed);
   if (first == cells.end()) return "";
   return fmt::format("scanbench: {} of {} cells failed; {}: {}: {}\n", std::ranges::count_if(cells, has_failed),
-                     cells.size(), harness::to_string(first->key), to_string(first->record.outcome.status),
-                     harness::plain_line(first->record.outcome.message));
+                     cells.size(), runs::to_string(first->key), to_string(first->record.outcome.status),
+                     results::plain_line(first->record.outcome.message));
 }
 
-FinishedRun run_and_report(const std::vector<harness::Scenario>& scenarios, const harness::RunOptions& options,
+FinishedRun run_and_report(const std::vector<study::Scenario>& scenarios, const runs::RunOptions& options,
                            const Presentation& presentation) {
-  return make_and_report([&](const harness::RunOptions& ready) { return harness::run(scenarios, ready); }, options,
+  return make_and_report([&](const runs::RunOptions& ready) { return runs::run(scenarios, ready); }, options,
                          presentation);
 }
 
-FinishedRun make_and_report(const MakeRun& make, harness::RunOptions options, const Presentation& presentation) {
+FinishedRun make_and_report(const MakeRun& make, runs::RunOptions options, const Presentation& presentation) {
   Progress progress(progress_style(presentation.quiet));
   FaultNotes faults;
-  options.progress = [&](const harness::RunProgress& now) {
+  options.progress = [&](const runs::RunProgress& now) {
     if (now.cell != nullptr) note_cell(progress, faults, *now.cell);
     const auto total = static_cast<double>(now.total);
     progress.update(total > 0 ? 0.95 * static_cast<double>(now.done) / total : 0.0, now.what);
@@ -86,7 +86,7 @@ FinishedRun make_and_report(const MakeRun& make, harness::RunOptions options, co
   FinishedRun finished;
   options.finish = {};
   if (presentation.report)
-    options.finish = [&](const harness::RunResult& result) {
+    options.finish = [&](const runs::RunResult& result) {
       const InterruptGuard guard;
       try {
         finished.report = write_report(result, presentation.figures, progress, finished.figure_failure);
@@ -101,7 +101,7 @@ FinishedRun make_and_report(const MakeRun& make, harness::RunOptions options, co
   return finished;
 }
 
-std::string unfinished_text(const harness::RunResult& result, const std::string& how) {
+std::string unfinished_text(const runs::RunResult& result, const std::string& how) {
   if (result.interrupted)
     return fmt::format("scanbench: interrupted; the finished cells of a new run stay in {} ({})\n", result.out.string(),
                        how);

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "harness/report/page_input.hpp"
-#include "harness/run/run_options.hpp"
-#include "harness/scenario/scenario.hpp"
+#include "harness/results/pages/page_input.hpp"
+#include "harness/runs/execute/run_options.hpp"
+#include "harness/study/scenario/scenario.hpp"
 
 namespace scanbench::app {
 
@@ -19,32 +19,32 @@ struct Presentation {
 };
 
 struct FinishedRun {
-  harness::RunResult result;
-  std::optional<harness::ReportInput> report;  ///< none if it could not be written, which has been said
+  runs::RunResult result;
+  std::optional<results::ReportInput> report;  ///< none if it could not be written, which has been said
   std::string figure_failure;                  ///< why there are no figures; empty if there are
 };
 
-/// Makes a run: harness::run(), or a merge of shards.
-using MakeRun = std::function<harness::RunResult(const harness::RunOptions&)>;
+/// Makes a run: runs::run(), or a merge of shards.
+using MakeRun = std::function<runs::RunResult(const runs::RunOptions&)>;
 
 /// Makes a run, draws and writes the report. `options.progress` and `options.finish` are replaced.
-FinishedRun make_and_report(const MakeRun& make, harness::RunOptions options, const Presentation& presentation);
+FinishedRun make_and_report(const MakeRun& make, runs::RunOptions options, const Presentation& presentation);
 
 /// The same with the run of these scenarios.
-FinishedRun run_and_report(const std::vector<harness::Scenario>& scenarios, const harness::RunOptions& options,
+FinishedRun run_and_report(const std::vector<study::Scenario>& scenarios, const runs::RunOptions& options,
                            const Presentation& presentation);
 
 /// Prints the tables that close a run.
-void print_tables(const harness::ReportInput& input);
+void print_tables(const results::ReportInput& input);
 
 /// Why figures that the scenarios name are absent.
-void note_absent_figures(const harness::ReportInput& report);
+void note_absent_figures(const results::ReportInput& report);
 
 /// How many cells did not end well, and why the first one did not; empty if all did.
-std::string failed_text(const std::vector<harness::CellResult>& cells);
+std::string failed_text(const std::vector<runs::CellResult>& cells);
 
 /// What is said on standard error after a run that was interrupted or is incomplete; empty if there is nothing to say.
 /// `how`: what makes an interrupted one go on.
-std::string unfinished_text(const harness::RunResult& result, const std::string& how = "--resume continues");
+std::string unfinished_text(const runs::RunResult& result, const std::string& how = "--resume continues");
 
 }  // namespace scanbench::app

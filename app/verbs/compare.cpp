@@ -10,15 +10,15 @@
 #include "app/inputs.hpp"
 #include "app/terminal/progress.hpp"
 #include "core/error.hpp"
-#include "harness/analysis/comparison.hpp"
-#include "harness/analysis/gates.hpp"
-#include "harness/analysis/run_results.hpp"
-#include "harness/analysis/value_pairs.hpp"
-#include "harness/files/atomic_file.hpp"
-#include "harness/nightly/comparison_files.hpp"
-#include "harness/nightly/comparison_tables.hpp"
-#include "harness/page/document.hpp"
-#include "harness/store/run_scenarios.hpp"
+#include "harness/io/files/atomic_file.hpp"
+#include "harness/results/analysis/comparison.hpp"
+#include "harness/results/analysis/gates.hpp"
+#include "harness/results/analysis/run_results.hpp"
+#include "harness/results/analysis/value_pairs.hpp"
+#include "harness/results/document/document.hpp"
+#include "harness/results/nightly/comparison_files.hpp"
+#include "harness/results/nightly/comparison_tables.hpp"
+#include "harness/runs/store/run_scenarios.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -42,20 +42,20 @@ int compare(const CompareOptions& options) {
   check_folder("--junit", options.junit);
   check_run_exists(options.before);
   check_run_exists(options.after);
-  const harness::RunResults before = harness::load_run_results(options.before);
-  const harness::RunResults after = harness::load_run_results(options.after);
-  const harness::Gates gates(harness::load_gates(options.after));
-  const harness::Comparison comparison = harness::compare(before, after, gates);
+  const results::RunResults before = results::load_run_results(options.before);
+  const results::RunResults after = results::load_run_results(options.after);
+  const results::Gates gates(runs::load_gates(options.after));
+  const results::Comparison comparison = results::compare(before, after, gates);
   const auto write = [](const std::string& file, const std::string& bytes) {
-    if (!file.empty()) harness::write_file_atomically(file, bytes);
+    if (!file.empty()) io::write_file_atomically(file, bytes);
   };
-  if (!options.csv.empty()) write(options.csv, harness::value_pairs_csv(before, after, gates));
-  if (!options.json.empty()) write(options.json, harness::comparison_json(comparison));
+  if (!options.csv.empty()) write(options.csv, results::value_pairs_csv(before, after, gates));
+  if (!options.json.empty()) write(options.json, results::comparison_json(comparison));
   if (!options.markdown.empty())
-    write(options.markdown, harness::to_markdown(harness::comparison_document(comparison)));
-  if (!options.junit.empty()) write(options.junit, harness::comparison_junit(comparison));
+    write(options.markdown, results::to_markdown(results::comparison_document(comparison)));
+  if (!options.junit.empty()) write(options.junit, results::comparison_junit(comparison));
   fmt::print(
-      "{}", harness::to_terminal(harness::comparison_document(comparison, options.all), use_color(), terminal_width()));
+      "{}", results::to_terminal(results::comparison_document(comparison, options.all), use_color(), terminal_width()));
   return comparison.exit_code();
 }
 

@@ -18,10 +18,10 @@
 #include "app/terminal/progress.hpp"
 #include "app/verbs/gallery.hpp"
 #include "core/error.hpp"
-#include "harness/report/figures.hpp"
-#include "harness/report/run_report.hpp"
-#include "harness/store/run_folder.hpp"
-#include "harness/store/run_lock.hpp"
+#include "harness/results/figures/figures.hpp"
+#include "harness/results/pages/run_report.hpp"
+#include "harness/runs/store/run_folder.hpp"
+#include "harness/runs/store/run_lock.hpp"
 #include "render/output_style.hpp"
 
 namespace scanbench::app {
@@ -33,13 +33,13 @@ struct FiguresVerbOptions {
   std::string run, out, style = "paper";
   std::vector<std::string> files, only;
   int jobs = 1;
-  harness::FigureOptions figures;
+  results::FigureOptions figures;
   bool pdf = false, no_title = false, quiet = false;
 };
 
 /// The run's own folder always gets SVG and PNG, which its report shows; another folder gets what the user named.
-harness::FigureOptions figure_options(const FiguresVerbOptions& options) {
-  harness::FigureOptions figures = options.figures;
+results::FigureOptions figure_options(const FiguresVerbOptions& options) {
+  results::FigureOptions figures = options.figures;
   const auto add = [&](const std::string& format) {
     if (std::ranges::count(figures.formats, format) == 0) figures.formats.push_back(format);
   };
@@ -51,7 +51,7 @@ harness::FigureOptions figure_options(const FiguresVerbOptions& options) {
   return figures;
 }
 
-void print_drawn(const std::vector<harness::FigureFile>& drawn, const fs::path& folder, const std::string& format,
+void print_drawn(const std::vector<results::FigureFile>& drawn, const fs::path& folder, const std::string& format,
                  bool any_figures) {
   for (const auto& figure : drawn) {
     if (figure.name.empty())
@@ -70,7 +70,7 @@ int gallery(const FiguresVerbOptions& given, const std::vector<std::string>& arg
   if (!given.files.empty() || !given.figures.pipelines.empty() || given.figures.frame)
     throw ConfigError("--with, --pipelines and --frame are for the figures of a run; " + given.run +
                       " is a catalogue, which names them itself");
-  harness::FigureOptions figures = figure_options(given);
+  results::FigureOptions figures = figure_options(given);
   const bool is_shown = std::ranges::any_of(figures.formats, [](const auto& format) { return format != "pdf"; });
   if (!is_shown) figures.formats.emplace_back("png");  // a page cannot show PDF
   GalleryOptions options{.catalogue = given.run,
@@ -89,10 +89,10 @@ int figures(const FiguresVerbOptions& given, const std::vector<std::string>& arg
     throw ConfigError("--only is for the entries of a catalogue; " + given.run + " is a run folder");
   const fs::path run = given.run;
   const auto scenarios = scenarios_for(run, given.files);
-  const harness::FigureOptions options = figure_options(given);
-  harness::check_figure_options(options, scenarios);
-  const harness::RunLock lock(run);
-  harness::refuse_linked_folders(run);
+  const results::FigureOptions options = figure_options(given);
+  results::check_figure_options(options, scenarios);
+  const runs::RunLock lock(run);
+  runs::refuse_linked_folders(run);
   const InterruptGuard guard;
   Progress progress(progress_style(given.quiet));
   const std::string failure = draw_within_limits(run, scenarios, options, progress);
@@ -102,15 +102,15 @@ int figures(const FiguresVerbOptions& given, const std::vector<std::string>& arg
     return kCellsFailed;
   }
   if (given.quiet) return kGood;
-  const fs::path folder = harness::figure_folder(run, options);
-  print_drawn(harness::load_figure_index(folder), folder, options.formats.front(),
+  const fs::path folder = results::figure_folder(run, options);
+  print_drawn(results::load_figure_index(folder), folder, options.formats.front(),
               std::ranges::any_of(scenarios, [](const auto& s) { return !s.figures.empty(); }));
   return kGood;
 }
 
 /// How figures look and which files they become.
 void add_style_options(Verb& verb, FiguresVerbOptions& options) {
-  harness::FigureOptions& figures = options.figures;
+  results::FigureOptions& figures = options.figures;
   verb.option("--format", figures.formats,
               "pictures to write, separated by commas; RUN/figures always has svg and png, a catalogue svg or png")
       .separated_by_commas()

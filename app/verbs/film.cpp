@@ -17,10 +17,10 @@
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "core/registry.hpp"
-#include "harness/film/film_file.hpp"
-#include "harness/store/manifest.hpp"
-#include "harness/store/run_folder.hpp"
-#include "harness/store/run_lock.hpp"
+#include "harness/results/film/film_file.hpp"
+#include "harness/runs/store/manifest.hpp"
+#include "harness/runs/store/run_folder.hpp"
+#include "harness/runs/store/run_lock.hpp"
 #include "render/film.hpp"
 #include "render/output_style.hpp"
 
@@ -31,13 +31,13 @@ namespace fs = std::filesystem;
 
 struct FilmVerbOptions {
   std::string run, style = "paper";
-  harness::FilmOptions film;
+  results::FilmOptions film;
   bool quiet = false;
   bool format_given = false;
 };
 
 /// The ending of --out chooses the format; --format and an ending must agree.
-void choose_format(harness::FilmOptions& film, bool format_given) {
+void choose_format(results::FilmOptions& film, bool format_given) {
   const std::string ending = film.out.extension().string();
   constexpr std::array<std::string_view, 6> kOthers{".avi", ".gif", ".mkv", ".mov", ".png", ".webm"};
   if (std::ranges::count(kOthers, ending) > 0)
@@ -55,22 +55,22 @@ void choose_format(harness::FilmOptions& film, bool format_given) {
 int film(const FilmVerbOptions& given) {
   const fs::path run = given.run;
   check_run_exists(run);
-  harness::FilmOptions options = given.film;
+  results::FilmOptions options = given.film;
   options.theme = render::theme_from(given.style);
   choose_format(options, given.format_given);
   // A film beside the figures of the run is one of its files: the folder is locked, and the manifest lists it.
   const bool is_in_run = options.out.empty();
-  std::optional<harness::RunLock> lock;
+  std::optional<runs::RunLock> lock;
   if (is_in_run) {
     lock.emplace(run);
-    harness::refuse_linked_folders(run);
+    runs::refuse_linked_folders(run);
   }
   const InterruptGuard guard;
   Progress progress(progress_style(given.quiet));
   const auto made =
-      harness::make_film(run, options, [&](double share, const std::string& what) { progress.update(share, what); });
+      results::make_film(run, options, [&](double share, const std::string& what) { progress.update(share, what); });
   progress.finish();
-  if (is_in_run) harness::refresh_manifest(run);
+  if (is_in_run) runs::refresh_manifest(run);
   if (given.quiet) return kGood;
   fmt::print("{} {} frames.\n", made.caption, made.frames);
   for (const auto& file : made.files) fmt::print("{}\n", file.string());
@@ -81,7 +81,7 @@ int film(const FilmVerbOptions& given) {
 
 void add_film(CommandLine& line) {
   auto options = std::make_shared<FilmVerbOptions>();
-  harness::FilmOptions& film_options = options->film;
+  results::FilmOptions& film_options = options->film;
   Verb verb = line.add_verb("film", "Makes a film of a run: a drive, a growing map, mean shift, an alignment");
   verb.option("RUN", options->run, "a run folder").required();
   verb.option("--of", film_options.of,

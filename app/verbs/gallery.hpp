@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/report/figures.hpp"
+#include "harness/results/figures/figures.hpp"
 
 namespace scanbench::app {
 
@@ -15,7 +15,7 @@ struct GalleryOptions {
   std::vector<std::string> only;  ///< entries; empty: all
   int jobs = 1;
   bool quiet = false;
-  harness::FigureOptions figures;
+  results::FigureOptions figures;
   std::vector<std::string> argv;
 };
 

@@ -12,13 +12,13 @@
 #include "app/foreign.hpp"
 #include "app/inputs.hpp"
 #include "app/terminal/progress.hpp"
-#include "harness/gallery/catalogue.hpp"
-#include "harness/page/plain_text.hpp"
-#include "harness/report/catalog.hpp"
-#include "harness/run/make_recording.hpp"
-#include "harness/run/run_plan.hpp"
-#include "harness/scenario/effective.hpp"
-#include "harness/scenario/suite.hpp"
+#include "harness/results/document/plain_text.hpp"
+#include "harness/results/figures/catalog.hpp"
+#include "harness/results/gallery/catalogue.hpp"
+#include "harness/runs/execute/make_recording.hpp"
+#include "harness/runs/execute/run_plan.hpp"
+#include "harness/study/scenario/effective.hpp"
+#include "harness/study/scenario/suite.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -27,14 +27,14 @@ namespace fs = std::filesystem;
 
 /// Text of foreign modules must not control the terminal.
 void print(const std::string& text) {
-  fmt::print("{}", harness::plain_text(text));
+  fmt::print("{}", results::plain_text(text));
 }
 
 /// The scenarios of one file, which have been checked. Those of a suite are named: its conditions.
-void print_good(const std::string& file, const std::vector<harness::Scenario>& scenarios) {
+void print_good(const std::string& file, const std::vector<study::Scenario>& scenarios) {
   std::size_t cells = 0;
   for (const auto& scenario : scenarios) cells += scenario.pipelines.size() * scenario.seeds.size();
-  const bool suite = harness::is_suite(file);
+  const bool suite = study::is_suite(file);
   if (suite) fmt::print("{}: good: {}, {}\n", file, counted(scenarios.size(), "scenario"), counted(cells, "cell"));
   for (const auto& scenario : scenarios) {
     fmt::print("{}: {}{} on {}\n", suite ? "  " + scenario.name : file,
@@ -47,8 +47,8 @@ void print_good(const std::string& file, const std::vector<harness::Scenario>& s
 /// Checks the catalogues of figures and removes them from the list of files.
 void check_catalogues(std::vector<std::string>& files) {
   std::erase_if(files, [](const std::string& file) {
-    if (!fs::is_regular_file(file) || !harness::is_catalogue(file)) return false;
-    const harness::Catalogue catalogue = harness::load_catalogue(file);
+    if (!fs::is_regular_file(file) || !results::is_catalogue(file)) return false;
+    const results::Catalogue catalogue = results::load_catalogue(file);
     fmt::print("{}: good: {} figures and tables of {}\n", file, catalogue.entries.size(),
                counted(catalogue.scenarios.size(), "scenario"));
     return true;
@@ -68,10 +68,10 @@ int check(const CheckOptions& options) {
   const std::vector<std::string> sets = with_foreign(options.sets, options.foreign, false);
   const auto all = load_inputs(files, sets);
   // What run refuses, check refuses too, in the same words.
-  if (!options.for_simulate && !options.effective) harness::plan_run(all, {.out = {}});
+  if (!options.for_simulate && !options.effective) runs::plan_run(all, {.out = {}});
   for (const auto& scenario : all) {
-    harness::check_scenario(scenario);
-    if (options.effective) print(harness::effective_yaml(scenario));
+    runs::check_scenario(scenario);
+    if (options.effective) print(study::effective_yaml(scenario));
   }
   if (options.effective) return kGood;
   for (const auto& file : files) print_good(file, files.size() == 1 ? all : load_inputs({file}, sets));
@@ -84,8 +84,8 @@ struct ListOptions {
 };
 
 int list(const ListOptions& options) {
-  const auto entries = harness::catalog_of_kind(options.kind);
-  print(options.json ? harness::catalog_json(entries) : harness::catalog_text(entries));
+  const auto entries = results::catalog_of_kind(options.kind);
+  print(options.json ? results::catalog_json(entries) : results::catalog_text(entries));
   return kGood;
 }
 
@@ -100,14 +100,14 @@ int describe(const DescribeOptions& options) {
   if (options.name.empty() && !options.all && !is_foreign)
     throw ConfigError("describe needs a name, or --all (`scanbench list` shows the names)");
   const auto entries = is_foreign    ? foreign_entries(options.foreign)
-                       : options.all ? harness::catalog()
-                                     : harness::find_in_catalog(options.name);
+                       : options.all ? results::catalog()
+                                     : results::find_in_catalog(options.name);
   if (options.json) {
-    print(harness::catalog_json(entries));
+    print(results::catalog_json(entries));
   } else if (options.markdown) {
-    print(harness::catalog_markdown(entries));
+    print(results::catalog_markdown(entries));
   } else {
-    for (const auto& entry : entries) print(harness::describe_text(entry) + (&entry == &entries.back() ? "" : "\n"));
+    for (const auto& entry : entries) print(results::describe_text(entry) + (&entry == &entries.back() ? "" : "\n"));
   }
   return kGood;
 }
@@ -115,14 +115,14 @@ int describe(const DescribeOptions& options) {
 /// For completion on the command line.
 std::vector<std::string> kind_words() {
   std::vector<std::string> words{"modules"};
-  for (const auto& entry : harness::catalog())
+  for (const auto& entry : results::catalog())
     if (words.back() != entry.kind) words.push_back(entry.kind);
   return words;
 }
 
 std::vector<std::string> name_words() {
   std::vector<std::string> words;
-  for (const auto& entry : harness::catalog()) words.push_back(entry.info.name);
+  for (const auto& entry : results::catalog()) words.push_back(entry.info.name);
   return words;
 }
 

@@ -15,13 +15,13 @@
 #include "app/terminal/progress.hpp"
 #include "app/terminal/running.hpp"
 #include "core/error.hpp"
-#include "harness/analysis/run_results.hpp"
-#include "harness/nightly/baseline.hpp"
-#include "harness/nightly/night.hpp"
-#include "harness/nightly/night_page.hpp"
-#include "harness/nightly/store.hpp"
-#include "harness/page/plain_text.hpp"
-#include "harness/store/run_scenarios.hpp"
+#include "harness/results/analysis/run_results.hpp"
+#include "harness/results/document/plain_text.hpp"
+#include "harness/results/nightly/baseline.hpp"
+#include "harness/results/nightly/night.hpp"
+#include "harness/results/nightly/night_page.hpp"
+#include "harness/results/nightly/store.hpp"
+#include "harness/runs/store/run_scenarios.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -54,10 +54,10 @@ int nightly(const NightlyOptions& options, const std::vector<std::string>& argv)
     throw ConfigError(fmt::format("nightly: {} files have no common name; --suite must name the suite that they make",
                                   options.files.size()));
   std::string suite;
-  harness::RunOptions run_options;
+  runs::RunOptions run_options;
   auto scenarios = load_inputs(options.files, options.sets, &suite, &run_options.rules);
   if (!options.suite.empty()) suite = options.suite;
-  harness::check_name("suite", suite);
+  io::check_name("suite", suite);
   give_seeds(scenarios, options.seeds);
   run_options.out = options.out.empty() ? fs::path("out/nightly") / suite : fs::path(options.out);
   run_options.jobs = options.jobs;
@@ -65,13 +65,13 @@ int nightly(const NightlyOptions& options, const std::vector<std::string>& argv)
   run_options.argv = argv;
   if (options.baselines != kBaselines && !fs::is_directory(options.baselines))
     throw ConfigError("--baselines: there is no folder " + options.baselines);
-  harness::Store store(options.store);  // a store that cannot be used is said before the night, not after it
-  harness::NightPlan plan{.suite = suite,
+  results::Store store(options.store);  // a store that cannot be used is said before the night, not after it
+  results::NightPlan plan{.suite = suite,
                           .run = run_options.out,
                           .baselines = options.baselines,
                           .baseline = options.baseline,
-                          .gates = harness::Gates(run_options.rules.gates)};
-  harness::check_plan(plan);
+                          .gates = results::Gates(run_options.rules.gates)};
+  results::check_plan(plan);
   const FinishedRun finished =
       run_and_report(scenarios, run_options, {.quiet = options.quiet, .figures = !options.no_figures});
   say(unfinished_text(finished.result, "the same command continues"));
@@ -82,10 +82,10 @@ int nightly(const NightlyOptions& options, const std::vector<std::string>& argv)
   }
   plan.run = finished.result.out;
   plan.reused = static_cast<std::size_t>(
-      std::ranges::count_if(finished.result.cells, [](const harness::CellResult& cell) { return cell.reused; }));
-  const harness::NightOutcome outcome = harness::close_night(plan, std::move(store));
-  if (!options.quiet) fmt::print("{}\n", harness::reuse_text(finished.result.cells.size(), plan.reused));
-  fmt::print("{}\n", harness::plain_line(outcome.sentence, 2000));
+      std::ranges::count_if(finished.result.cells, [](const runs::CellResult& cell) { return cell.reused; }));
+  const results::NightOutcome outcome = results::close_night(plan, std::move(store));
+  if (!options.quiet) fmt::print("{}\n", results::reuse_text(finished.result.cells.size(), plan.reused));
+  fmt::print("{}\n", results::plain_line(outcome.sentence, 2000));
   if (!options.quiet) fmt::print("{}\n", outcome.page.string());
   if (finished.result.exit_code() == kIncomplete) return outcome.exit_code | kIncomplete;
   return outcome.exit_code;
@@ -93,20 +93,20 @@ int nightly(const NightlyOptions& options, const std::vector<std::string>& argv)
 
 int accept(const AcceptOptions& options) {
   check_run_exists(options.runs.front());
-  const harness::RunResults results = harness::load_run_results(options.runs.front());
-  const std::string suite = options.suite.empty() ? harness::suite_of_run(options.runs.front()) : options.suite;
-  const fs::path file = harness::accept_baseline(
-      options.baselines, suite, results, harness::Gates(harness::load_gates(options.runs.front())), options.reason);
+  const results::RunResults results = results::load_run_results(options.runs.front());
+  const std::string suite = options.suite.empty() ? results::suite_of_run(options.runs.front()) : options.suite;
+  const fs::path file = results::accept_baseline(
+      options.baselines, suite, results, results::Gates(runs::load_gates(options.runs.front())), options.reason);
   fmt::print("{}\n", file.string());
   return kGood;
 }
 
 int add_to_store(const StoreOptions& options) {
-  harness::Store store(options.store);
+  results::Store store(options.store);
   for (const auto& run : options.runs) {
     check_run_exists(run);
-    const harness::RunResults results = harness::load_run_results(run);
-    const std::string suite = options.suite.empty() ? harness::suite_of_run(run) : options.suite;
+    const results::RunResults results = results::load_run_results(run);
+    const std::string suite = options.suite.empty() ? results::suite_of_run(run) : options.suite;
     store.replace(suite, run, results);
     fmt::print("{}: {} cells\n", run, results.cells.size());
   }

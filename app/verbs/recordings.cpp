@@ -10,19 +10,19 @@
 #include "app/inputs.hpp"
 #include "app/options.hpp"
 #include "app/terminal/progress.hpp"
-#include "harness/exchange/export.hpp"
-#include "harness/exchange/polygon_files.hpp"
-#include "harness/files/atomic_file.hpp"
-#include "harness/run/make_recording.hpp"
-#include "harness/scenario/effective.hpp"
-#include "harness/store/cell_files.hpp"
-#include "harness/store/manifest.hpp"
-#include "harness/store/recording_folder.hpp"
-#include "harness/store/run_folder.hpp"
-#include "harness/store/run_start.hpp"
-#include "harness/store/run_store.hpp"
-#include "harness/store/run_target.hpp"
-#include "harness/store/stored_files.hpp"
+#include "harness/io/exchange/export.hpp"
+#include "harness/io/exchange/polygon_files.hpp"
+#include "harness/io/files/atomic_file.hpp"
+#include "harness/runs/execute/make_recording.hpp"
+#include "harness/runs/store/cell_files.hpp"
+#include "harness/runs/store/manifest.hpp"
+#include "harness/runs/store/recording_folder.hpp"
+#include "harness/runs/store/run_folder.hpp"
+#include "harness/runs/store/run_start.hpp"
+#include "harness/runs/store/run_store.hpp"
+#include "harness/runs/store/run_target.hpp"
+#include "harness/runs/store/stored_files.hpp"
+#include "harness/study/scenario/effective.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -38,8 +38,8 @@ struct SimulateOptions {
 
 /// Throws ConfigError for the folder of a run with cells: `run` and `simulate` share a default folder.
 void refuse_to_replace_cells(const fs::path& out) {
-  if (!fs::exists(out / harness::kManifestFile)) return;
-  const std::size_t cells = harness::load_manifest(out).cells.size();
+  if (!fs::exists(out / runs::kManifestFile)) return;
+  const std::size_t cells = runs::load_manifest(out).cells.size();
   if (cells > 0)
     throw ConfigError(
         fmt::format("{} contains a run of {}, which simulate would remove; choose another folder (--out), or "
@@ -55,25 +55,25 @@ int simulate(const SimulateOptions& options, const std::vector<std::string>& arg
   refuse_to_replace_cells(out);
   const InterruptGuard guard;
   Progress progress(progress_style(options.quiet));
-  harness::RunTarget target(out, false);
+  runs::RunTarget target(out, false);
   std::vector<std::string> printed;
   std::size_t total = 0;
   for (const auto& scenario : scenarios) total += scenario.seeds.size();
   try {
-    harness::Manifest manifest = harness::start_run(target, {scenarios, {}, argv, {}, harness::effective_yaml});
+    runs::Manifest manifest = runs::start_run(target, {scenarios, {}, argv, {}, study::effective_yaml});
     for (const auto& scenario : scenarios)
       for (const auto seed : scenario.seeds) {
         const std::string what = fmt::format("recording {}/{}", scenario.name, seed);
         const auto report = [&](double share) {
           progress.update((static_cast<double>(printed.size()) + share) / static_cast<double>(total), what);
         };
-        const Recording recording = harness::make_recording(scenario, seed, options.jobs, report);
+        const Recording recording = runs::make_recording(scenario, seed, options.jobs, report);
         const std::string hash =
-            harness::save_recording(harness::recording_path(target.path(), scenario.name, seed), recording);
+            runs::save_recording(runs::recording_path(target.path(), scenario.name, seed), recording);
         printed.push_back(fmt::format("{}  {} scans x {} beams  {}", what, recording.observed.frames.size(),
                                       recording.observed.sensor.geometry.beams(), hash));
       }
-    harness::end_run(target, manifest, "complete");
+    runs::end_run(target, manifest, "complete");
   } catch (...) {
     target.abandon();
     throw;
@@ -92,14 +92,14 @@ constexpr const char* kPolygons = "polygons";
 
 int export_polygons(const ExportOptions& options) {
   const fs::path out = options.out.empty() ? fs::path(options.run) / "export" : fs::path(options.out);
-  const harness::RunStore store(options.run);
+  const runs::RunStore store(options.run);
   for (const auto& key : store.keys()) {
-    const harness::StoredFiles cell = store.files(key);
-    if (!cell.has(harness::kLinesFile)) continue;
-    const std::string text = harness::polygons_csv(harness::load_result(cell).lines);
+    const runs::StoredFiles cell = store.files(key);
+    if (!cell.has(runs::kLinesFile)) continue;
+    const std::string text = io::polygons_csv(runs::load_result(cell).lines);
     const fs::path path = out / fmt::format("{}_{}_{}_polygons.csv", key.scenario, key.pipeline, key.seed);
-    harness::make_folders(out);
-    harness::write_file_atomically(path, text);
+    io::make_folders(out);
+    io::write_file_atomically(path, text);
     fmt::print("{}\n", path.string());
   }
   return kGood;
@@ -107,20 +107,20 @@ int export_polygons(const ExportOptions& options) {
 
 int export_recordings(const ExportOptions& options) {
   if (!fs::exists(options.run)) throw ConfigError(options.run + ": no such folder");
-  const harness::RunStore store(options.run);
+  const runs::RunStore store(options.run);
   const auto recordings = store.recordings();
   if (recordings.empty()) throw ConfigError(options.run + ": not a run folder with recordings");
   const std::string ending = options.format == "carmen" ? ".log" : options.format == "csv" ? ".csv" : ".txt";
   const fs::path out = options.out.empty() ? fs::path(options.run) / "export" : fs::path(options.out);
   for (const auto& [scenario, seed] : recordings) {
-    const Recording recording = harness::load_recording(store.recording(scenario, seed));
+    const Recording recording = runs::load_recording(store.recording(scenario, seed));
     const fs::path path = out / fmt::format("{}_{}{}", scenario, seed, ending);
-    const std::string text = harness::export_text(recording, options.format);
-    harness::make_folders(out);
-    harness::write_file_atomically(path, text);
+    const std::string text = io::export_text(recording, options.format);
+    io::make_folders(out);
+    io::write_file_atomically(path, text);
     fmt::print("{}\n", path.string());
     if (options.format != "tum")
-      for (const auto& [key, value] : harness::import_params(recording, options.format))
+      for (const auto& [key, value] : io::import_params(recording, options.format))
         fmt::print("  {}: {}\n", key, to_text(value));
   }
   return kGood;
@@ -145,7 +145,7 @@ void add_export(CommandLine& line) {
       "Writes a run's recordings as logs that other programs read, and prints the options that read them back; or the "
       "lines of its cells as polygons");
   verb.option("RUN", options->run, "a run folder").required();
-  auto formats = harness::export_formats();
+  auto formats = io::export_formats();
   formats.emplace_back(kPolygons);
   verb.option("--format", options->format, "carmen, csv, tum (poses) or polygons (of every cell)")
       .one_of("format", formats)

@@ -10,17 +10,17 @@
 #include "app/inputs.hpp"
 #include "app/terminal/progress.hpp"
 #include "core/error.hpp"
-#include "harness/files/atomic_file.hpp"
-#include "harness/player/player_page.hpp"
-#include "harness/report/run_report.hpp"
-#include "harness/run/runner.hpp"
-#include "harness/run/score.hpp"
-#include "harness/store/archived_run.hpp"
-#include "harness/store/manifest.hpp"
-#include "harness/store/run_folder.hpp"
-#include "harness/store/run_lock.hpp"
-#include "harness/store/run_scenarios.hpp"
-#include "harness/store/run_store.hpp"
+#include "harness/io/files/atomic_file.hpp"
+#include "harness/results/pages/run_report.hpp"
+#include "harness/results/player/player_page.hpp"
+#include "harness/runs/execute/runner.hpp"
+#include "harness/runs/execute/score.hpp"
+#include "harness/runs/store/archived_run.hpp"
+#include "harness/runs/store/manifest.hpp"
+#include "harness/runs/store/run_folder.hpp"
+#include "harness/runs/store/run_lock.hpp"
+#include "harness/runs/store/run_scenarios.hpp"
+#include "harness/runs/store/run_store.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -29,16 +29,16 @@ namespace fs = std::filesystem;
 
 int score(const fs::path& run, const std::vector<std::string>& files, bool quiet) {
   const auto scenarios = scenarios_for(run, files);
-  const harness::RunLock lock(run);
-  harness::refuse_linked_folders(run);
+  const runs::RunLock lock(run);
+  runs::refuse_linked_folders(run);
   const InterruptGuard guard;
   Progress progress(progress_style(quiet));
-  const std::size_t cells = harness::score_run(
+  const std::size_t cells = runs::score_run(
       run, scenarios, [&](double share, const std::string& what) { progress.update(share, "score " + what); });
   progress.finish();
-  harness::write_reports(run, harness::load_report_input(run, scenarios));
-  if (!quiet) fmt::print("{} scored: {}\n", counted(cells, "cell"), (run / harness::kSummaryFile).string());
-  const harness::RunStore store(run);
+  results::write_reports(run, results::load_report_input(run, scenarios));
+  if (!quiet) fmt::print("{} scored: {}\n", counted(cells, "cell"), (run / runs::kSummaryFile).string());
+  const runs::RunStore store(run);
   const auto planned = store.keys();
   const auto missing = std::ranges::count_if(planned, [&](const auto& key) { return !store.record(key); });
   if (missing == 0) return kGood;
@@ -48,22 +48,22 @@ int score(const fs::path& run, const std::vector<std::string>& files, bool quiet
 
 int report(const fs::path& run, bool scans) {
   const auto scenarios = scenarios_for(run, {});
-  const harness::RunLock lock(run);
-  harness::refuse_linked_folders(run);
-  harness::write_reports(run, harness::load_report_input(run, scenarios));
-  fmt::print("{}\n{}\n", (run / harness::kReportPage).string(), (run / harness::kReportMarkdown).string());
+  const runs::RunLock lock(run);
+  runs::refuse_linked_folders(run);
+  results::write_reports(run, results::load_report_input(run, scenarios));
+  fmt::print("{}\n{}\n", (run / results::kReportPage).string(), (run / results::kReportMarkdown).string());
   if (!scans) return kGood;
-  harness::write_file_atomically(run / harness::kPlayerPage, harness::player_page(run, scenarios));
-  harness::refresh_manifest(run);
-  fmt::print("{}\n", (run / harness::kPlayerPage).string());
+  io::write_file_atomically(run / results::kPlayerPage, results::player_page(run, scenarios));
+  runs::refresh_manifest(run);
+  fmt::print("{}\n", (run / results::kPlayerPage).string());
   return kGood;
 }
 
 /// "room/iepf/7".
-harness::CellKey cell_from(const std::string& text) {
+runs::CellKey cell_from(const std::string& text) {
   const std::size_t second = text.rfind('/'), first = text.find('/');
   const char* end = text.data() + text.size();
-  harness::CellKey key;
+  runs::CellKey key;
   const char* seed = second == std::string::npos ? end : text.data() + second + 1;
   const auto [stop, error] = std::from_chars(seed, end, key.seed);
   if (first == second || seed == end || error != std::errc() || stop != end)
@@ -75,15 +75,14 @@ harness::CellKey cell_from(const std::string& text) {
 
 int unpack(const fs::path& run, const std::vector<std::string>& names, bool quiet) {
   check_run_exists(run);
-  std::vector<harness::CellKey> cells;
+  std::vector<runs::CellKey> cells;
   for (const auto& name : names) cells.push_back(cell_from(name));
-  if (names.empty()) cells = harness::RunStore(run).keys();
-  const harness::RunLock lock(run);
-  harness::refuse_linked_folders(run);
+  if (names.empty()) cells = runs::RunStore(run).keys();
+  const runs::RunLock lock(run);
+  runs::refuse_linked_folders(run);
   const InterruptGuard guard;
   Progress progress(progress_style(quiet));
-  const std::size_t written =
-      harness::unpack_cells(run, cells, [&](double share) { progress.update(share, "unpack"); });
+  const std::size_t written = runs::unpack_cells(run, cells, [&](double share) { progress.update(share, "unpack"); });
   progress.finish();
   if (!quiet) fmt::print("{} unpacked: {}\n", counted(written, "cell"), (run / "cells").string());
   return kGood;

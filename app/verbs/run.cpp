@@ -15,11 +15,11 @@
 #include "app/terminal/running.hpp"
 #include "app/verbs/sweep.hpp"
 #include "core/error.hpp"
-#include "harness/files/json.hpp"
-#include "harness/page/plain_text.hpp"
-#include "harness/report/run_report.hpp"
-#include "harness/run/run_options.hpp"
-#include "harness/store/cell_status.hpp"
+#include "harness/io/files/json.hpp"
+#include "harness/results/document/plain_text.hpp"
+#include "harness/results/pages/run_report.hpp"
+#include "harness/runs/execute/run_options.hpp"
+#include "harness/runs/store/cell_status.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -35,17 +35,17 @@ struct RunVerbOptions {
   bool resume = false, quiet = false, json = false, journal = false, no_figures = false, dry_run = false;
 };
 
-void print_json(const harness::RunResult& result) {
+void print_json(const runs::RunResult& result) {
   auto cells = nlohmann::ordered_json::array();
   for (const auto& cell : result.cells)
     cells.push_back({{"scenario", cell.key.scenario},
                      {"pipeline", cell.key.pipeline},
                      {"seed", cell.key.seed},
                      {"status", cell.done ? to_string(cell.record.outcome.status) : "missing"},
-                     {"message", harness::plain_line(cell.record.outcome.message)},
+                     {"message", results::plain_line(cell.record.outcome.message)},
                      {"reused", cell.reused}});
   const nlohmann::ordered_json json{{"out", result.out.string()}, {"exit_code", result.exit_code()}, {"cells", cells}};
-  fmt::print("{}\n", harness::json_text(json));
+  fmt::print("{}\n", io::json_text(json));
 }
 
 int run(const RunVerbOptions& options, const std::vector<std::string>& argv) {
@@ -53,7 +53,7 @@ int run(const RunVerbOptions& options, const std::vector<std::string>& argv) {
   if (!options.shard.empty()) throw ConfigError("--shard needs --plan SWEEP, the folder of a sweep");
   if (options.files.empty()) throw ConfigError("'run' needs FILE: scenario or suite files");
   std::string name;
-  harness::RunOptions run_options;
+  runs::RunOptions run_options;
   auto scenarios = load_inputs(options.files, with_foreign(options.sets, options.foreign, options.sandbox), &name,
                                &run_options.rules);
   give_seeds(scenarios, options.seeds);
@@ -80,7 +80,7 @@ int run(const RunVerbOptions& options, const std::vector<std::string>& argv) {
     print_json(result);
   } else if (!options.quiet && report) {
     print_tables(*report);
-    fmt::print("{}\n", (result.out / harness::kReportPage).string());
+    fmt::print("{}\n", (result.out / results::kReportPage).string());
   }
   return result.exit_code() == kGood && !figure_failure.empty() ? kCellsFailed : result.exit_code();
 }

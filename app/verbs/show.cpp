@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "harness/files/atomic_file.hpp"
-#include "harness/report/shown_scan.hpp"
-#include "harness/store/manifest.hpp"
-#include "harness/store/run_folder.hpp"
-#include "harness/store/run_lock.hpp"
+#include "harness/io/files/atomic_file.hpp"
+#include "harness/results/figures/shown_scan.hpp"
+#include "harness/runs/store/manifest.hpp"
+#include "harness/runs/store/run_folder.hpp"
+#include "harness/runs/store/run_lock.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -21,27 +21,27 @@ namespace fs = std::filesystem;
 
 struct ShowOptions {
   std::string run, out;
-  harness::ScanChoice choice;
+  results::ScanChoice choice;
 };
 
 /// A picture beside the figures of the run is one of its files: the folder is locked, and the manifest lists it.
-fs::path keep_in_run(const fs::path& run, const harness::ShownScan& shown) {
-  const harness::RunLock lock(run);
-  harness::refuse_linked_folders(run);
+fs::path keep_in_run(const fs::path& run, const results::ShownScan& shown) {
+  const runs::RunLock lock(run);
+  runs::refuse_linked_folders(run);
   const fs::path path = run / "figures" / (shown.name + ".png");
-  harness::make_folders(path.parent_path());
-  harness::write_file_atomically(path, harness::picture_bytes(shown.scene, path));
-  harness::refresh_manifest(run);
+  io::make_folders(path.parent_path());
+  io::write_file_atomically(path, results::picture_bytes(shown.scene, path));
+  runs::refresh_manifest(run);
   return path;
 }
 
 int show(const ShowOptions& options) {
-  const harness::ShownScan shown = harness::show_scan(options.run, options.choice);
+  const results::ShownScan shown = results::show_scan(options.run, options.choice);
   fs::path path = options.out;
   if (path.empty())
     path = keep_in_run(options.run, shown);
   else
-    harness::write_file_atomically(path, harness::picture_bytes(shown.scene, path));
+    io::write_file_atomically(path, results::picture_bytes(shown.scene, path));
   fmt::print("{}\n{}\n", shown.text, path.string());
   return kGood;
 }
@@ -50,7 +50,7 @@ int show(const ShowOptions& options) {
 
 void add_show(CommandLine& line) {
   auto options = std::make_shared<ShowOptions>();
-  harness::ScanChoice& choice = options->choice;
+  results::ScanChoice& choice = options->choice;
   Verb verb = line.add_verb("show", "Draws one scan of a run with the lines that a pipeline found in it");
   verb.option("RUN", options->run, "a run folder").required();
   verb.option("--pipeline", choice.pipeline, "whose lines (not needed if the run has one pipeline)");

@@ -19,20 +19,20 @@
 #include "app/terminal/progress.hpp"
 #include "app/terminal/running.hpp"
 #include "core/error.hpp"
-#include "harness/files/atomic_file.hpp"
-#include "harness/files/descriptor.hpp"
-#include "harness/files/json.hpp"
-#include "harness/page/plain_text.hpp"
-#include "harness/process/child.hpp"
-#include "harness/process/pipe.hpp"
-#include "harness/report/run_report.hpp"
-#include "harness/store/cell_status.hpp"
-#include "harness/store/summary.hpp"
-#include "harness/sweep/shard.hpp"
-#include "harness/sweep/slurm.hpp"
-#include "harness/sweep/sweep_merge.hpp"
-#include "harness/sweep/sweep_plan.hpp"
-#include "harness/sweep/sweep_status.hpp"
+#include "harness/io/files/atomic_file.hpp"
+#include "harness/io/files/descriptor.hpp"
+#include "harness/io/files/json.hpp"
+#include "harness/io/process/child.hpp"
+#include "harness/io/process/pipe.hpp"
+#include "harness/results/document/plain_text.hpp"
+#include "harness/results/pages/run_report.hpp"
+#include "harness/runs/store/cell_status.hpp"
+#include "harness/runs/store/summary.hpp"
+#include "harness/runs/sweep/shard.hpp"
+#include "harness/runs/sweep/slurm.hpp"
+#include "harness/runs/sweep/sweep_merge.hpp"
+#include "harness/runs/sweep/sweep_plan.hpp"
+#include "harness/runs/sweep/sweep_status.hpp"
 
 namespace scanbench::app {
 namespace {
@@ -42,29 +42,29 @@ namespace fs = std::filesystem;
 struct SweepVerbOptions {
   std::vector<std::string> files, sets, seeds, sbatch;
   std::string sweep, out, cells;
-  int shards = harness::kShardsUnlessGiven, jobs = 1;
+  int shards = runs::kShardsUnlessGiven, jobs = 1;
   bool quiet = false, json = false, numbers = false, journal = false, no_figures = false, dry_run = false;
 };
 
-harness::SweepPlan load(const std::string& sweep) {
+runs::SweepPlan load(const std::string& sweep) {
   check_run_exists(sweep);
-  return harness::load_sweep(sweep);
+  return runs::load_sweep(sweep);
 }
 
-fs::path run_folder(const SweepVerbOptions& options, const harness::SweepPlan& plan) {
+fs::path run_folder(const SweepVerbOptions& options, const runs::SweepPlan& plan) {
   return options.out.empty() ? fs::path("out") / plan.name : fs::path(options.out);
 }
 
 int plan(const SweepVerbOptions& options, const std::vector<std::string>& argv) {
-  harness::SweepOptions sweep{.out = fs::path(options.out).lexically_normal(), .name = ""};
+  runs::SweepOptions sweep{.out = fs::path(options.out).lexically_normal(), .name = ""};
   auto scenarios = load_inputs(options.files, options.sets, &sweep.name, &sweep.rules);
   give_seeds(scenarios, options.seeds);
   sweep.shards = options.shards;
   sweep.journal = options.journal;
   sweep.argv = argv;
-  const harness::SweepPlan plan = harness::plan_sweep(scenarios, sweep);
+  const runs::SweepPlan plan = runs::plan_sweep(scenarios, sweep);
   if (options.quiet) return kGood;
-  const harness::SweepStatus status = harness::sweep_status(plan);
+  const runs::SweepStatus status = runs::sweep_status(plan);
   fmt::print("{}: {} in {}", options.out, counted(plan.cells.size(), "cell"),
              counted(static_cast<std::size_t>(plan.shards), "shard"));
   if (status.missing < status.cells) fmt::print("; {} committed already", status.cells - status.missing);
@@ -72,16 +72,16 @@ int plan(const SweepVerbOptions& options, const std::vector<std::string>& argv) 
   return kGood;
 }
 
-void note_damage(const harness::SweepStatus& status) {
+void note_damage(const runs::SweepStatus& status) {
   for (const auto& [name, fault] : status.damaged)
-    say(fmt::format("note: {}; its cells count as missing\n", harness::plain_line(fault)));
+    say(fmt::format("note: {}; its cells count as missing\n", results::plain_line(fault)));
 }
 
-int exit_code(const harness::SweepStatus& status) {
+int exit_code(const runs::SweepStatus& status) {
   return status.missing > 0 ? kIncomplete : status.failed > 0 ? kCellsFailed : kGood;
 }
 
-void print_json(const harness::SweepPlan& plan, const harness::SweepStatus& status) {
+void print_json(const runs::SweepPlan& plan, const runs::SweepStatus& status) {
   nlohmann::ordered_json damaged = nlohmann::ordered_json::array();
   for (const auto& [name, fault] : status.damaged) damaged.push_back({{"shard", name}, {"fault", fault}});
   const nlohmann::ordered_json json{{"cells", status.cells},
@@ -90,16 +90,16 @@ void print_json(const harness::SweepPlan& plan, const harness::SweepStatus& stat
                                     {"missing", status.missing},
                                     {"shards", plan.shards},
                                     {"missing_shards", status.missing_shards},
-                                    {"array", harness::array_text(status.missing_shards)},
+                                    {"array", runs::array_text(status.missing_shards)},
                                     {"lost", status.lost},
                                     {"damaged", damaged},
                                     {"unfinished", status.unfinished}};
-  fmt::print("{}\n", harness::json_text(json));
+  fmt::print("{}\n", io::json_text(json));
 }
 
 int status(const SweepVerbOptions& options) {
-  const harness::SweepPlan plan = load(options.sweep);
-  const harness::SweepStatus status = harness::sweep_status(plan);
+  const runs::SweepPlan plan = load(options.sweep);
+  const runs::SweepStatus status = runs::sweep_status(plan);
   note_damage(status);
   if (options.json) {
     print_json(plan, status);
@@ -110,7 +110,7 @@ int status(const SweepVerbOptions& options) {
                status.missing);
     if (!status.missing_shards.empty())
       fmt::print("missing shards: {} of {}: {}\n", status.missing_shards.size(), plan.shards,
-                 harness::array_text(status.missing_shards));
+                 runs::array_text(status.missing_shards));
     if (status.lost > 0)
       fmt::print("{} committed before the sweep was planned and missing now: plan it again\n",
                  counted(status.lost, "cell"));
@@ -119,12 +119,12 @@ int status(const SweepVerbOptions& options) {
   return exit_code(status);
 }
 
-int report_missing(const std::string& sweep, const harness::MissingCells& missing) {
-  for (const auto& note : missing.notes) say(fmt::format("note: {}\n", harness::plain_line(note)));
+int report_missing(const std::string& sweep, const runs::MissingCells& missing) {
+  for (const auto& note : missing.notes) say(fmt::format("note: {}\n", results::plain_line(note)));
   say(fmt::format("scanbench: {} of {} {} missing; nothing has been written\n", counted(missing.count, "cell"), sweep,
                   missing.count == 1 ? "is" : "are"));
   if (!missing.shards.empty())
-    say(fmt::format("scanbench: run these shards again: {}\n", harness::array_text(missing.shards)));
+    say(fmt::format("scanbench: run these shards again: {}\n", runs::array_text(missing.shards)));
   if (missing.lost > 0)
     say(fmt::format("scanbench: {} no shard; plan the sweep again\n",
                     missing.lost == 1 ? "1 cell has" : fmt::format("{} cells have", missing.lost)));
@@ -135,16 +135,16 @@ int report_missing(const std::string& sweep, const harness::MissingCells& missin
 constexpr std::size_t kMostReportedCells = 10000;
 
 int merge(const SweepVerbOptions& options, const std::vector<std::string>& argv) {
-  const harness::SweepPlan plan = load(options.sweep);
-  harness::RunOptions run;
+  const runs::SweepPlan plan = load(options.sweep);
+  runs::RunOptions run;
   run.out = run_folder(options, plan);
   run.argv = argv;
-  std::optional<harness::MissingCells> missing;
-  const harness::CellForm form = options.cells == "files"      ? harness::CellForm::files
-                                 : options.cells == "archives" ? harness::CellForm::archives
-                                                               : harness::CellForm::automatic;
-  const auto make = [&](const harness::RunOptions& ready) {
-    harness::MergeResult merged = harness::merge_sweep(plan, ready, form);
+  std::optional<runs::MissingCells> missing;
+  const runs::CellForm form = options.cells == "files"      ? runs::CellForm::files
+                              : options.cells == "archives" ? runs::CellForm::archives
+                                                            : runs::CellForm::automatic;
+  const auto make = [&](const runs::RunOptions& ready) {
+    runs::MergedSweep merged = runs::merge_sweep(plan, ready, form);
     missing = std::move(merged.missing);
     return std::move(merged.run);
   };
@@ -157,11 +157,11 @@ int merge(const SweepVerbOptions& options, const std::vector<std::string>& argv)
   if (!options.quiet && report) {
     note_absent_figures(*report);
     print_tables(*report);
-    fmt::print("{}\n", (result.out / harness::kReportPage).string());
+    fmt::print("{}\n", (result.out / results::kReportPage).string());
   }
   if (!options.quiet && !has_report)
     fmt::print("{}: {}; `scanbench figures {}` draws its figures, `scanbench report {}` writes its report\n",
-               (result.out / harness::kSummaryFile).string(), counted(plan.cells.size(), "cell"), result.out.string(),
+               (result.out / runs::kSummaryFile).string(), counted(plan.cells.size(), "cell"), result.out.string(),
                result.out.string());
   return result.exit_code() == kGood && !figure_failure.empty() ? kCellsFailed : result.exit_code();
 }
@@ -171,10 +171,10 @@ constexpr std::size_t kMostPrinted = 1 << 16;  // bytes kept of what sbatch prin
 /// Runs a program and returns what it prints. Throws ConfigError if it cannot be started or fails.
 std::string output_of(const std::vector<std::string>& command) {
   try {
-    harness::Pipe printed = harness::make_pipe();
-    harness::Child child = harness::start_program(
-        command, {.input = harness::kInherited, .output = printed.write_end.number(), .dies_with_parent = false});
-    harness::PipeReader text(std::move(printed.read_end), kMostPrinted);
+    io::Pipe printed = io::make_pipe();
+    io::Child child = io::start_program(
+        command, {.input = io::kInherited, .output = printed.write_end.number(), .dies_with_parent = false});
+    io::PipeReader text(std::move(printed.read_end), kMostPrinted);
     child.wait(std::numeric_limits<double>::infinity(), {&text});
     if (!child.reap().is_success()) throw ConfigError(fmt::format("{} failed", fmt::join(command, " ")));
     return text.bytes();
@@ -199,36 +199,36 @@ std::vector<std::string> sbatch(const SweepVerbOptions& options, const std::stri
 
 std::string command_text(const std::vector<std::string>& command) {
   std::vector<std::string> words;
-  for (const auto& word : command) words.push_back(harness::shell_word(word));
+  for (const auto& word : command) words.push_back(runs::shell_word(word));
   return fmt::format("{}", fmt::join(words, " "));
 }
 
 int submit(const SweepVerbOptions& options) {
-  const harness::SweepPlan plan = load(options.sweep);
-  harness::require_this_program(plan);
-  const harness::SweepStatus status = harness::sweep_status(plan);
+  const runs::SweepPlan plan = load(options.sweep);
+  runs::require_this_program(plan);
+  const runs::SweepStatus status = runs::sweep_status(plan);
   note_damage(status);
   if (status.lost > 0)
     throw ConfigError(options.sweep + " has missing cells without a shard; plan it again, then submit");
   if (status.missing_shards.empty())
     throw ConfigError(options.sweep + " has no missing cells; `scanbench merge " + options.sweep + "` makes the run");
-  const auto scripts = harness::slurm_scripts(
+  const auto scripts = runs::slurm_scripts(
       plan, {.program = fs::read_symlink("/proc/self/exe"), .run = run_folder(options, plan), .jobs = options.jobs});
-  const fs::path folder = harness::slurm_folder(options.sweep);
-  const auto array = sbatch(options, "--array=" + harness::array_text(status.missing_shards), folder / "array.sh");
+  const fs::path folder = runs::slurm_folder(options.sweep);
+  const auto array = sbatch(options, "--array=" + runs::array_text(status.missing_shards), folder / "array.sh");
   if (options.dry_run) {
     fmt::print("# {}\n{}\n# {}\n{}\n{}\n{}\n", (folder / "array.sh").string(), scripts.array,
                (folder / "merge.sh").string(), scripts.merge, command_text(array),
                command_text(sbatch(options, "--dependency=afterany:ARRAY_JOB", folder / "merge.sh")));
     return kGood;
   }
-  harness::make_folders(folder);
-  harness::write_file_atomically(folder / "array.sh", scripts.array);
-  harness::write_file_atomically(folder / "merge.sh", scripts.merge);
+  io::make_folders(folder);
+  io::write_file_atomically(folder / "array.sh", scripts.array);
+  io::write_file_atomically(folder / "merge.sh", scripts.merge);
   const std::string first = job_number(output_of(array));
   const std::string second =
       job_number(output_of(sbatch(options, "--dependency=afterany:" + first, folder / "merge.sh")));
-  fmt::print("job {}: shards {}; job {}: merge into {}\n", first, harness::array_text(status.missing_shards), second,
+  fmt::print("job {}: shards {}; job {}: merge into {}\n", first, runs::array_text(status.missing_shards), second,
              run_folder(options, plan).string());
   return kGood;
 }
@@ -239,7 +239,7 @@ void add_plan(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& option
   verb.option("FILE", options->files, "scenario or suite files").required();
   verb.option("-o,--out", options->out, "the folder of the sweep").required();
   verb.option("--shards", options->shards, "most shards; a recording is never divided")
-      .whole_number("number of shards", 1, harness::kMostShards)
+      .whole_number("number of shards", 1, runs::kMostShards)
       .shows_default();
   add_seed_option(verb, options->seeds);
   add_set_option(verb, options->sets);
@@ -264,7 +264,7 @@ void add_merge(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& optio
   verb.option("--cells", options->cells,
               fmt::format("how the run keeps the files of its cells: files, or archives, from which `scanbench "
                           "unpack` takes them (default: files up to {} cells)",
-                          harness::kMostCellsAsFiles))
+                          runs::kMostCellsAsFiles))
       .one_of("form", {"files", "archives"});
   verb.flag("-q,--quiet", options->quiet, "print only errors");
   verb.runs([&line, options] { return merge(*options, line.argv()); });
@@ -286,18 +286,18 @@ void add_submit(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& opti
 
 int run_shard_of(const fs::path& sweep, const std::string& shard, int jobs, bool quiet) {
   check_run_exists(sweep);
-  const int number = harness::shard_number(shard);
+  const int number = runs::shard_number(shard);
   Progress progress(progress_style(quiet));
   FaultNotes faults;
-  harness::ShardOptions options{.shard = number, .jobs = jobs};
-  options.progress = [&](const harness::RunProgress& now) {
-    if (now.cell != nullptr && now.cell->record.outcome.status != harness::CellStatus::ok) {
+  runs::ShardOptions options{.shard = number, .jobs = jobs};
+  options.progress = [&](const runs::RunProgress& now) {
+    if (now.cell != nullptr && now.cell->record.outcome.status != runs::CellStatus::ok) {
       progress.failure();
       if (const std::string note = faults.note(*now.cell); !note.empty()) progress.note(note);
     }
     progress.update(now.total > 0 ? static_cast<double>(now.done) / static_cast<double>(now.total) : 0.0, now.what);
   };
-  const harness::ShardResult result = harness::run_shard(sweep, options);
+  const runs::ShardResult result = runs::run_shard(sweep, options);
   for (const auto& line : faults.repeated()) progress.note(line);
   progress.finish();
   if (quiet) say(failed_text(result.cells));

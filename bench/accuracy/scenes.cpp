@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/rng.hpp"
-#include "harness/scenario/world_file.hpp"
+#include "harness/study/scenario/world_file.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulate.hpp"
@@ -125,7 +125,7 @@ std::vector<Recording> recordings(const Scene& scene, double sigma_m, std::uint6
     sim::SimulationInput input;
     if (!scene.file.empty())
       input.world =
-          harness::load_world(std::filesystem::path(SCANBENCH_SOURCE_DIR) / "scenarios/worlds" / scene.file).world;
+          study::load_world(std::filesystem::path(SCANBENCH_SOURCE_DIR) / "scenarios/worlds" / scene.file).world;
     else
       input.world = scene.random_rooms ? random_room(rng) : l_shaped_room();
     input.sensor = sim::make_sensor("ladar_2d30", {{"sigma_m", sigma_m}});

@@ -38,7 +38,7 @@ class Difference : public Figure {
     scene.title = input.title + ": found lines and true walls";
     std::vector<Segment> walls = true_walls_of(input);
     for (const NamedResult* named : shown) scene.panels.push_back(panel_of(*named, walls, shown.size()));
-    const LineDifference& first = *shown.front()->difference;
+    const PixelDifference& first = *shown.front()->difference;
     scene.legend = {{.text = "found and true", .stroke = kRightStroke},
                     {.text = "missed", .stroke = kMissedStroke},
                     {.text = "false", .stroke = kWrongStroke}};
@@ -60,7 +60,7 @@ class Difference : public Figure {
   }
 
   static Panel panel_of(const NamedResult& named, const std::vector<Segment>& walls, std::size_t panels) {
-    const LineDifference& d = *named.difference;
+    const PixelDifference& d = *named.difference;
     Panel panel{.title = fmt::format("{}: {} true, {} missed, {} false", named.pipeline, d.right_pixels,
                                      d.missed_pixels, d.wrong_pixels),
                 .tell_outside = "line"};

@@ -86,7 +86,7 @@ class Environment : public Figure {
 
   static void add_distractors(const FigureInput& input, Panel& panel, Scene& scene) {
     const Stroke round{kWallColor, 0.8, Dash::solid}, moving{kGrey, 0.8, Dash::dashed};
-    for (const Circle& thing : input.circles) {
+    for (const RoundObject& thing : input.circles) {
       Polyline circle{.stroke = round, .closed = true};
       for (int k = 0; k < 48; ++k) {
         const double angle = 2 * kPi * k / 48;
@@ -104,7 +104,7 @@ class Environment : public Figure {
     std::vector<Vec2> world = ends_of(true_walls(input.recording, Pose2()));
     for (const Pose2& pose : placed.world_from_sensor) world.push_back(pose.translation());
     for (const auto& [name, point] : input.waypoints) world.push_back(point);
-    for (const Circle& thing : input.circles)
+    for (const RoundObject& thing : input.circles)
       for (const Vec2& corner : {Vec2(thing.radius_m, thing.radius_m), Vec2(-thing.radius_m, -thing.radius_m)})
         world.emplace_back(thing.center + corner);
     for (const std::vector<Vec2>& path : input.body_paths) world.insert(world.end(), path.begin(), path.end());

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/nightly/store.hpp"
+#include "harness/results/nightly/store.hpp"
 #include "tests/app/killed.hpp"
 
 namespace scanbench::app_test {
@@ -126,7 +126,7 @@ TEST_F(Crash, ANightIsStoredOnce) {
   });
   const auto check = [&](const Folder& folder) {
     must(run(night, {}, folder.path()));
-    const auto nights = harness::Store(folder / "nights.sqlite").nights("room");
+    const auto nights = results::Store(folder / "nights.sqlite").nights("room");
     EXPECT_EQ(nights.size(), 2u);
     for (const auto& stored : nights) EXPECT_EQ(stored.verdict, "PASS");
     EXPECT_THAT(half_written(folder.path()), IsEmpty());

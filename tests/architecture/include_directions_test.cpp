@@ -23,41 +23,78 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"algorithms", {"core"}},
     {"metrics", {"core"}},
     {"render", {"core"}},
-    {"harness/files", {"core"}},
-    {"harness/yaml", {"core", "harness/files"}},
-    {"harness/conform", {"core"}},
-    {"harness/process", {"core", "harness/files"}},
-    {"harness/foreign", {"core", "harness/files", "harness/process"}},
-    {"harness/exchange", {"core", "sim", "harness/files"}},
-    {"harness/catalog", {"core", "sim", "metrics", "render", "harness/files", "harness/foreign"}},
-    {"harness/scenario",
-     {"core", "sim", "metrics", "render", "harness/files", "harness/yaml", "harness/exchange", "harness/foreign",
-      "harness/catalog"}},
-    {"harness/store", {"core", "metrics", "harness/files", "harness/foreign", "harness/catalog", "harness/scenario"}},
-    {"harness/run",
-     {"core", "sim", "metrics", "harness/files", "harness/process", "harness/exchange", "harness/foreign",
-      "harness/catalog", "harness/scenario", "harness/store"}},
-    {"harness/sweep", {"core", "harness/files", "harness/scenario", "harness/store", "harness/run"}},
-    {"harness/analysis", {"core", "metrics", "harness/files", "harness/scenario", "harness/store"}},
-    {"harness/page", {"core", "harness/files"}},
-    {"harness/report",
-     {"core", "sim", "metrics", "render", "harness/files", "harness/catalog", "harness/scenario", "harness/store",
-      "harness/analysis", "harness/page"}},
-    {"harness/nightly",
-     {"core", "metrics", "harness/files", "harness/scenario", "harness/store", "harness/analysis", "harness/page",
-      "harness/report"}},
-    {"harness/player",
-     {"core", "render", "harness/files", "harness/scenario", "harness/store", "harness/page", "harness/report"}},
-    {"harness/gallery",
-     {"core", "render", "harness/files", "harness/yaml", "harness/scenario", "harness/store", "harness/analysis",
-      "harness/page", "harness/report"}},
-    {"harness/film",
-     {"core", "render", "harness/files", "harness/process", "harness/scenario", "harness/store", "harness/page",
-      "harness/report"}},
+    {"harness/io/files", {"core"}},
+    {"harness/io/yaml", {"core", "harness/io/files"}},
+    {"harness/study/conform", {"core"}},
+    {"harness/io/process", {"core", "harness/io/files"}},
+    {"harness/study/foreign", {"core", "harness/io/files", "harness/io/process"}},
+    {"harness/io/exchange", {"core", "harness/io/files"}},
+    {"harness/study/catalog", {"core", "sim", "metrics", "render", "harness/io/files", "harness/study/foreign"}},
+    {"harness/study/scenario",
+     {"core", "sim", "metrics", "render", "harness/io/files", "harness/io/yaml", "harness/study/foreign",
+      "harness/io/exchange", "harness/study/catalog"}},
+    {"harness/runs/store",
+     {"core", "metrics", "harness/io/files", "harness/study/foreign", "harness/study/catalog",
+      "harness/study/scenario"}},
+    {"harness/runs/execute",
+     {"core", "sim", "metrics", "harness/io/files", "harness/io/process", "harness/study/foreign",
+      "harness/io/exchange", "harness/study/catalog", "harness/study/scenario", "harness/runs/store"}},
+    {"harness/runs/sweep",
+     {"core", "harness/io/files", "harness/study/scenario", "harness/runs/store", "harness/runs/execute"}},
+    {"harness/results/analysis",
+     {"core", "metrics", "harness/io/files", "harness/study/scenario", "harness/runs/store"}},
+    {"harness/results/document", {"core", "harness/io/files"}},
+    {"harness/results/figures",
+     {"core", "sim", "metrics", "render", "harness/io/files", "harness/study/catalog", "harness/study/scenario",
+      "harness/runs/store", "harness/results/analysis", "harness/results/document"}},
+    {"harness/results/tables",
+     {"core", "metrics", "harness/study/scenario", "harness/runs/store", "harness/results/analysis",
+      "harness/results/document"}},
+    {"harness/results/pages",
+     {"core", "metrics", "harness/io/files", "harness/study/catalog", "harness/study/scenario", "harness/runs/store",
+      "harness/results/analysis", "harness/results/document", "harness/results/figures", "harness/results/tables"}},
+    {"harness/results/nightly",
+     {"core", "metrics", "harness/io/files", "harness/study/scenario", "harness/runs/store", "harness/results/analysis",
+      "harness/results/document", "harness/results/figures", "harness/results/tables", "harness/results/pages"}},
+    {"harness/results/player",
+     {"core", "render", "harness/io/files", "harness/study/scenario", "harness/runs/store", "harness/results/document",
+      "harness/results/figures"}},
+    {"harness/results/gallery",
+     {"core", "render", "harness/io/files", "harness/io/yaml", "harness/study/scenario", "harness/runs/store",
+      "harness/results/analysis", "harness/results/document", "harness/results/figures", "harness/results/tables"}},
+    {"harness/results/film",
+     {"core", "render", "harness/io/files", "harness/io/process", "harness/study/scenario", "harness/runs/store",
+      "harness/results/document", "harness/results/figures"}},
     {"app",
-     {"core", "harness/conform", "render", "harness/files", "harness/process", "harness/exchange", "harness/foreign",
-      "harness/catalog", "harness/scenario", "harness/store", "harness/run", "harness/sweep", "harness/analysis",
-      "harness/page", "harness/report", "harness/nightly", "harness/player", "harness/gallery", "harness/film"}},
+     {"core",
+      "render",
+      "harness/io/files",
+      "harness/study/conform",
+      "harness/io/process",
+      "harness/study/foreign",
+      "harness/io/exchange",
+      "harness/study/catalog",
+      "harness/study/scenario",
+      "harness/runs/store",
+      "harness/runs/execute",
+      "harness/runs/sweep",
+      "harness/results/analysis",
+      "harness/results/document",
+      "harness/results/figures",
+      "harness/results/pages",
+      "harness/results/nightly",
+      "harness/results/player",
+      "harness/results/gallery",
+      "harness/results/film"}},
+};
+
+/// A row per wing of harness/: the top folders and the wings that its files may include, in addition to their own. The
+/// namespace of a wing has its name.
+const std::map<std::string, std::set<std::string>> kWings = {
+    {"io", {"core"}},
+    {"study", {"core", "sim", "metrics", "render", "io"}},
+    {"runs", {"core", "sim", "metrics", "io", "study"}},
+    {"results", {"core", "sim", "metrics", "render", "io", "study", "runs"}},
 };
 
 // Headers of a library that only one folder, or one file, may name.
@@ -66,9 +103,9 @@ const std::map<std::string, std::string> kOwned = {
     {"GL/", "render"},
     {"cairo", "render"},
     {"CLI/", "app/options.cpp"},
-    {"yaml-cpp/", "harness/yaml"},
-    {"openssl/", "harness/files"},
-    {"sqlite3", "harness/nightly"},
+    {"yaml-cpp/", "harness/io/yaml"},
+    {"openssl/", "harness/io/files"},
+    {"sqlite3", "harness/results/nightly"},
     {"Random123/", "core"},
     {"boost/", "core"},
     {"thread", "sim"},  // .ci/tsan runs the tests of sim only
@@ -108,6 +145,42 @@ TEST(Architecture, FoldersIncludeOnlyWhatIsBelowThem) {
     });
   }
   EXPECT_GT(seen, 500) << "the test no longer finds the project's includes";
+}
+
+TEST(Architecture, WingsIncludeOnlyWhatIsBelowThem) {
+  std::set<std::string> wings;
+  for (const auto& entry : fs::directory_iterator(scanbench::places::source_dir() / "harness"))
+    wings.insert(entry.path().filename().string());
+  for (const auto& wing : wings) EXPECT_TRUE(kWings.contains(wing)) << wing;
+  for (const auto& [wing, allowed] : kWings) {
+    int seen = 0;
+    for_each_include("harness/" + wing, [&](const std::string& file, const std::string& header) {
+      if (row_of(header).empty()) return;
+      ++seen;
+      const fs::path path = header;
+      const auto top = path.begin();
+      const std::string room = *top == "harness" ? std::next(top)->string() : top->string();
+      EXPECT_TRUE(room == wing || allowed.contains(room)) << file << " includes " << header;
+    });
+    EXPECT_GT(seen, 50) << wing;
+  }
+}
+
+TEST(Architecture, FilesAreInTheNamespaceOfTheirWing) {
+  const std::regex opened(R"(^namespace scanbench::(\w+))");
+  for (const auto& [wing, allowed] : kWings)
+    for (const auto& entry : fs::recursive_directory_iterator(scanbench::places::source_dir() / "harness" / wing)) {
+      if (!entry.is_regular_file()) continue;
+      std::ifstream file(entry.path());
+      std::smatch match;
+      int seen = 0;
+      for (std::string line; std::getline(file, line);)
+        if (std::regex_search(line, match, opened)) {
+          ++seen;
+          EXPECT_EQ(match[1].str(), wing) << entry.path();
+        }
+      EXPECT_GT(seen, 0) << entry.path();
+    }
 }
 
 TEST(Architecture, EverySourceIsInAFolderOfTheTable) {
@@ -222,7 +295,7 @@ TEST(Architecture, JsonIsPrintedAndParsedInOneUnit) {
       if ((ending != ".cpp" && ending != ".hpp") || allowed_files.contains(entry.path().filename().string())) continue;
       std::ifstream file(entry.path());
       const std::string text((std::istreambuf_iterator<char>(file)), {});
-      EXPECT_FALSE(std::regex_search(text, costly)) << entry.path() << ": use harness/files/json.hpp";
+      EXPECT_FALSE(std::regex_search(text, costly)) << entry.path() << ": use harness/io/files/json.hpp";
     }
   }
 }

@@ -7,7 +7,7 @@
 
 #include "core/modules.hpp"
 #include "core/registry.hpp"
-#include "harness/conform/extractor_checks.hpp"
+#include "harness/study/conform/extractor_checks.hpp"
 
 namespace scanbench {
 namespace {
@@ -23,9 +23,9 @@ class ExtractorConformance : public ::testing::TestWithParam<std::string> {
   void pass(const std::string& name) const {
     if (const auto found = kByDesign.find({GetParam(), name}); found != kByDesign.end()) GTEST_SKIP() << found->second;
     const auto& entry = *Registry<LineExtractor>::find(GetParam());
-    for (const auto& check : conform::extractor_checks()) {
+    for (const auto& check : study::conform::extractor_checks()) {
       if (check.name != name) continue;
-      conform::Findings findings;
+      study::conform::Findings findings;
       check.run({entry.params, entry.make}, findings);
       for (const auto& fault : findings.faults()) ADD_FAILURE() << fault;
       return;
@@ -60,7 +60,7 @@ SCANBENCH_CHECK(EveryParameterAtItsEndsGivesAConsistentAnswer)
 #undef SCANBENCH_CHECK
 
 TEST(ExtractorChecks, AreAllRunHere) {
-  EXPECT_EQ(conform::extractor_checks().size(), 15u);
+  EXPECT_EQ(study::conform::extractor_checks().size(), 15u);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/special_values.hpp"
-#include "harness/conform/mapper_checks.hpp"
+#include "harness/study/conform/mapper_checks.hpp"
 #include "tests/support/aligning.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/scan_builder.hpp"
@@ -99,9 +99,9 @@ double covered(const LineMap& map, double near) {
 
 TEST_P(MapperConformance, TheChecksOfConformArePassed) {
   const auto& entry = *Registry<Mapper>::find(GetParam());
-  for (const auto& check : conform::mapper_checks()) {
+  for (const auto& check : study::conform::mapper_checks()) {
     SCOPED_TRACE(check.name);
-    conform::Findings findings;
+    study::conform::Findings findings;
     check.run({entry.params, entry.make}, findings);
     for (const auto& fault : findings.faults()) ADD_FAILURE() << fault;
   }

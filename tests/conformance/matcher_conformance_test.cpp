@@ -7,7 +7,7 @@
 
 #include "core/modules.hpp"
 #include "core/registry.hpp"
-#include "harness/conform/matcher_checks.hpp"
+#include "harness/study/conform/matcher_checks.hpp"
 #include "tests/support/aligning.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/scan_builder.hpp"
@@ -83,9 +83,9 @@ INSTANTIATE_TEST_SUITE_P(All, MatcherConformance, ::testing::ValuesIn(Registry<S
 
 TEST_P(MatcherConformance, TheChecksOfConformArePassed) {
   const auto& entry = *Registry<ScanMatcher>::find(GetParam());
-  for (const auto& check : conform::matcher_checks()) {
+  for (const auto& check : study::conform::matcher_checks()) {
     SCOPED_TRACE(check.name);
-    conform::Findings findings;
+    study::conform::Findings findings;
     check.run({entry.params, entry.make}, findings);
     for (const auto& fault : findings.faults()) ADD_FAILURE() << fault;
   }

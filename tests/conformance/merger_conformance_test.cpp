@@ -7,7 +7,7 @@
 
 #include "core/modules.hpp"
 #include "core/registry.hpp"
-#include "harness/conform/merger_checks.hpp"
+#include "harness/study/conform/merger_checks.hpp"
 
 namespace scanbench {
 namespace {
@@ -21,9 +21,9 @@ class MergerConformance : public ::testing::TestWithParam<std::string> {
     if (const auto found = kMergersByDesign.find({GetParam(), name}); found != kMergersByDesign.end())
       GTEST_SKIP() << found->second;
     const auto& entry = *Registry<SegmentMerger>::find(GetParam());
-    for (const auto& check : conform::merger_checks()) {
+    for (const auto& check : study::conform::merger_checks()) {
       if (check.name != name) continue;
-      conform::Findings findings;
+      study::conform::Findings findings;
       check.run({entry.params, entry.make}, findings);
       for (const auto& fault : findings.faults()) ADD_FAILURE() << fault;
       return;
@@ -51,7 +51,7 @@ SCANBENCH_CHECK(TheAnswerIsTheSameTwice)
 #undef SCANBENCH_CHECK
 
 TEST(MergerChecks, AreAllRunHere) {
-  EXPECT_EQ(conform::merger_checks().size(), 8u);
+  EXPECT_EQ(study::conform::merger_checks().size(), 8u);
 }
 
 }  // namespace

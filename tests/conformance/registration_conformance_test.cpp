@@ -8,7 +8,7 @@
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/special_values.hpp"
-#include "harness/conform/aligner_checks.hpp"
+#include "harness/study/conform/aligner_checks.hpp"
 #include "tests/support/aligning.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/scan_builder.hpp"
@@ -92,9 +92,9 @@ ScanSeries rooms(double sigma_m) {
 
 TEST_P(AlignerConformance, TheChecksOfConformArePassed) {
   const auto& entry = *Registry<Aligner>::find(GetParam());
-  for (const auto& check : conform::aligner_checks()) {
+  for (const auto& check : study::conform::aligner_checks()) {
     SCOPED_TRACE(check.name);
-    conform::Findings findings;
+    study::conform::Findings findings;
     check.run({entry.params, entry.make}, findings);
     for (const auto& fault : findings.faults()) ADD_FAILURE() << fault;
   }

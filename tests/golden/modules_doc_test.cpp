@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "harness/report/catalog.hpp"
+#include "harness/results/figures/catalog.hpp"
 #include "tests/support/places.hpp"
 
 namespace scanbench {
@@ -32,7 +32,7 @@ std::set<std::string> names_in(const std::string& text, const std::string& patte
 }
 
 TEST(ModulesDocument, IsWhatDescribeAllPrints) {
-  EXPECT_EQ(text_of("docs/modules.md"), harness::catalog_markdown(harness::catalog()))
+  EXPECT_EQ(text_of("docs/modules.md"), results::catalog_markdown(results::catalog()))
       << "write it again: ./scanbench describe --all --markdown > docs/modules.md";
 }
 

@@ -15,10 +15,10 @@
 
 #include "core/geometry/pose2.hpp"
 #include "core/recording.hpp"
-#include "harness/files/hash.hpp"
-#include "harness/run/make_recording.hpp"
-#include "harness/scenario/scenario.hpp"
-#include "harness/scenario/scenario_file.hpp"
+#include "harness/io/files/hash.hpp"
+#include "harness/runs/execute/make_recording.hpp"
+#include "harness/study/scenario/scenario.hpp"
+#include "harness/study/scenario/scenario_file.hpp"
 #include "sim/ray_caster.hpp"
 #include "tests/support/places.hpp"
 
@@ -38,9 +38,9 @@ void add_pose(std::vector<double>& numbers, const Pose2& pose) {
 
 /// One row of the list: scenario, seed, and the hashes of ranges, true_ranges, wall_ids, poses. The poses are stamp,
 /// true pose and odometry pose of every frame.
-std::string row(const harness::Scenario& scenario, std::uint64_t seed) {
-  const Recording recording = harness::make_recording(scenario, seed, 1);
-  harness::Sha256 ranges;
+std::string row(const study::Scenario& scenario, std::uint64_t seed) {
+  const Recording recording = runs::make_recording(scenario, seed, 1);
+  io::Sha256 ranges;
   std::vector<double> poses;
   for (std::size_t k = 0; k < recording.observed.frames.size(); ++k) {
     const Frame& frame = recording.observed.frames[k];
@@ -51,9 +51,8 @@ std::string row(const harness::Scenario& scenario, std::uint64_t seed) {
   }
   std::ostringstream text;
   text << scenario.name << ',' << seed << ',' << ranges.hex() << ','
-       << harness::sha256_hex(bytes_of(recording.truth->ranges)) << ','
-       << harness::sha256_hex(bytes_of(recording.truth->wall_ids)) << ',' << harness::sha256_hex(bytes_of(poses))
-       << '\n';
+       << io::sha256_hex(bytes_of(recording.truth->ranges)) << ','
+       << io::sha256_hex(bytes_of(recording.truth->wall_ids)) << ',' << io::sha256_hex(bytes_of(poses)) << '\n';
   return text.str();
 }
 
@@ -70,8 +69,8 @@ std::vector<fs::path> scenario_files() {
 std::string list(sim::CasterKind caster) {
   std::string rows = "scenario,seed,ranges,true_ranges,wall_ids,poses\n";
   for (const fs::path& file : scenario_files()) {
-    harness::Scenario scenario = harness::load_scenario(file);
-    auto* input = std::get_if<harness::SimulatedInput>(&scenario.input);
+    study::Scenario scenario = study::load_scenario(file);
+    auto* input = std::get_if<study::SimulatedInput>(&scenario.input);
     if (input == nullptr) continue;
     input->caster = caster;
     for (const std::uint64_t seed : {1U, 2U, 3U}) rows += row(scenario, seed);

@@ -11,7 +11,7 @@
 #include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace scanbench::harness {
+namespace scanbench::support {
 
 using places::data_dir;
 using places::source_dir;
@@ -37,4 +37,4 @@ inline std::string gzip(const std::string& bytes) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-}  // namespace scanbench::harness
+}  // namespace scanbench::support

@@ -17,12 +17,12 @@
 #include "core/modules.hpp"
 #include "core/registry.hpp"
 #include "core/rng.hpp"
-#include "harness/files/atomic_file.hpp"
-#include "harness/scenario/effective.hpp"
+#include "harness/io/files/atomic_file.hpp"
+#include "harness/study/scenario/effective.hpp"
 #include "metrics/metric.hpp"
 #include "render/figure.hpp"
 
-namespace scanbench::harness::fixtures {
+namespace scanbench::fixtures {
 namespace fs = std::filesystem;
 namespace {
 
@@ -309,18 +309,19 @@ std::vector<std::uint64_t> bits(const std::vector<double>& values) {
   return result;
 }
 
-PipelineSpec extract_with(const std::string& name, const std::string& module, const ParamSet& params) {
-  PipelineSpec pipeline;
+study::PipelineSpec extract_with(const std::string& name, const std::string& module, const ParamSet& params) {
+  study::PipelineSpec pipeline;
   pipeline.name = name;
   pipeline.slots = {{"extract", module, params}};
   return pipeline;
 }
 
-Scenario scenario_with(const std::string& name, std::vector<PipelineSpec> pipelines, std::vector<std::uint64_t> seeds) {
-  Scenario scenario;
+study::Scenario scenario_with(const std::string& name, std::vector<study::PipelineSpec> pipelines,
+                              std::vector<std::uint64_t> seeds) {
+  study::Scenario scenario;
   scenario.name = name;
   scenario.text = "about: " + name + "\n";
-  scenario.input = SimulatedInput{};
+  scenario.input = study::SimulatedInput{};
   scenario.seeds = std::move(seeds);
   scenario.pipelines = std::move(pipelines);
   scenario.metrics = {{"metrics", "test_metrics", {}}, {"metrics", "test_needs_map", {}}};
@@ -328,13 +329,15 @@ Scenario scenario_with(const std::string& name, std::vector<PipelineSpec> pipeli
   return scenario;
 }
 
-RunServices services() {
-  return {.recording = [](const Scenario&, std::uint64_t seed, int) { return random_recording(seed, 5, 16, true); },
-          .effective_yaml = [](const Scenario& s, const StoredInputs&) { return s.text + "effective: true\n"; }};
+runs::RunServices services() {
+  return {
+      .recording = [](const study::Scenario&, std::uint64_t seed, int) { return random_recording(seed, 5, 16, true); },
+      .effective_yaml = [](const study::Scenario& s,
+                           const study::StoredInputs&) { return s.text + "effective: true\n"; }};
 }
 
-RunResult run_here(const std::vector<Scenario>& scenarios, const RunOptions& options) {
-  return run_with(scenarios, options, services());
+runs::RunResult run_here(const std::vector<study::Scenario>& scenarios, const runs::RunOptions& options) {
+  return runs::run_with(scenarios, options, services());
 }
 
 std::map<std::string, std::string> artefacts(const fs::path& run) {
@@ -343,7 +346,7 @@ std::map<std::string, std::string> artefacts(const fs::path& run) {
     const std::string name = entry.path().filename().string();
     if (!entry.is_regular_file()) continue;
     if (name == "manifest.json" || name == "artefacts.sha256" || name == "timing.csv") continue;
-    std::string bytes = read_file(entry.path());
+    std::string bytes = io::read_file(entry.path());
     if (name == "status.json") {
       auto json = nlohmann::json::parse(bytes);
       for (const char* key : {"wall_seconds", "cpu_seconds", "peak_memory_bytes"}) json.erase(key);
@@ -354,9 +357,9 @@ std::map<std::string, std::string> artefacts(const fs::path& run) {
   return files;
 }
 
-const CellResult& cell_of(const RunResult& result, const std::string& key) {
+const runs::CellResult& cell_of(const runs::RunResult& result, const std::string& key) {
   for (const auto& cell : result.cells)
-    if (to_string(cell.key) == key) return cell;
+    if (runs::to_string(cell.key) == key) return cell;
   throw std::runtime_error("no cell " + key);
 }
 
@@ -367,4 +370,4 @@ std::vector<std::string> listing(const fs::path& folder) {
   return {names.begin(), names.end()};
 }
 
-}  // namespace scanbench::harness::fixtures
+}  // namespace scanbench::fixtures

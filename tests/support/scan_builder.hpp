@@ -2,11 +2,11 @@
 #pragma once
 
 #include "core/special_values.hpp"
-#include "harness/conform/scenes.hpp"
+#include "harness/study/conform/scenes.hpp"
 
 namespace scanbench::support {
 
-using namespace scanbench::conform;
+using namespace scanbench::study::conform;
 using scanbench::kInf;
 using scanbench::kNaN;
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-namespace scanbench::harness {
+namespace scanbench::support {
 
 /// A new folder, removed with its contents.
 class TemporaryFolder {
@@ -31,4 +31,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace scanbench::harness
+}  // namespace scanbench::support

@@ -44,9 +44,9 @@ std::vector<RunSums> running_sums(std::span<const SegmentationPoint> points) {
 }
 
 // The cost of the points after one vertex up to the next, as a quadratic form of the two inverse ranges.
-class Wall {
+class WallCost {
  public:
-  Wall(const Vec2& p, const Vec2& q, const RunSums& s) : one_(0.5 * s.vv), fixed_(s.fixed) {
+  WallCost(const Vec2& p, const Vec2& q, const RunSums& s) : one_(0.5 * s.vv), fixed_(s.fixed) {
     // theta = u_p f + u_q g is the wall: theta . p = u_p, theta . q = u_q.
     const double sine = cross(p, q);
     const Vec2 f = -perpendicular(q) / sine, g = perpendicular(p) / sine;
@@ -235,7 +235,7 @@ class Programme {
            cross(point(p).direction, point(q).direction) > kLeastSine &&
            point(p).direction.dot(point(q).direction) > kLeastCosine;
   }
-  Wall wall(std::size_t p, std::size_t q) const {
+  WallCost wall(std::size_t p, std::size_t q) const {
     RunSums sums = sums_[as_index(places_[q]) + 1] - sums_[as_index(places_[p]) + 1];
     if (places_[q] == places_[p] + 1) sums.fixed += kBareWall;
     return {point(p).direction, point(q).direction, sums};
@@ -249,7 +249,7 @@ class Programme {
         continue;
       }
       any = true;
-      const Wall w = wall(p, q);
+      const WallCost w = wall(p, q);
       // A wall that costs more than clutter between p and q is never needed. Instead, the chain ends at p (or p is
       // clutter too, if the chain began there), and a chain begins at q (or q is clutter too, if it would end there).
       const double apart = clutter_[as_index(places_[q])] - clutter_[as_index(places_[p]) + 1];
@@ -275,7 +275,7 @@ class Programme {
   }
 
   // One state, without branches: which of two costs is less is chance.
-  void extend_free(std::size_t p, const Wall& w, std::size_t q, std::size_t b) {
+  void extend_free(std::size_t p, const WallCost& w, std::size_t q, std::size_t b) {
     const double u_q = choice(q, b);
     const double* from = &open_[p * width_];
     const double* u_p = &at_places_[p * width_];
@@ -295,7 +295,7 @@ class Programme {
     if (m < step_) return best;
     for (std::size_t s = 0; s < p; ++s) {
       if (!wall_between(s, p)) continue;
-      const Wall w = wall(s, p);
+      const WallCost w = wall(s, p);
       for (std::size_t c = 0; c < width_; ++c) {
         const double cost = open(s, c, m - step_) + (w.cost(choice(s, c), choice(p, a)) + vertex_cost_);
         if (cost < best.cost) best = {cost, s, c};

@@ -25,8 +25,8 @@ double offset_over_overlap(const Segment& base, const Segment& probe) {
 
 }  // namespace
 
-Wall wall_of(const Segment& segment, std::span<const Vec2> points) {
-  Wall wall{.segment = segment, .moments = PointMoments::of(points), .points = static_cast<int>(points.size())};
+MapWall wall_of(const Segment& segment, std::span<const Vec2> points) {
+  MapWall wall{.segment = segment, .moments = PointMoments::of(points), .points = static_cast<int>(points.size())};
   if (points.empty()) {
     const Vec2 ends[] = {segment.a, segment.b};
     wall.moments = PointMoments::of(ends);
@@ -43,8 +43,8 @@ bool same_surface(const Segment& s, const Segment& t, const UniteRule& rule) {
   return offset_over_overlap(base, other) <= rule.offset_m;
 }
 
-Wall united(const Wall& s, const Wall& t) {
-  Wall result{
+MapWall united(const MapWall& s, const MapWall& t) {
+  MapWall result{
       .segment = s.segment, .moments = s.moments, .members = s.members + t.members, .points = s.points + t.points};
   result.moments.add(t.moments);
   const LineFit fit = fit_line(result.moments);

@@ -12,7 +12,7 @@ namespace scanbench::mapping::navigation {
 
 /// The line is the orthogonal least-squares fit of all points merged into the wall, its ends are the outermost
 /// projections of the segments merged into it; the free side is on the left of a -> b.
-struct Wall {
+struct MapWall {
   Segment segment;
   PointMoments moments;
   int members = 1;  ///< scan lines
@@ -20,7 +20,7 @@ struct Wall {
 };
 
 /// A wall from a segment and its points. Without points the segment's ends count as two.
-Wall wall_of(const Segment& segment, std::span<const Vec2> points);
+MapWall wall_of(const Segment& segment, std::span<const Vec2> points);
 
 struct UniteRule {
   double angle_rad = 0.175;  ///< largest difference of direction
@@ -33,6 +33,6 @@ struct UniteRule {
 bool same_surface(const Segment& s, const Segment& t, const UniteRule& rule);
 
 /// One wall from two: moments add up, the line is fitted again, the extent is the union of both projections.
-Wall united(const Wall& s, const Wall& t);
+MapWall united(const MapWall& s, const MapWall& t);
 
 }  // namespace scanbench::mapping::navigation

@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "harness/nightly/store.hpp"
+#include "harness/results/nightly/store.hpp"
 #include "tests/app/browser.hpp"
 #include "tests/app/program.hpp"
 
@@ -132,7 +132,7 @@ TEST_F(Nightly, KilledInItsMiddleAndStartedAgainEqualsAnUnbrokenOne) {
   };
   EXPECT_EQ(summary("whole"), summary("broken"));
   const auto rows = [&](const char* file) {
-    const harness::Store store(folder_ / file);
+    const results::Store store(folder_ / file);
     const auto nights = store.nights("suite");
     EXPECT_EQ(nights.size(), 1U);
     std::map<std::string, double> values;
@@ -165,7 +165,7 @@ TEST_F(Nightly, StoreIsMadeAgainFromRunFolders) {
   const Outcome made = here({"store", "again.sqlite", "out/nightly/suite"});
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("8 cells"));
-  const harness::Store again(folder_ / "again.sqlite");
+  const results::Store again(folder_ / "again.sqlite");
   ASSERT_EQ(again.nights("suite").size(), 1U);
   EXPECT_EQ(again.load(again.nights("suite").front().id).cells.size(), 8U);
 }
@@ -221,7 +221,7 @@ TEST_F(Nightly, OfTwoAtOnceOnANewStoreBothAreKept) {
               folder_.path());
   EXPECT_EQ(night({"--store", "both.sqlite", "--out", "two"}).code, 0);
   EXPECT_EQ(first.wait().code, 0);
-  EXPECT_EQ(harness::Store(folder_ / "both.sqlite").nights("suite").size(), 2U);
+  EXPECT_EQ(results::Store(folder_ / "both.sqlite").nights("suite").size(), 2U);
 }
 
 TEST_F(Nightly, ComparesALogByItsScansWithTheLastGoodNightAndByValueWithABaseline) {

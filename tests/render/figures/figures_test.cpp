@@ -42,8 +42,8 @@ std::vector<ScanVerdict> some_verdicts(const PipelineResult& result) {
 }
 
 /// Half of the walls are found, one line is false.
-LineDifference some_difference(const Truth& truth) {
-  LineDifference difference{.right_pixels = 900, .wrong_pixels = 50, .missed_pixels = 70, .pixel_m = 0.01};
+PixelDifference some_difference(const Truth& truth) {
+  PixelDifference difference{.right_pixels = 900, .wrong_pixels = 50, .missed_pixels = 70, .pixel_m = 0.01};
   difference.tolerance_m = 0.05;
   for (std::size_t w = 0; w < truth.walls.size(); ++w)
     (w % 2 == 0 ? difference.right : difference.missed).push_back(truth.walls[w].segment);

@@ -20,7 +20,7 @@ std::vector<Vec2> along(const Segment& s, int n) {
 
 TEST(Wall, UnitedIsTheFitOfAllPointsOverTheUnionOfTheExtents) {
   const Segment s{{0, 0}, {2, 0}}, t{{1, 0}, {4, 0}};
-  const Wall one = united(wall_of(s, along(s, 21)), wall_of(t, along(t, 31)));
+  const MapWall one = united(wall_of(s, along(s, 21)), wall_of(t, along(t, 31)));
   EXPECT_THAT(one.segment, SegmentNear(Segment{{0, 0}, {4, 0}}, 1e-12));
   EXPECT_EQ(one.points, 52);
   EXPECT_EQ(one.members, 2);
@@ -28,13 +28,13 @@ TEST(Wall, UnitedIsTheFitOfAllPointsOverTheUnionOfTheExtents) {
 
 TEST(Wall, ManyPointsWeighMoreThanFew) {  // 30 points at y = 0, 10 at y = 0.04: the mean is 0.01
   const Segment s{{0, 0}, {2, 0}}, t{{0, 0.04}, {2, 0.04}};
-  const Wall one = united(wall_of(s, along(s, 30)), wall_of(t, along(t, 10)));
+  const MapWall one = united(wall_of(s, along(s, 30)), wall_of(t, along(t, 10)));
   EXPECT_NEAR(one.segment.midpoint().y(), 0.01, 1e-12);
 }
 
 TEST(Wall, UnitingDoesNotDependOnTheOrder) {
   const Segment s{{0, 0}, {2, 0.1}}, t{{1, 0.1}, {4, 0.15}}, u{{3, 0.1}, {5, 0.2}};
-  const Wall a = wall_of(s, along(s, 20)), b = wall_of(t, along(t, 30)), c = wall_of(u, along(u, 10));
+  const MapWall a = wall_of(s, along(s, 20)), b = wall_of(t, along(t, 30)), c = wall_of(u, along(u, 10));
   EXPECT_NEAR(fit_line(united(united(a, b), c).moments).offset, fit_line(united(a, united(b, c)).moments).offset, 1e-9);
 }
 

@@ -1,0 +1,243 @@
+// Builds the page of a night.
+#include "harness/results/nightly/night_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "harness/io/files/base64.hpp"
+#include "harness/results/analysis/gates.hpp"
+#include "harness/results/analysis/verdict.hpp"
+#include "harness/results/document/document.hpp"
+#include "harness/results/document/plain_text.hpp"
+#include "harness/results/document/scan_sketch.hpp"
+#include "harness/results/document/sparkline.hpp"
+#include "harness/results/document/table.hpp"
+#include "harness/results/nightly/comparison_tables.hpp"
+#include "harness/results/nightly/status_matrix.hpp"
+#include "harness/results/pages/page_parts.hpp"
+#include "harness/results/tables/ranking_parts.hpp"
+
+namespace scanbench::results {
+namespace {
+
+Blocks verdict_blocks(const NightInput& input) {
+  Blocks blocks{Paragraph{input.sentence, input.sentence.starts_with("PASS") ? "verdict good" : "verdict bad"}};
+  if (input.comparison) blocks.push_back(Paragraph{"Compared with " + input.reference + "."});
+  if (input.drift)
+    blocks.push_back(Paragraph{
+        fmt::format("Against the oldest baseline, {}: {}", input.drift_reference, verdict_sentence(*input.drift))});
+  if (input.comparison && !input.comparison->differing.empty()) {
+    const auto& differing = input.comparison->differing;
+    constexpr std::size_t kNamed = 3;
+    Prose text{"What differs: "};
+    for (std::size_t i = 0; i < differing.size() && i < kNamed; ++i)
+      text.spans.emplace_back((i > 0 ? "; " : "") + differing[i]);
+    if (differing.size() > kNamed) {
+      text.spans.emplace_back("; ");
+      text.spans.push_back(link(fmt::format("and {} more", differing.size() - kNamed), "#differs-section"));
+    }
+    blocks.push_back(Paragraph{text});
+  }
+  blocks.push_back(Paragraph{reuse_text(input.now.cells.size(), input.reused), "faint"});
+  return blocks;
+}
+
+Blocks list_blocks(const std::vector<std::string>& items) {
+  if (items.empty()) return {};
+  return {BulletList{{items.begin(), items.end()}}};
+}
+
+Blocks picture_blocks(const std::vector<PicturePair>& pairs) {
+  Blocks blocks;
+  for (const auto& pair : pairs) {
+    BlockGroup shown{"pair", {}};
+    for (const auto& picture : {pair.before, pair.now})
+      if (picture)
+        shown.blocks.push_back(Picture{.alt = picture->caption,
+                                       .caption = picture->caption,
+                                       .data = "data:image/png;base64," + io::base64(picture->png)});
+    blocks.push_back(Heading{3, pair.title});
+    blocks.push_back(std::move(shown));
+  }
+  return blocks;
+}
+
+std::string better_text(const metrics::MetricDescription& metric) {
+  switch (metric.direction) {
+    case metrics::Direction::higher_is_better:
+      return "↑ higher";
+    case metrics::Direction::lower_is_better:
+      return "↓ lower";
+    case metrics::Direction::target:
+      return fmt::format("near {:.4g}", metric.target);
+    case metrics::Direction::neither:
+      break;
+  }
+  return "–";
+}
+
+/// Spark lines of the changes that the page lists, with the values at their lower and upper edge.
+Blocks trend_blocks(const NightInput& input) {
+  const auto descriptions = metric_descriptions();
+  Table table{"trends-table",
+              "",
+              "",
+              {"scenario/pipeline/metric"},
+              {{"", "better"},
+               {"", "trend"},
+               {"", "from low to high"},
+               {"", "first"},
+               {"", "now"},
+               {"", "unit"},
+               {"", "nights"}},
+              {}};
+  for (const auto& [name, points] : input.trends) {
+    if (points.size() < 2) continue;
+    std::vector<double> values;
+    for (const auto& point : points) values.push_back(point.value);
+    const auto [low, high] = std::ranges::minmax(values);
+    const auto known = descriptions.find(name.substr(name.rfind('/') + 1));
+    const metrics::MetricDescription metric =
+        known == descriptions.end() ? metrics::MetricDescription{} : known->second;
+    table.rows.push_back({{name},
+                          {{better_text(metric)},
+                           {.text = "", .drawing = sparkline(values, name + " over the last nights")},
+                           {fmt::format("{:.4g} … {:.4g}", low, high)},
+                           {fmt::format("{:.4g}", values.front())},
+                           {fmt::format("{:.4g}", values.back())},
+                           {metric.unit},
+                           {fmt::format("{} since {}", points.size(), points.front().start.substr(0, 10))}},
+                          false});
+  }
+  if (table.rows.empty()) return {};
+  return {std::move(table)};
+}
+
+/// Twelve digits; "(changed)" for a program whose code was not that of the commit.
+std::string commit_text(const std::string& commit) {
+  return commit.substr(0, 12) + (commit.find("-dirty-") == std::string::npos ? "" : " (changed)");
+}
+
+Blocks history_blocks(const NightInput& input) {
+  constexpr std::size_t kShown = 30;
+  Table table{"nights", "", "", {"start (UTC)", "commit", "verdict"}, {}, {}};
+  for (std::size_t i = input.nights.size(); i-- > 0 && table.rows.size() < kShown;) {
+    const Night& night = input.nights[i];
+    table.rows.push_back({{night.start, commit_text(night.commit), night.sentence}, {}, false});
+  }
+  if (table.rows.size() < 2) return {};
+  return {BlockGroup{"nights", {std::move(table)}}};
+}
+
+Blocks definition_blocks(const NightInput& input) {
+  std::set<std::string> used;
+  if (input.comparison)
+    for (const auto& change : input.comparison->changes) used.insert(change.metric.metric);
+  for (const auto& ranking : input.rankings) used.insert(ranking.quality.metric);
+  Definitions definitions = definitions_of(used);
+  if (definitions.items.empty()) return {};
+  return {std::move(definitions)};
+}
+
+Picture sketch_of(const WorstScan& scan, const std::string& run) {
+  const std::string command =
+      fmt::format("scanbench show {} --scenario {} --pipeline {} --seed {} --frame {}", shell_word(run),
+                  scan.key.scenario, scan.key.pipeline, scan.key.seed, scan.frame);
+  const std::string name = fmt::format("{}, seed {}, scan {}", scan.key.scenario, scan.key.seed, scan.frame);
+  const std::string counts = fmt::format(
+      ": F1 {:.2f}, {} right, {} false, {} missed, {} split{}", scan.f1, scan.found, scan.false_lines, scan.missed,
+      scan.split, scan.unjudged > 0 ? fmt::format(", {} too short to judge", scan.unjudged) : "");
+  return {.alt = name,
+          .caption = {link(name, "cells/" + runs::to_string(scan.key) + "/", command), counts},
+          .drawing = scan.sketch};
+}
+
+/// The worst scans of each pipeline, each with the command that draws it large.
+Blocks worst_blocks(const NightInput& input) {
+  if (input.worst.empty()) return {};
+  Blocks blocks{Paragraph{"Lowest F1 over all scenarios and seeds first. The pointer on a name shows the command that "
+                          "draws the scan large."},
+                Markup{scan_sketch_key()}};
+  for (const auto& [pipeline, scans] : input.worst) {
+    BlockGroup sketches{"scans", {}};
+    for (const auto& scan : scans) sketches.blocks.push_back(sketch_of(scan, input.now.name));
+    blocks.push_back(Heading{3, pipeline});
+    blocks.push_back(std::move(sketches));
+  }
+  return blocks;
+}
+
+Blocks file_blocks(const NightInput& input) {
+  BulletList files;
+  if (!input.report.empty())
+    files.items.push_back(
+        {link("The report of this run", input.report), ": every scenario with its tables and figures"});
+  for (const auto& file : input.files) files.items.push_back({link(file, file)});
+  if (files.items.empty()) return {};
+  return {Paragraph{"Beside this page in the run folder:"}, std::move(files)};
+}
+
+/// The table of that id. The page's own heading is above it, unless it has `own_title`.
+Blocks change_blocks(const Comparison& comparison, const std::string& id, bool own_title = false) {
+  for (auto& table : comparison_tables(comparison)) {
+    if (table.id != id) continue;
+    if (!own_title) table.title.clear();
+    return {BlockGroup{"changes", {std::move(table)}}};
+  }
+  return {};
+}
+
+Blocks completeness_blocks(const Comparison& comparison) {
+  auto table = completeness_table(comparison);
+  if (!table) return {};
+  table->title.clear();
+  return {std::move(*table)};
+}
+
+Blocks worse_blocks(const NightInput& input) {
+  Blocks blocks = change_blocks(*input.comparison, "worse");
+  if (blocks.empty()) blocks.push_back(Paragraph{"Nothing."});
+  add_blocks(blocks, picture_blocks(input.pictures));
+  add_blocks(blocks, change_blocks(*input.comparison, "uncertain", true));
+  return blocks;
+}
+
+std::vector<Section> sections_of(const NightInput& input) {
+  std::vector<Section> sections;
+  if (const auto& comparison = input.comparison)
+    sections = {{"worse-section", "What became worse", worse_blocks(input)},
+                {"differs-section", "What differs", list_blocks(comparison->differing)},
+                {"better-section", "What became better", change_blocks(*comparison, "better")},
+                {"cells-section", "Completeness", completeness_blocks(*comparison)},
+                {"matrix-section", "Pipelines × scenarios",
+                 status_matrices(input.now, *comparison, input.rankings, input.scenarios_page)},
+                {"figures-section", "Figures of what became worse", picture_blocks(input.figures)}};
+  for (Section& section :
+       std::vector<Section>{{"rankings-section", "Rankings, and accuracy against time",
+                             ranking_blocks(input.rankings, input.scenarios_page)},
+                            {"worst-section", "The worst scans of each pipeline", worst_blocks(input)},
+                            {"trends-section", "Trends", trend_blocks(input)},
+                            {"nights-section", "Nights", history_blocks(input)},
+                            {"files-section", "Files", file_blocks(input)},
+                            {"definitions-section", "What the metrics mean", definition_blocks(input)}})
+    sections.push_back(std::move(section));
+  return sections;
+}
+
+}  // namespace
+
+std::string reuse_text(std::size_t cells, std::size_t reused) {
+  if (reused == 0) return fmt::format("{} cells, all run in this night.", cells);
+  return fmt::format("{} of {} cells were not run again, because nothing in them changed.", reused, cells);
+}
+
+Document night_document(const NightInput& input) {
+  Document page{"scanbench, night of " + input.suite, verdict_blocks(input)};
+  add_blocks(page.blocks, section_blocks(sections_of(input), input.facts));
+  return page;
+}
+
+}  // namespace scanbench::results

@@ -1,0 +1,62 @@
+// The page of a night: what a maintainer opens in the morning. It answers "is anything worse?" first.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/results/analysis/comparison.hpp"
+#include "harness/results/analysis/method_ranking.hpp"
+#include "harness/results/document/document.hpp"
+#include "harness/results/figures/worst_scans.hpp"
+#include "harness/results/nightly/store.hpp"
+#include "harness/runs/store/run_file.hpp"
+
+namespace scanbench::results {
+
+inline const runs::RunFile kNightPage("nightly.html");
+
+/// A figure, or one scan with a pipeline's lines, as PNG.
+struct PagePicture {
+  std::string caption;
+  std::string png;
+};
+
+/// A scan or a figure that shows a change: as it was in the last good night, if that is known, and as it is now.
+struct PicturePair {
+  std::string title;  ///< "abcdef/iepf/3: the worst scan"
+  std::optional<PagePicture> before;
+  std::optional<PagePicture> now;
+};
+
+struct NightInput {
+  std::string suite;
+  std::string sentence;  ///< the verdict; its first word is PASS, FAIL or INCOMPLETE
+  RunResults now;
+  std::optional<Comparison> comparison;  ///< none: the first night, with nothing to compare with
+  std::string reference;                 ///< "baseline 0003 of 2026-03-01 (reason)", "the night of ..."
+  std::optional<Comparison> drift;       ///< against the oldest baseline that is kept
+  std::string drift_reference;
+  std::vector<Night> nights;  ///< of this suite, oldest first, this one last
+  /// Of every change that the page lists: the values of the last nights, by "scenario/pipeline/metric".
+  std::map<std::string, std::vector<TrendPoint>> trends;
+  std::vector<PicturePair> pictures;  ///< scans of pipelines that became worse
+  std::vector<PicturePair> figures;   ///< of scenarios in which something became worse
+  std::vector<MethodRanking> rankings;
+  std::vector<PipelineWorst> worst;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< how to get the numbers again
+  std::size_t reused = 0;                                  ///< cells that were not run again, because nothing changed
+  std::string report;              ///< the run's own report beside this page: a relative link; empty: there is none
+  std::string scenarios_page;      ///< the same; empty if the report has no anchor per scenario
+  std::vector<std::string> files;  ///< other files beside this page that hold its numbers
+};
+
+/// How many cells the night took from an earlier one, as a sentence.
+std::string reuse_text(std::size_t cells, std::size_t reused);
+
+Document night_document(const NightInput& input);
+
+}  // namespace scanbench::results

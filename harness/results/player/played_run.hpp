@@ -1,0 +1,27 @@
+// The scans of a run and the lines found in them, as a page holds them.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "harness/study/scenario/scenario.hpp"
+
+namespace scanbench::results {
+
+/// What one page holds at most.
+struct PlayerLimits {
+  std::size_t scans = 2000;                           ///< of a recording
+  std::size_t bytes = std::size_t{24} * 1024 * 1024;  ///< of all recordings, as written into the page
+};
+
+/// Reads the first seed of every scenario with scans and a finished cell: ranges, and of each pipeline the lines, the
+/// share of returns that support none, the root mean square distance of the others from theirs and, if the cell has a
+/// scans.csv, its F1. Lengths are whole numbers of steps, in base64. An empty array if the run has no scans with lines.
+/// Throws ConfigError for damaged files.
+nlohmann::ordered_json played_run(const std::filesystem::path& run, const std::vector<study::Scenario>& scenarios,
+                                  const PlayerLimits& limits = {});
+
+}  // namespace scanbench::results

@@ -1,0 +1,116 @@
+// Formats values with units and digits, and marks the best.
+#include "harness/results/tables/table_marks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <optional>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/geometry/angles.hpp"
+#include "core/special_values.hpp"
+
+namespace scanbench::results {
+namespace {
+
+// Decimals that show `digits` significant digits of the value.
+int decimals_for(double value, int digits) {
+  return digits - 1 - static_cast<int>(std::floor(std::log10(std::fabs(value))));
+}
+
+std::string significant(double value, int digits) {
+  if (value == 0.0) return "0";
+  if (!std::isfinite(value)) return fmt::format("{}", value);
+  const int decimals = decimals_for(value, digits);
+  if (decimals > 6 + digits) return fmt::format("{:.{}e}", value, digits - 1);
+  return fmt::format("{:.{}f}", value, std::max(decimals, 0));
+}
+
+std::string shown(double value, const Display& display, int digits) {
+  const double scaled = value * display.scale;
+  if (!display.decimals) return significant(scaled, digits);
+  const bool vanishes = scaled != 0.0 && std::fabs(scaled) < 0.5 * std::pow(10.0, -*display.decimals);
+  return vanishes ? significant(scaled, digits) : fmt::format("{:.{}f}", scaled, *display.decimals);
+}
+
+}  // namespace
+
+Display display_for(const std::string& unit, double largest) {
+  if (unit == "m" && largest < 1.0) return {"cm", 100.0};
+  if (unit == "s" && largest < 1e-3) return {"µs", 1e6};
+  if (unit == "s" && largest < 1.0) return {"ms", 1e3};
+  if (unit == "ms" && largest < 1.0) return {"µs", 1e3};
+  if (unit == "us") return {"µs", 1.0};
+  if (unit == "rad") return {"deg", 180.0 / kPi};
+  return {unit, 1.0};
+}
+
+std::string value_text(double value, const Display& display) {
+  return std::isnan(value) ? "–" : shown(value, display, 3);
+}
+
+std::string spread_text(double half_width, const Display& display) {
+  return std::isnan(half_width) ? "" : "± " + shown(half_width, display, 2);
+}
+
+std::string heading(const std::string& metric, const Display& display) {
+  return display.unit.empty() ? metric : metric + " [" + display.unit + "]";
+}
+
+ValueRange range_of(const metrics::MetricDescription& metric) {
+  return metric.is_share ? ValueRange::share : ValueRange::not_negative;
+}
+
+std::string seeds_text(const std::vector<double>& seeds, ValueRange range, const Display& display) {
+  constexpr double kLopsided = 0.1;  // of the half width
+  const MeanInterval interval = seed_interval(seeds, range);
+  const std::string text = value_text(interval.mean, display);
+  if (interval.count < 2) return text;
+  const double half = interval.half_width();
+  const bool even = std::fabs(0.5 * (interval.low + interval.high) - interval.mean) <= kLopsided * half;
+  if (interval.count >= kFewestForInterval && even) return text + " " + spread_text(half, display);
+  return fmt::format("{} ({} to {})", text, value_text(interval.low, display), value_text(interval.high, display));
+}
+
+namespace {
+
+/// +1 or -1: by how much the cost grows with the value, near this mean.
+double slope_of_cost(const metrics::MetricDescription& metric, double mean) {
+  if (metric.direction == metrics::Direction::target) return mean < metric.target ? -1.0 : 1.0;
+  return metric.direction == metrics::Direction::higher_is_better ? -1.0 : 1.0;
+}
+
+}  // namespace
+
+void mark_best(const std::vector<TableCell*>& cells, const std::vector<std::vector<double>>& seeds,
+               const metrics::MetricDescription& metric, const std::vector<bool>& eligible) {
+  if (metric.direction == metrics::Direction::neither) return;
+  std::vector<double> means;
+  means.reserve(seeds.size());
+  for (const auto& values : seeds) means.push_back(seed_interval(values, ValueRange::any).mean);
+  const auto may_win = [&](std::size_t i) { return std::isfinite(means[i]) && (eligible.empty() || eligible[i]); };
+  std::set<std::string> finite;  // as they read
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (std::isfinite(means[i])) finite.insert(cells[i]->text);
+    cells[i]->not_eligible = std::isfinite(means[i]) && !may_win(i);
+    if (may_win(i) && (!best || metrics::better(metric, means[i], means[*best]))) best = i;
+  }
+  if (finite.size() < 2 || !best) return;
+  const auto told_apart = [&](std::size_t i) {
+    if (seeds[i].size() != seeds[*best].size()) return false;
+    const double a = slope_of_cost(metric, means[*best]), b = slope_of_cost(metric, means[i]);
+    std::vector<double> worse_by;
+    for (std::size_t k = 0; k < seeds[i].size(); ++k)
+      worse_by.push_back(b * (seeds[i][k] - metric.target) - a * (seeds[*best][k] - metric.target));
+    return seed_interval(worse_by, ValueRange::any).low > 0.0;
+  };
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    cells[i]->best = may_win(i) && (cells[i]->text == cells[*best]->text || !told_apart(i));
+}
+
+}  // namespace scanbench::results

@@ -1,0 +1,52 @@
+// Formats values as cells of a table, with unit and digits, and marks the best of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/results/analysis/statistics.hpp"
+#include "harness/results/document/table.hpp"
+#include "metrics/metric.hpp"
+
+namespace scanbench::results {
+
+/// How a metric is shown: `scale` from the metric's unit to `unit`.
+struct Display {
+  std::string unit;
+  double scale = 1.0;
+  std::optional<int> decimals = {};  ///< as a paper prints; absent: three significant digits of each value
+};
+
+/// The unit of a column by its largest magnitude: lengths below a metre in centimetres, times below a second in
+/// milliseconds, below a millisecond in microseconds, radians in degrees.
+Display display_for(const std::string& unit, double largest);
+
+/// The value in the unit of `display`; "–" if it is undefined. A value that is not zero is never shown as zero.
+std::string value_text(double value, const Display& display);
+
+/// "± 0.12" with two significant digits, or with the decimals of `display`; empty if the half width is undefined.
+std::string spread_text(double half_width, const Display& display);
+
+/// "name [unit]".
+std::string heading(const std::string& metric, const Display& display);
+
+/// A line that a pipeline misses in a larger share of the scans is not found: its other values are not compared.
+constexpr double kMostMissed = 0.5;
+
+/// The range of a metric's values.
+ValueRange range_of(const metrics::MetricDescription& metric);
+
+/// The mean over seeds with its interval, or with the range of fewer than kFewestForInterval values: "0.80 ± 0.03" if
+/// the ends are about equally far from the mean, else "0.97 (0.88 to 0.99)". "–" without a value.
+std::string seeds_text(const std::vector<double>& seeds, ValueRange range, const Display& display);
+
+/// Marks the cell with the best mean among those that may be marked, and the cells that cannot be told apart from it:
+/// whose differences from it, seed by seed, have a seed_interval() that contains zero, or that read the same. Nothing
+/// is marked if the metric has no best value, fewer than two cells have one, or all read the same. `seeds`: the values
+/// of each cell, in the same order of seeds; NaN: no value. `eligible`, one entry per cell, excludes cells from the
+/// mark and makes them grey; empty: none is excluded.
+void mark_best(const std::vector<TableCell*>& cells, const std::vector<std::vector<double>>& seeds,
+               const metrics::MetricDescription& metric, const std::vector<bool>& eligible = {});
+
+}  // namespace scanbench::results

@@ -1,0 +1,14 @@
+// Checks of line extractors.
+#pragma once
+
+#include <vector>
+
+#include "core/modules.hpp"
+#include "harness/study/conform/check.hpp"
+
+namespace scanbench::study::conform {
+
+/// All of them; each makes its own instances.
+const std::vector<Check<LineExtractor>>& extractor_checks();
+
+}  // namespace scanbench::study::conform

@@ -1,0 +1,533 @@
+// Averages, ranks and tests of a benchmark against cases worked out by hand; the page of a small run.
+#include "harness/results/analysis/benchmark.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "harness/io/files/atomic_file.hpp"
+#include "harness/results/analysis/benchmark_finding.hpp"
+#include "harness/results/analysis/error_bins.hpp"
+#include "harness/results/document/html_page.hpp"
+#include "harness/results/pages/benchmark_report.hpp"
+#include "harness/results/pages/page_input.hpp"
+#include "harness/results/tables/level_table.hpp"
+#include "harness/results/tables/ranking_table.hpp"
+#include "harness/runs/store/run_scenarios.hpp"
+#include "harness/runs/store/summary.hpp"
+#include "harness/study/scenario/benchmark_spec.hpp"
+#include "harness/study/scenario/scenario_file.hpp"
+#include "tests/support/inputs.hpp"
+
+namespace scanbench::results {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kScene = R"(schema: 1
+world: {segments: [[a, 0, 0, 4, 0], [b, 0, 4, 4, 4], [c, 0, 0, 0, 4]]}
+sensor: {preset: ladar_2d30, sigma_m: 0.02}
+trajectory: {kind: waypoints, points_m: {A: [1, 1], B: [3, 1]}, scans: 4}
+pipelines:
+  - {name: a, extract: {module: iepf, params: {threshold_m: 0.25}}}
+  - {name: b, extract: {module: line_tracking}}
+  - {name: c, extract: {module: sef}}
+metrics: [segments, {name: efficiency, params: {matches: true}}, timing]
+)";
+
+std::vector<study::Scenario> two_scenarios() {
+  std::vector<study::Scenario> scenarios{study::parse_scenario(kScene, "x.yaml"),
+                                         study::parse_scenario(kScene, "y.yaml")};
+  return scenarios;
+}
+
+/// Rows of one pipeline: values at x/1, y/1, x/2, y/2.
+void add_rows(std::vector<runs::SummaryRow>& rows, const std::string& pipeline, const std::string& metric,
+              const std::vector<double>& values) {
+  std::size_t i = 0;
+  for (const std::uint64_t seed : {1U, 2U})
+    for (const char* scenario : {"x", "y"})
+      rows.push_back({scenario, pipeline, seed, metric, "all", values.at(i++), "", 10});
+}
+
+std::vector<runs::SummaryRow> made_up_rows() {
+  std::vector<runs::SummaryRow> rows;
+  add_rows(rows, "a", "f1", {0.9, 0.7, 0.8, 0.8});
+  add_rows(rows, "b", "f1", {0.8, 0.8, 0.9, 0.9});
+  add_rows(rows, "c", "f1", {0.5, 0.3, 0.4, 0.2});
+  add_rows(rows, "a", "t_scan", {2, 8, 4, 4});
+  add_rows(rows, "b", "t_scan", {1, 1, 1, 4});
+  add_rows(rows, "c", "t_scan", {4, 16, 8, 8});
+  add_rows(rows, "c", "sigma_offset", {std::nan(""), 0.01, 0.03, 0.05});
+  return rows;
+}
+
+const study::BenchmarkSpec kSpec{"what", "a", "x"};
+
+TEST(Benchmark, AveragesOverConditionsFirstAndOverSeedsThen) {
+  const auto ranking = rank_pipelines(two_scenarios(), made_up_rows(), kSpec);
+  ASSERT_EQ(ranking.size(), 3u);
+  EXPECT_EQ(ranking[0].name, "b");
+  EXPECT_EQ(ranking[1].name, "a");
+  EXPECT_EQ(ranking[2].name, "c");
+  EXPECT_NEAR(ranking[0].values.at("f1").mean, 0.85, 1e-12);  // 0.8 and 0.9
+  EXPECT_NEAR(ranking[1].values.at("f1").mean, 0.8, 1e-12);
+  EXPECT_NEAR(ranking[2].values.at("f1").mean, 0.35, 1e-12);
+  EXPECT_EQ(ranking[0].values.at("f1").count, 2);
+  // t(0.975, 1) = 12.706; the seeds' means 0.8 and 0.9 have the standard error 0.05.
+  EXPECT_LE(ranking[0].values.at("f1").low, 0.85 - 12.70 * 0.05);
+  // Undefined in x/1: seed 1 has 0.01, seed 2 the mean of 0.03 and 0.05.
+  EXPECT_NEAR(ranking[2].values.at("sigma_offset").mean, 0.025, 1e-12);
+  EXPECT_EQ(ranking[0].values.at("sigma_offset").count, 0);
+}
+
+TEST(Benchmark, TimesAreGeometricMeansAndTheirRatiosArePaired) {
+  const auto ranking = rank_pipelines(two_scenarios(), made_up_rows(), kSpec);
+  EXPECT_NEAR(ranking[1].values.at("t_scan").mean, 4.0, 1e-12);     // sqrt(2 8) and sqrt(4 4)
+  EXPECT_NEAR(ranking[0].values.at("t_scan").mean, 1.5, 1e-12);     // 1 and 2
+  EXPECT_NEAR(ranking[0].values.at("t_ratio").mean, 0.375, 1e-12);  // sqrt(1/2 1/8) = 1/4 and sqrt(1/4 1) = 1/2
+  EXPECT_NEAR(ranking[1].values.at("t_ratio").mean, 1.0, 1e-12);
+  EXPECT_NEAR(ranking[2].values.at("t_ratio").mean, 2.0, 1e-12);
+}
+
+TEST(Benchmark, TestsNeighboursInRankAndCountsTheConditionsWon) {
+  const auto ranking = rank_pipelines(two_scenarios(), made_up_rows(), kSpec);
+  // b - a: 0 and 0.1: t = 1 with one degree of freedom, p = 0.5. a - c: 0.4 and 0.5: t = 9, p = 1 - 2 atan(9) / pi.
+  EXPECT_NEAR(ranking[0].next_difference, 0.05, 1e-12);
+  EXPECT_NEAR(ranking[0].next_p, 0.5, 1e-9);
+  EXPECT_NEAR(ranking[1].next_difference, 0.45, 1e-12);
+  EXPECT_NEAR(ranking[1].next_p, 2 * (1 - 2 * std::atan(9.0) / kPi), 1e-9);  // the smaller of two tests
+  EXPECT_TRUE(std::isnan(ranking[2].next_p));
+  // x: a 0.85, b 0.85. y: a 0.75, b 0.85.
+  EXPECT_EQ(ranking[0].conditions_won + ranking[1].conditions_won, 3);
+  EXPECT_EQ(ranking[0].conditions_won, 2);
+  EXPECT_EQ(ranking[2].conditions_won, 0);
+}
+
+TEST(Benchmark, APipelineWithMissingCellsComesLast) {
+  auto rows = made_up_rows();
+  std::erase_if(rows, [](const runs::SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
+  const auto ranking = rank_pipelines(two_scenarios(), rows, kSpec);
+  EXPECT_EQ(ranking[2].name, "b");
+  EXPECT_EQ(ranking[2].missing, 1);
+  EXPECT_EQ(ranking[0].missing, 0);
+}
+
+TEST(Benchmark, TableMarksTheBestOfEveryColumn) {
+  const Table table = ranking_table(rank_pipelines(two_scenarios(), made_up_rows(), kSpec), kSpec);
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(table.rows[0].heads, (std::vector<std::string>{"1", "b"}));
+  ASSERT_EQ(table.columns.size(), table.rows[0].cells.size());
+  EXPECT_EQ(table.columns[0].head, "F1 [%]");
+  EXPECT_EQ(table.rows[0].cells[0].text, "85.00");
+  EXPECT_THAT(table.rows[0].cells[0].spread, HasSubstr("± "));
+  EXPECT_TRUE(table.rows[0].cells[0].best);
+  EXPECT_TRUE(table.rows[1].cells[0].best);  // as good in the first seed: not told apart
+  EXPECT_FALSE(table.rows[2].cells[0].best);
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (table.columns[c].head == "σ offset [cm]") {
+      EXPECT_EQ(table.rows[0].cells[c].text, "–");
+      EXPECT_EQ(table.rows[2].cells[c].text, "2.500");
+      EXPECT_FALSE(table.rows[2].cells[c].best);  // nothing to compare with, and F1 is 50 points behind
+    }
+    if (table.columns[c].head == "time [µs]") {
+      EXPECT_TRUE(table.rows[0].cells[c].best);  // 1.5 against 4, F1 within 5 points
+    }
+    if (table.columns[c].head == "F1 − next") {
+      EXPECT_THAT(table.rows[0].cells[c].spread, HasSubstr("n.s."));
+    }
+  }
+}
+
+TEST(Benchmark, TableMarksCostsOfExtractorsThatFindEnoughAndMissNoCell) {
+  auto rows = made_up_rows();
+  for (auto& r : rows)
+    if (r.pipeline == "c" && r.metric == "t_scan") r.value = 0.001;  // the fastest by far, with an F1 of 0.35
+  std::vector<runs::SummaryRow> more;
+  add_rows(more, "a", "efficiency_offset", {1.2, 1.2, 1.2, 1.2});
+  add_rows(more, "b", "efficiency_offset", {0.5, 0.5, 0.5, 0.5});
+  rows.insert(rows.end(), more.begin(), more.end());
+  const auto best_in = [&](const std::vector<runs::SummaryRow>& of, const std::string& head) {
+    const Table table = ranking_table(rank_pipelines(two_scenarios(), of, kSpec), kSpec);
+    std::vector<std::string> names;
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      for (const auto& r : table.rows)
+        if (table.columns[c].head == head && r.cells[c].best) names.push_back(r.heads[1].substr(0, 1));
+    return names;
+  };
+  EXPECT_THAT(best_in(rows, "time [µs]"), ::testing::ElementsAre("b"));
+  EXPECT_THAT(best_in(rows, "offset / bound"), ::testing::ElementsAre("a"));  // 1.2 is nearer to 1 than 0.5
+  std::erase_if(rows, [](const runs::SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
+  EXPECT_THAT(best_in(rows, "time [µs]"), ::testing::ElementsAre("a"));
+}
+
+TEST(Benchmark, FileOfTheRunReadsBack) {
+  const support::TemporaryFolder folder;
+  EXPECT_FALSE(runs::load_benchmark(folder.path()).has_value());
+  folder.write("benchmark.json", study::benchmark_json(kSpec));
+  const auto spec = runs::load_benchmark(folder.path());
+  ASSERT_TRUE(spec.has_value());
+  EXPECT_EQ(spec->about, "what");
+  EXPECT_EQ(spec->baseline, "a");
+  EXPECT_EQ(spec->example, "x");
+  folder.write("benchmark.json", "{\"baseline\": 3}");
+  EXPECT_THAT(support::config_refusal([&] { runs::load_benchmark(folder.path()); }), HasSubstr("benchmark.json"));
+}
+
+/// x and y are the two levels of a factor.
+study::BenchmarkSpec spec_with_levels() {
+  study::BenchmarkSpec spec = kSpec;
+  spec.levels = {{"light", "day", {"x"}}, {"light", "night", {"y"}}, {"place", "here", {"x", "y"}}};
+  return spec;
+}
+
+TEST(Benchmark, FileOfAnotherRunIsRefused) {
+  const std::vector<study::Scenario> scenarios = two_scenarios();
+  const auto refusal = [&](const study::BenchmarkSpec& spec) {
+    const support::TemporaryFolder folder;
+    folder.write("benchmark.json", study::benchmark_json(spec));
+    return support::config_refusal([&] { runs::load_benchmark(folder.path(), scenarios); });
+  };
+  EXPECT_EQ(refusal(kSpec), "");
+  study::BenchmarkSpec other = kSpec;
+  other.of = "match";
+  EXPECT_THAT(refusal(other), HasSubstr("benchmark.json is of another run: "));
+  EXPECT_THAT(refusal(other), HasSubstr("has no slot match"));
+  other = kSpec;
+  other.baseline = "zoe";
+  EXPECT_THAT(refusal(other), HasSubstr("no pipeline is called zoe; known: a, b, c"));
+  other = kSpec;
+  other.example = "z";
+  EXPECT_THAT(refusal(other), HasSubstr("no scenario is called z"));
+  other = kSpec;
+  other.levels = {{"light", "day", {"x", "moon"}}};
+  EXPECT_THAT(refusal(other), HasSubstr("no scenario is called moon"));
+}
+
+TEST(Benchmark, NamesTheBestAtEveryLevelOfAFactor) {
+  const std::vector<std::string> names{"a", "b", "c"};
+  auto rows = made_up_rows();
+  for (auto& row : rows)  // night: a is 0.1 and 0.2 behind b
+    if (row.pipeline == "a" && row.metric == "f1" && row.scenario == "x") row.value = row.seed == 1 ? 0.90 : 0.98;
+  const auto results = results_by_level(two_scenarios(), rows, spec_with_levels(), names);
+  ASSERT_EQ(results.size(), 3u);
+  EXPECT_EQ(results[0].best, 0);  // day: a 0.94, b 0.85, c 0.45
+  EXPECT_EQ(results[0].second, 1);
+  EXPECT_EQ(results[1].best, 1);  // night: a 0.75, b 0.85, c 0.25
+  EXPECT_NEAR(results[0].values[0].mean, 0.94, 1e-12);
+  EXPECT_NEAR(results[1].values[2].mean, 0.25, 1e-12);
+  EXPECT_NEAR(results[2].values[1].mean, 0.85, 1e-12);  // both
+  const Table table = level_table(results, names, spec_with_levels());
+  ASSERT_EQ(table.columns.size(), 3u);
+  EXPECT_EQ(table.columns[1].group, "light");
+  EXPECT_EQ(table.columns[1].head, "night");
+  EXPECT_TRUE(table.rows[0].cells[0].best);
+  EXPECT_FALSE(table.rows[1].cells[0].best);
+  EXPECT_EQ(table.rows[1].cells[1].text, "85.00");
+  const std::string text = best_by_level_text(results, names, spec_with_levels());
+  EXPECT_THAT(text,
+              HasSubstr("b has the best F1 at light night, place here; a at light day."));  // here: a 0.845, b 0.85
+}
+
+TEST(Benchmark, NamesAFactorOnceForAllOfItsLevels) {
+  const std::vector<std::string> names{"a", "b"};
+  std::vector<LevelResult> results;
+  for (const char* level : {"1cm", "3cm"}) results.push_back({"noise", level, {}, 0, 1, 0.5});
+  results.push_back({"sensor", "urg", {}, 0, 1, 0.5});
+  results.push_back({"sensor", "pls", {}, 1, 0, 0.01});
+  EXPECT_EQ(best_by_level_text(results, names, kSpec),
+            "a has the best F1 at noise 1cm / 3cm, sensor urg; b at sensor pls. The seeds do not separate a and b at "
+            "noise 1cm / 3cm, sensor urg (paired t tests, Holm).");
+}
+
+Document page_of(ReportInput input, const study::BenchmarkSpec& spec) {
+  input.ranking = rank_pipelines(input.scenarios, input.rows, spec);
+  input.benchmark = spec;
+  return benchmark_document(input);
+}
+
+/// F1 of one pipeline at x and y: a mean each, and a deviation per seed.
+void add_levels(std::vector<runs::SummaryRow>& rows, const std::string& pipeline, double x, double y,
+                const std::vector<double>& deviations) {
+  for (std::size_t k = 0; k < deviations.size(); ++k) {
+    rows.push_back({"x", pipeline, k + 1, "f1", "all", x + deviations[k], "", 10});
+    rows.push_back({"y", pipeline, k + 1, "f1", "all", y + deviations[k], "", 10});
+  }
+}
+
+BenchmarkFinding finding_of(const std::vector<runs::SummaryRow>& rows, const study::BenchmarkSpec& spec) {
+  return find_leaders(two_scenarios(), rows, spec, rank_pipelines(two_scenarios(), rows, spec));
+}
+
+TEST(BenchmarkFinding, LeadersAreThoseThatTheSeedsDoNotSeparate) {
+  std::vector<runs::SummaryRow> rows;  // a - b: 0.03, 0, 0 (t = 1, p = 0.42); a - c: about 0.2 (t > 20, p < 0.003)
+  add_levels(rows, "a", 0.80, 0.80, {0.02, 0.00, -0.02});
+  add_levels(rows, "b", 0.80, 0.80, {-0.01, 0.00, -0.02});
+  add_levels(rows, "c", 0.60, 0.60, {0.01, 0.00, -0.02});
+  EXPECT_THAT(finding_of(rows, spec_with_levels()).leaders, ::testing::ElementsAre("a", "b"));
+  std::erase_if(rows, [](const runs::SummaryRow& row) { return row.seed == 3; });
+  EXPECT_TRUE(finding_of(rows, spec_with_levels()).leaders.empty()) << "two seeds separate nothing";
+}
+
+TEST(BenchmarkFinding, NamesTheFactorThatChangesTheLeader) {
+  std::vector<runs::SummaryRow> rows;  // by day a leads by 0.1, by night b does
+  add_levels(rows, "a", 0.90, 0.70, {0.001, 0.000, -0.001});
+  add_levels(rows, "b", 0.80, 0.80, {0.000, 0.002, -0.001});
+  add_levels(rows, "c", 0.10, 0.30, {0.001, 0.000, 0.001});
+  const BenchmarkFinding finding = finding_of(rows, spec_with_levels());
+  EXPECT_EQ(finding.factor, "light");  // `place` has one level
+  ASSERT_EQ(finding.levels.size(), 2U);
+  EXPECT_EQ(finding.levels[0].leaders.size(), 1U);
+  EXPECT_NE(finding.levels[0].best, finding.levels[1].best);
+  ReportInput input;
+  input.scenarios = two_scenarios();
+  input.rows = rows;
+  const std::string page = to_html(page_of(input, spec_with_levels()));
+  EXPECT_THAT(page,
+              HasSubstr("do not separate them.</b> Which is best depends most on the light. day: a with 90.00 % ("));
+  EXPECT_THAT(page, HasSubstr("; night: b with 80.03 % ("));
+}
+
+TEST(BenchmarkFinding, AFactorThatOnlyWidensALeadChangesNothing) {
+  std::vector<runs::SummaryRow> rows;
+  add_levels(rows, "a", 0.90, 0.80, {0.001, 0.000, -0.001});
+  add_levels(rows, "b", 0.85, 0.30, {0.000, 0.002, -0.001});
+  add_levels(rows, "c", 0.10, 0.20, {0.001, 0.000, 0.001});
+  const BenchmarkFinding finding = finding_of(rows, spec_with_levels());
+  EXPECT_THAT(finding.leaders, ::testing::ElementsAre("a"));
+  EXPECT_EQ(finding.factor, "");
+  ReportInput input;
+  input.scenarios = two_scenarios();
+  input.rows = rows;
+  EXPECT_THAT(to_html(page_of(input, spec_with_levels())),
+              HasSubstr("a has the best F1 of 3 extractors, 85.00 %; b is next with 57.53 %.</b> No factor changes"));
+}
+
+TEST(Benchmark, APipelineWithMissingCellsHasNoValueAtTheirLevel) {
+  auto rows = made_up_rows();
+  std::erase_if(rows, [](const runs::SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
+  const auto results = results_by_level(two_scenarios(), rows, spec_with_levels(), {"a", "b", "c"});
+  ASSERT_EQ(results.size(), 3u);
+  EXPECT_TRUE(std::isfinite(results[0].values[1].mean));
+  EXPECT_TRUE(std::isnan(results[1].values[1].mean));
+  EXPECT_EQ(results[1].best, 0);
+  EXPECT_EQ(level_table(results, {"a", "b", "c"}, spec_with_levels()).rows[1].cells[1].text, "–");
+}
+
+TEST(Benchmark, LevelsOfTheRunReadBack) {
+  const support::TemporaryFolder folder;
+  folder.write("benchmark.json", study::benchmark_json(spec_with_levels()));
+  const auto spec = runs::load_benchmark(folder.path());
+  ASSERT_TRUE(spec.has_value());
+  ASSERT_EQ(spec->levels.size(), 3u);
+  EXPECT_EQ(spec->levels[1].level, "night");
+  EXPECT_EQ(spec->levels[2].scenarios, (std::vector<std::string>{"x", "y"}));
+  folder.write("benchmark.json", R"({"about": "", "baseline": "a", "example": "x", "levels": [{"factor": 3}]})");
+  EXPECT_THAT(support::config_refusal([&] { runs::load_benchmark(folder.path()); }), HasSubstr("benchmark.json"));
+}
+
+TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
+  ReportInput input;
+  input.title = "scanbench: small";
+  input.scenarios = two_scenarios();
+  input.rows = made_up_rows();
+  input.cells = {{"x", "a", 1, "ok", "", 0, 0}, {"x", "b", 1, "timeout", "after 3 s", 0, 0}};
+  const Document document = page_of(input, kSpec);
+  for (const std::string& page : {to_html(document), to_markdown(document)}) {
+    EXPECT_THAT(page, HasSubstr("2 seeds are too few to say which of 3 extractors is best (at least 3); b has the "
+                                "best F1 on them, 85.00 %."));
+    EXPECT_THAT(page, HasSubstr("3 extractors on 2 conditions"));
+    EXPECT_THAT(page, HasSubstr("2 seeds make 4 recordings with 40 scans"));
+    EXPECT_THAT(page, HasSubstr("noise of 2 cm"));
+    EXPECT_THAT(page, HasSubstr("All of them differ at the 5 % level, except b and a"));
+    EXPECT_THAT(page, HasSubstr("threshold_m 0.25"));
+    EXPECT_THAT(page, HasSubstr("What it does not show"));
+    EXPECT_THAT(page, HasSubstr("1 of 2 cells ok"));
+    EXPECT_THAT(page, HasSubstr("after 3 s"));
+  }
+}
+
+TEST(Benchmark, PageShowsAllNumbersOfScansOfAWorld) {
+  std::string longer = kScene;
+  longer.replace(longer.find("scans: 4"), 8, "scans: 6");
+  ReportInput input;
+  input.scenarios = {study::parse_scenario(kScene, "x.yaml"), study::parse_scenario(longer, "y.yaml")};
+  for (study::Scenario& scenario : input.scenarios) std::get<study::SimulatedInput>(scenario.input).world.name = "room";
+  input.rows = made_up_rows();
+  EXPECT_THAT(to_html(page_of(input, kSpec)), HasSubstr(">4, 6<"));
+}
+
+TEST(Benchmark, PageBeginsWithTheFirstInRankAndNamesMissingCells) {
+  ReportInput input;
+  input.title = "small";
+  input.scenarios = two_scenarios();
+  input.rows = made_up_rows();
+  std::erase_if(input.rows,
+                [](const runs::SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
+  EXPECT_THAT(to_html(page_of(input, kSpec)), HasSubstr("a has the best F1 on them, 80.00 %"));
+  std::erase_if(input.rows, [](const runs::SummaryRow& r) { return r.scenario == "y" && r.seed == 2; });
+  EXPECT_THAT(to_html(page_of(input, kSpec)), HasSubstr("<p><b>No extractor has a result in every cell"));
+}
+
+std::string matching_scene(const std::string& metrics) {
+  return std::string(kScene).substr(0, std::string(kScene).find("pipelines")) + R"(pipelines:
+  - {name: a, extract: {module: iepf}, match: {module: icp}}
+  - {name: b, extract: {module: iepf}, match: {module: plicp}}
+metrics: )" +
+         metrics + "\n";
+}
+
+TEST(Benchmark, RanksMatchersByTheLowestErrorOverBound) {
+  const std::string scene = matching_scene("[{name: pose_efficiency, params: {errors: true}}, trajectory, timing]");
+  const std::vector<study::Scenario> scenarios{study::parse_scenario(scene, "x.yaml"),
+                                               study::parse_scenario(scene, "y.yaml")};
+  std::vector<runs::SummaryRow> rows;
+  add_rows(rows, "a", "pose_efficiency", {4, 1, 8, 2});
+  add_rows(rows, "b", "pose_efficiency", {2, 2, 1, 1});
+  add_rows(rows, "a", "t_match", {2, 8, 4, 4});
+  add_rows(rows, "b", "t_match", {1, 4, 8, 8});
+  for (const char* name : {"a", "b"}) add_rows(rows, name, "pose_unmatched", {0, 0, 0, 0});
+  const study::BenchmarkSpec spec{"what", "a", "x", "match"};
+  const auto ranking = rank_pipelines(scenarios, rows, spec);
+  ASSERT_EQ(ranking.size(), 2u);
+  EXPECT_EQ(ranking[0].name, "b");
+  EXPECT_NEAR(ranking[0].values.at("pose_efficiency").mean, 1.5, 1e-12);  // of 2 and 1
+  EXPECT_NEAR(ranking[1].values.at("pose_efficiency").mean, 3.0, 1e-12);  // of 2 and 4, each a geometric mean
+  EXPECT_NEAR(ranking[0].next_difference, 0.5 * (std::log(2.0 / 2.0) + std::log(1.0 / 4.0)), 1e-12);
+  EXPECT_EQ(ranking[0].conditions_won, 2);  // y is a tie: both have the geometric mean of 2 and 1
+  EXPECT_EQ(ranking[1].conditions_won, 1);
+  EXPECT_NEAR(ranking[0].values.at("t_ratio").mean, 0.5 * (0.5 + 2.0), 1e-12);
+  const Table table = ranking_table(ranking, spec);
+  EXPECT_EQ(table.columns[0].head, "MSE / bound");
+  EXPECT_TRUE(table.rows[0].cells[0].best);
+  EXPECT_TRUE(table.rows[1].cells[0].best);  // 2 of both in the first seed: not told apart
+  ReportInput input;
+  input.title = "small";
+  input.scenarios = scenarios;
+  input.rows = rows;
+  const std::string page = to_html(page_of(input, spec));
+  EXPECT_THAT(page, HasSubstr("2 matchers on 2 conditions"));
+  EXPECT_THAT(page, HasSubstr("The mean square error of b&#39;s poses is 1.5 times the Cramér–Rao bound, the best "
+                              "possible."));
+}
+
+TEST(Benchmark, AFastMatcherThatErrsFarMoreThanTheBestHasNoMarkForItsTime) {
+  const std::string scene = matching_scene("[{name: pose_efficiency, params: {errors: true}}, trajectory, timing]");
+  const std::vector<study::Scenario> scenarios{study::parse_scenario(scene, "x.yaml"),
+                                               study::parse_scenario(scene, "y.yaml")};
+  for (const double ratio : {2.0, 2.1}) {  // at most twice the best takes part
+    std::vector<runs::SummaryRow> rows;
+    add_rows(rows, "a", "pose_efficiency", {ratio, ratio, ratio, ratio});
+    add_rows(rows, "b", "pose_efficiency", {1, 1, 1, 1});
+    add_rows(rows, "a", "t_match", {1, 1, 1, 1});
+    add_rows(rows, "b", "t_match", {5, 5, 5, 5});
+    for (const char* name : {"a", "b"}) add_rows(rows, name, "pose_unmatched", {0, 0, 0, 0});
+    const study::BenchmarkSpec spec{"what", "a", "x", "match"};
+    const Table table = ranking_table(rank_pipelines(scenarios, rows, spec), spec);
+    const auto time = std::ranges::find(table.columns, "time / a", &TableColumn::head) - table.columns.begin();
+    for (const auto column : {time - 1, time}) {
+      EXPECT_EQ(table.rows[0].cells[static_cast<std::size_t>(column)].best, ratio > 2.0) << ratio;
+      EXPECT_EQ(table.rows[1].cells[static_cast<std::size_t>(column)].best, ratio <= 2.0) << ratio;
+    }
+  }
+}
+
+TEST(Benchmark, AMatcherThatLeavesOutManyPairsHasNoMark) {
+  const std::string scene = matching_scene("[{name: pose_efficiency, params: {errors: true}}, trajectory, timing]");
+  const std::vector<study::Scenario> scenarios{study::parse_scenario(scene, "x.yaml"),
+                                               study::parse_scenario(scene, "y.yaml")};
+  std::vector<runs::SummaryRow> rows;
+  add_rows(rows, "a", "pose_efficiency", {2, 2, 2, 2});
+  add_rows(rows, "b", "pose_efficiency", {1, 1, 1, 1});
+  add_rows(rows, "a", "pose_unmatched", {0.02, 0.02, 0.02, 0.02});
+  add_rows(rows, "b", "pose_unmatched", {0.08, 0.08, 0.08, 0.08});
+  const study::BenchmarkSpec spec{"what", "a", "x", "match"};
+  const auto ranking = rank_pipelines(scenarios, rows, spec);
+  const Table table = ranking_table(ranking, spec);
+  EXPECT_EQ(ranking[0].name, "b");
+  EXPECT_FALSE(table.rows[0].cells[0].best);
+  EXPECT_TRUE(table.rows[1].cells[0].best);
+}
+
+TEST(Benchmark, OfMatchersNeedsMatchSlotsAndTheirMetrics) {
+  const auto refusal = [](const std::string& scene, const std::string& text) {
+    const std::vector<study::Scenario> scenarios{study::parse_scenario(scene, "x.yaml")};
+    return support::config_refusal([&] { study::read_benchmark(io::parse_yaml(text), scenarios); });
+  };
+  const std::string good = matching_scene("[{name: pose_efficiency, params: {errors: true}}, trajectory, timing]");
+  EXPECT_THAT(refusal(kScene, "{of: match, baseline: a}"), HasSubstr("has no slot match"));
+  EXPECT_THAT(refusal(matching_scene("[pose_efficiency, trajectory, timing]"), "{of: match, baseline: a}"),
+              HasSubstr("no metric pose_efficiency with errors"));
+  EXPECT_THAT(refusal(good, "{of: poses, baseline: a}"), HasSubstr("extract"));
+}
+
+std::string aligning_scene(const std::string& metrics) {
+  return std::string(kScene).substr(0, std::string(kScene).find("pipelines")) + R"(pipelines:
+  - {name: a, extract: {module: iepf}, align: {module: ffs}}
+  - {name: b, extract: {module: iepf}, align: {module: point_to_line}}
+metrics: )" +
+         metrics + "\n";
+}
+
+TEST(Benchmark, RanksAlignersByTheShareOfScansPlacedAndAnAlignerThatFailsLast) {
+  const std::string scene = aligning_scene("[alignment, timing]");
+  const std::vector<study::Scenario> scenarios{study::parse_scenario(scene, "x.yaml"),
+                                               study::parse_scenario(scene, "y.yaml")};
+  std::vector<runs::SummaryRow> rows;
+  add_rows(rows, "a", "placed", {0.5, 1.0, 0.5, 1.0});
+  add_rows(rows, "b", "placed", {1.0, 1.0, 1.0, 0.8});
+  add_rows(rows, "a", "error_ratio", {0.1, 0.1, 0.1, 0.1});
+  add_rows(rows, "b", "error_ratio", {0.5, 0.5, 0.5, 0.5});
+  const study::BenchmarkSpec spec{"what", "a", "x", "align"};
+  auto ranking = rank_pipelines(scenarios, rows, spec);
+  ASSERT_EQ(ranking.size(), 2U);
+  EXPECT_EQ(ranking[0].name, "b");
+  EXPECT_NEAR(ranking[0].values.at("placed").mean, 0.95, 1e-12);
+  const Table table = ranking_table(ranking, spec);
+  EXPECT_EQ(table.columns[2].head, "error / start");
+  EXPECT_FALSE(table.rows[1].cells[2].best) << "it errs less, but places 20 points fewer";
+  ReportInput input;
+  input.scenarios = scenarios;
+  input.rows = rows;
+  EXPECT_THAT(to_html(page_of(input, spec)), HasSubstr("b has the best scans placed on them, 95.0 %"));
+  std::erase_if(rows, [](const runs::SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
+  EXPECT_EQ(rank_pipelines(scenarios, rows, spec)[0].name, "a");
+}
+
+TEST(Benchmark, OfAlignersNeedsAlignSlotsAndTheirMetric) {
+  const auto refusal = [](const std::string& scene) {
+    const std::vector<study::Scenario> scenarios{study::parse_scenario(scene, "x.yaml")};
+    return support::config_refusal(
+        [&] { study::read_benchmark(io::parse_yaml("{of: align, baseline: a}"), scenarios); });
+  };
+  EXPECT_EQ(refusal(aligning_scene("[alignment, timing]")), "");
+  EXPECT_THAT(refusal(kScene), HasSubstr("has no slot align"));
+  EXPECT_THAT(refusal(aligning_scene("[timing]")), HasSubstr("no metric alignment"));
+}
+
+TEST(ErrorBins, RootMeanSquareOfEverySeedAndTheirGeometricMean) {
+  ErrorBins bins(1.0, 2.0);
+  bins.add(1, 1.0, 3.0, 2.0);   // bin [1, 2)
+  bins.add(1, 1.5, -4.0, 2.0);  // seed 1: mean square 12.5
+  bins.add(2, 1.9, 5.0, 4.0);   // seed 2: 25
+  bins.add(1, 0.7, 1.0, 1.0);   // bin [0.5, 1)
+  bins.add(1, 2.0, 1.0, 1.0);   // bin [2, 4), too few
+  bins.add(1, -1.0, 9.0, 1.0);
+  bins.add(1, 1.2, std::nan(""), 1.0);
+  bins.add(1, 1.2, 9.0, std::nan(""));
+  EXPECT_EQ(bins.points(1).size(), 3u);
+  const auto points = bins.points(2);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].count, 3);
+  EXPECT_NEAR(points[0].x, (1.0 + 1.5 + 1.9) / 3, 1e-12);
+  EXPECT_NEAR(points[0].rms, std::sqrt(std::sqrt(12.5) * 5.0), 1e-12);
+  EXPECT_NEAR(points[0].bound, std::sqrt((4.0 + 4.0 + 16.0) / 3), 1e-12);
+  // Logarithms of sqrt(12.5) and 5: their standard error is half of their difference, t(0.975, 1) = 12.7062.
+  const double reach = 12.7062 * 0.5 * std::log(5.0 / std::sqrt(12.5));
+  EXPECT_NEAR(std::log(points[0].high / points[0].rms), reach, 1e-4);
+  EXPECT_NEAR(std::log(points[0].rms / points[0].low), reach, 1e-4);
+}
+
+}  // namespace
+}  // namespace scanbench::results
