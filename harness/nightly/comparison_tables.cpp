@@ -34,7 +34,7 @@ std::string effect_text(double effect) {
 }
 
 std::string interval(const MetricChange& change) {
-  if (change.difference.count < 2) return "";
+  if (change.by_tolerance()) return "";
   return fmt::format("({:+.3g} … {:+.3g})", change.difference.low, change.difference.high);
 }
 
@@ -164,11 +164,11 @@ std::optional<Table> completeness_table(const Comparison& comparison) {
   Table table{"completeness", "Cells", "", {"what", "scenario", "pipeline", "seed", "status"}, {}, {}};
   add_changes(table, "no longer ok", comparison.broken);
   add_cells(table, "missing", comparison.missing, kLargestTable);
-  add_cells(table, "not ok in both", comparison.failing, kLargestTable);
+  add_changes(table, "not ok", comparison.failing);
   add_changes(table, "ok again", comparison.mended);
   add_cells(table, "new, not compared", comparison.added, kListedNew);
   for (const auto& metric : comparison.absent)
-    table.rows.push_back({{"metric without values", metric, "", "", ""}, {}, false});
+    table.rows.push_back({{"gate without values", metric, "", "", ""}, {}, false});
   if (table.rows.empty()) return std::nullopt;
   shorten(table);
   return table;

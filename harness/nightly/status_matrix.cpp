@@ -27,7 +27,7 @@ struct MatrixGroup {
 /// The findings of a comparison about one pipeline in one scenario.
 struct State {
   std::size_t gates = 0, worse = 0, better = 0, uncertain = 0, same = 0;
-  std::size_t broken = 0, failing = 0, missing = 0, added = 0;  // cells
+  std::size_t failed = 0, missing = 0, added = 0;  // cells
   std::vector<const MetricChange*> changes;
 };
 
@@ -68,8 +68,8 @@ std::map<Place, State> states_of(const Comparison& comparison) {
     state.same += change.finding == Finding::same ? 1U : 0U;
     state.changes.push_back(&change);
   }
-  for (const auto& broken : comparison.broken) ++states[{broken.cell.scenario, broken.cell.pipeline}].broken;
-  for (const auto& key : comparison.failing) ++states[{key.scenario, key.pipeline}].failing;
+  for (const auto* cells : {&comparison.broken, &comparison.failing})
+    for (const auto& change : *cells) ++states[{change.cell.scenario, change.cell.pipeline}].failed;
   for (const auto& key : comparison.missing) ++states[{key.scenario, key.pipeline}].missing;
   for (const auto& key : comparison.added) ++states[{key.scenario, key.pipeline}].added;
   return states;
@@ -110,11 +110,10 @@ TableCell cell_of(const State& state, const std::string& ranked) {
   const auto cell = [](std::string text, const char* kind, std::string value) {
     return TableCell{.text = std::move(text), .spread = std::move(value), .state = kind};
   };
-  if (state.broken > 0) return cell("✗ " + counted(state.broken, "cell failed", "cells failed"), "failed", "");
+  if (state.failed > 0) return cell("✗ " + counted(state.failed, "cell failed", "cells failed"), "failed", "");
   if (state.missing > 0) return cell("∅ " + counted(state.missing, "cell missing", "cells missing"), "missing", "");
   if (state.worse > 0)
     return cell("▼ " + fmt::format("{} worse", state.worse), "worse", largest_change(state, Finding::worse));
-  if (state.failing > 0) return cell("✗ " + fmt::format("{} not ok in both", state.failing), "failed", ranked);
   if (state.uncertain > 0)
     return cell(fmt::format("? {} uncertain", state.uncertain), "uncertain", largest_change(state, Finding::uncertain));
   if (state.better > 0)
