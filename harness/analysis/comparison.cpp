@@ -265,34 +265,35 @@ class Comparer {
     const auto rows_b = by_metric(b.rows);
     std::set<std::string> names;
     for (const auto& [metric, rows] : rows_a) names.insert(metric);
+    const std::set<std::string> gates = gates_.among(names);
     for (const auto& [metric, rows] : rows_b) names.insert(metric);
     for (const auto& metric : names) {
       const auto in_a = rows_a.find(metric);
       const auto in_b = rows_b.find(metric);
       if (in_a == rows_a.end()) continue;  // a new metric has nothing to be compared with
       if (in_b == rows_b.end()) {
-        if (gates_.is_gate(metric))
+        if (gates.contains(metric))
           absent_.insert(b.key.scenario + "/" + b.key.pipeline + ": " + metric);
         else
           dropped_.insert(metric);
         continue;
       }
       const CellPair pair = pair_of(in_a->second, in_b->second);
-      MetricChange& change = change_of(b.key, metric);
+      MetricChange& change = change_of(b.key, metric, gates.contains(metric));
       change.pairs.push_back({b.key.seed, pair.before, pair.after});
       if (pair.subjects.uncommon() > change.subjects.uncommon()) change.subjects = pair.subjects;
       if (!pair.same) change.finding = Finding::changed;
     }
   }
 
-  MetricChange& change_of(const CellKey& key, const std::string& metric) {
+  MetricChange& change_of(const CellKey& key, const std::string& metric, bool gate) {
     const auto [place, is_new] = changes_.try_emplace({key.scenario, key.pipeline, metric});
     if (is_new) {
       place->second.scenario = key.scenario;
       place->second.pipeline = key.pipeline;
       place->second.metric = gates_.description(metric);
       place->second.metric.metric = metric;
-      place->second.gate = gates_.is_gate(metric);
+      place->second.gate = gate;
     }
     return place->second;
   }

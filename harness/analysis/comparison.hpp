@@ -87,7 +87,7 @@ struct Comparison {
   std::vector<CellKey> missing;        ///< requested, or there before, and not there now
   bool unfinished = false;             ///< a cell that the run that is judged was to have is missing
   std::vector<std::string> absent;     ///< "abcdef/iepf: f1": gates that were there before and have no rows now
-  std::vector<std::string> dropped;    ///< metrics that were there before, have no rows now and are not gates now
+  std::vector<std::string> dropped;    ///< other metrics that were there before and have no rows now
   std::vector<CellKey> added;          ///< there now only: not compared
   std::size_t cells = 0;               ///< compared: ok in both runs
   std::size_t gates = 0;               ///< gates with at least one pair

@@ -49,9 +49,13 @@ std::string places_text(const std::vector<const MetricChange*>& worse) {
 std::string failure_text(const Comparison& comparison) {
   std::string text;
   const auto worse = changes_with(comparison, Finding::worse);
-  if (!worse.empty())
-    text += fmt::format("{} of {} {} worse{}", worse.size(), counted(comparison.gates, "gate", "gates"),
-                        worse.size() == 1 ? "is" : "are", places_text(worse));
+  if (!worse.empty()) {
+    text += fmt::format("{} of {} {} worse", worse.size(), counted(comparison.gates, "gate", "gates"),
+                        worse.size() == 1 ? "is" : "are");
+    if (const std::size_t better = comparison.count(Finding::better))
+      text += fmt::format(", {} {} better", better, better == 1 ? "is" : "are");
+    text += places_text(worse);
+  }
   const auto add_cells = [&text](std::size_t count, const char* one, const char* many, const char* state) {
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", and ", counted(count, one, many), state);
   };
@@ -61,7 +65,7 @@ std::string failure_text(const Comparison& comparison) {
   add_cells(comparison.failing.size() - added, "cell is", "cells are", "not ok, as before");
   text += ".";
   if (!worse.empty())
-    text += fmt::format(" {}: {}.", worse.size() == 1 ? "It is" : "The worst", change_sentence(*worse.front()));
+    text += fmt::format(" {}: {}.", worse.size() == 1 ? "Worse" : "The worst", change_sentence(*worse.front()));
   if (!comparison.broken.empty() || !comparison.failing.empty()) {
     const StatusChange& first = (comparison.broken.empty() ? comparison.failing : comparison.broken).front();
     text += fmt::format(" {} {}: {}.", to_string(first.cell), first.after,
@@ -78,6 +82,20 @@ std::string incomplete_text(const Comparison& comparison) {
                      comparison.absent.front());
 }
 
+/// " Of the watched metrics 8 are worse, 1 is better.", or nothing.
+std::string watched_text(const Comparison& comparison) {
+  std::string text;
+  const auto add = [&](Finding finding, const char* word) {
+    const std::size_t count = comparison.count(finding, false) - comparison.count(finding);
+    if (count > 0)
+      text +=
+          fmt::format("{} {} {}", text.empty() ? " Of the watched metrics" : ",", counted(count, "is", "are"), word);
+  };
+  add(Finding::worse, "worse");
+  add(Finding::better, "better");
+  return text.empty() ? "" : text + ".";
+}
+
 /// Why nothing was compared.
 std::string strangers_text(const Comparison& comparison) {
   if (!comparison.mended.empty())
@@ -90,7 +108,7 @@ std::string strangers_text(const Comparison& comparison) {
                      example(comparison.missing), comparison.after, example(comparison.added));
 }
 
-/// " 2 metrics that had values before are not gates now ...", or nothing.
+/// " Not gates, and without values now: precision, recall.", or nothing.
 std::string dropped_text(const Comparison& comparison) {
   constexpr std::size_t kNamed = 3;
   const auto& dropped = comparison.dropped;
@@ -98,8 +116,7 @@ std::string dropped_text(const Comparison& comparison) {
   std::string names;
   for (std::size_t i = 0; i < dropped.size() && i < kNamed; ++i) names += (i > 0 ? ", " : "") + dropped[i];
   if (dropped.size() > kNamed) names += fmt::format(" and {} more", dropped.size() - kNamed);
-  return fmt::format(" Not compared, because {} not {} now: {}.", dropped.size() == 1 ? "it is" : "they are",
-                     dropped.size() == 1 ? "a gate" : "gates", names);
+  return fmt::format(" Not gates, and without values now: {}.", names);
 }
 
 /// " 3 gates have values on fewer than three seeds ...", or nothing. Recorded logs, of which the page says it row by
@@ -154,23 +171,23 @@ std::string verdict_word(const Comparison& comparison) {
 std::string verdict_sentence(const Comparison& comparison) {
   std::string text = verdict_word(comparison) + ": ";
   if (comparison.compared_nothing()) return text + strangers_text(comparison);
-  const std::string dropped = dropped_text(comparison);
+  const std::string others_text = watched_text(comparison) + dropped_text(comparison);
   if (comparison.failed()) {
     text += failure_text(comparison);
     if (comparison.incomplete()) text += " Besides, " + incomplete_text(comparison);
-    return text + dropped;
+    return text + others_text;
   }
   if (comparison.incomplete())
     return text + incomplete_text(comparison) +
-           (comparison.cells > 0 ? " Nothing that was compared is worse." : " Nothing was compared.") + dropped;
-  if (comparison.gates == 0) return text + "no metric of these runs is a gate, so nothing could fail." + dropped;
+           (comparison.cells > 0 ? " Nothing that was compared is worse." : " Nothing was compared.") + others_text;
+  if (comparison.gates == 0) return text + "no metric of these runs is a gate, so nothing could fail." + others_text;
   const std::string others = other_gates(comparison);
   text += fmt::format("none of {} is worse{}.", counted(comparison.gates, "gate", "gates"),
                       others.empty() ? "" : " (" + others + ")");
   text += few_seeds_text(comparison);
   if (!comparison.added.empty())
     text += fmt::format(" {} new and not compared.", counted(comparison.added.size(), "cell is", "cells are"));
-  return text + dropped;
+  return text + others_text;
 }
 
 std::string sample_text(const MetricChange& change) {

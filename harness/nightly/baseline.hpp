@@ -16,11 +16,11 @@ struct Baseline {
   std::filesystem::path file;
   std::string accepted;  ///< UTC, ISO 8601
   std::string reason;
-  RunResults results;  ///< one row per gate and cell, subject "all" or kMeanOfSubjects
+  RunResults results;  ///< one row per judged metric and cell, subject "all" or kMeanOfSubjects
 };
 
-/// What a baseline keeps of a run: of every gate, one value per cell (comparison.hpp says which). A run is compared
-/// with a baseline after the same reduction.
+/// What a baseline keeps of a run: of every gate and watched metric, one value per cell (comparison.hpp says which). A
+/// run is compared with a baseline after the same reduction.
 RunResults gate_values(const RunResults& results, const Gates& gates);
 
 /// The files of a suite's baselines, oldest first; none if the folder does not exist.
@@ -29,7 +29,7 @@ std::vector<std::filesystem::path> baseline_files(const std::filesystem::path& b
 /// Throws ConfigError, naming the file, if it is not a baseline.
 Baseline load_baseline(const std::filesystem::path& file);
 
-/// Writes the next file of the suite: per pipeline and gate the seeds' values, their median and the 95 % interval of
+/// Writes the next file of the suite: per pipeline and metric the seeds' values, their median and the 95 % interval of
 /// their mean, and per pipeline the hash of its values. Returns its path. Throws ConfigError if a cell is missing or
 /// not ok, if the reason is empty, and if nothing differs from the newest baseline.
 std::filesystem::path accept_baseline(const std::filesystem::path& baselines, const std::string& suite,

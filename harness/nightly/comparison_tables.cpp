@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "harness/analysis/verdict.hpp"
@@ -177,17 +178,19 @@ std::optional<Table> completeness_table(const Comparison& comparison) {
 std::vector<Table> comparison_tables(const Comparison& comparison, bool all) {
   std::vector<Table> tables;
   const auto add = [&](const char* id, const char* title, Finding finding, bool gates_only, const char* caption) {
-    Table table = change_table(id, title, changes_with(comparison, finding, gates_only), comparison.after);
+    auto changes = changes_with(comparison, finding, gates_only);
+    if (std::string_view(id) == "watched") std::erase_if(changes, [](const auto* change) { return change->gate; });
+    Table table = change_table(id, title, changes, comparison.after);
     if (table.rows.empty()) return;
     table.caption = caption + (table.caption.empty() ? "" : " " + table.caption);
     tables.push_back(std::move(table));
   };
-  add("worse", "What became worse", Finding::worse, false,
+  add("worse", "What became worse", Finding::worse, true,
       "The pipeline with the largest difference in tolerances comes first. Differences are now − before, with their 95 "
       "% "
       "intervals, over equal seeds or, of a recorded log, over its scans. The effect is the mean difference over its "
-      "standard deviation; q is the share of false alarms among all gates that are as certain (Benjamini–Hochberg). "
-      "Only gates fail.");
+      "standard deviation; q is the share of false alarms among all gates that are as certain (Benjamini–Hochberg).");
+  add("watched", "Watched metrics that became worse", Finding::worse, false, "They are not gates and fail nothing.");
   if (auto cells = completeness_table(comparison)) tables.push_back(std::move(*cells));
   add("uncertain", "Changed by more than the tolerance, but not on enough seeds to be certain", Finding::uncertain,
       true, "More seeds, or a longer log, would tell.");

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/special_values.hpp"
@@ -55,7 +57,7 @@ TEST(Comparison, TakesDifferencesSeedBySeed) {
   EXPECT_EQ(change.finding, Finding::worse);
   EXPECT_EQ(change.worst()->seed, 3U);
   EXPECT_EQ(c.exit_code(), 1);
-  EXPECT_THAT(verdict_sentence(c), HasSubstr("FAIL: 1 of 1 gate is worse. It is: f1 of iepf in room fell from 0.6 to "
+  EXPECT_THAT(verdict_sentence(c), HasSubstr("FAIL: 1 of 1 gate is worse. Worse: f1 of iepf in room fell from 0.6 to "
                                              "0.55 (by 0.05, 95 % interval "));
 }
 
@@ -236,9 +238,47 @@ TEST(Comparison, AMetricThatIsNoGateNowIsSaidAndNotMissing) {
   const Comparison c = compare(before, made_up_run({"iepf", "lt"}, {"f1"}, 3, value), Gates(kF1));
   EXPECT_EQ(c.exit_code(), 0);
   EXPECT_THAT(c.dropped, ElementsAre("precision", "recall"));
-  EXPECT_EQ(verdict_sentence(c),
-            "PASS: none of 2 gates is worse (2 equal to the bit). Not compared, because they are not gates now: "
-            "precision, recall.");
+  EXPECT_EQ(
+      verdict_sentence(c),
+      "PASS: none of 2 gates is worse (2 equal to the bit). Not gates, and without values now: precision, recall.");
+}
+
+TEST(Comparison, OnlyHeadlinesFailAndTheSentenceCountsBothSides) {
+  // f1 of a is better, that of b worse; precision and recall are watched.
+  const auto run = [](double a, double b, double watched) {
+    return made_up_run({"a", "b"}, {"f1", "precision", "recall"}, 4,
+                       [=](const std::string& pipeline, const std::string& metric, std::uint64_t seed) {
+                         const double spread = 0.001 * static_cast<double>(seed * seed) * a;
+                         return (metric == "f1" ? (pipeline == "a" ? a : b) : watched) + spread;
+                       });
+  };
+  const Comparison mixed = compare(run(0.7, 0.8, 0.9), run(0.8, 0.7, 0.6), Gates());
+  EXPECT_EQ(mixed.gates, 2U);
+  EXPECT_EQ(mixed.exit_code(), 1);
+  EXPECT_THAT(verdict_sentence(mixed), HasSubstr("FAIL: 1 of 2 gates is worse, 1 is better. Worse: f1 of b in room"));
+  EXPECT_THAT(verdict_sentence(mixed), HasSubstr("Of the watched metrics 4 are worse."));
+  const Comparison watched = compare(run(0.7, 0.7, 0.9), run(0.8, 0.8, 0.6), Gates());
+  EXPECT_EQ(watched.exit_code(), 0);
+  EXPECT_THAT(verdict_sentence(watched), HasSubstr("PASS: none of 2 gates is worse (2 better)."));
+  EXPECT_THAT(verdict_sentence(watched), HasSubstr("Of the watched metrics 4 are worse."));
+}
+
+TEST(Gates, AreAtMostTwoHeadlinesOfTheLastStage) {
+  const auto descriptions = metric_descriptions();
+  std::set<std::string> all;
+  for (const auto& [metric, description] : descriptions) {
+    all.insert(metric);
+    EXPECT_LE(Gates().among({metric}).size(), 1U);
+    EXPECT_TRUE(!is_headline(metric) || description.direction != metrics::Direction::neither) << metric;
+  }
+  EXPECT_THAT(Gates().among(all), ElementsAre("covered_5cm", "true_share_5cm"));
+  EXPECT_THAT(Gates().among({"f1", "recall", "raster_f1"}), ElementsAre("f1"));
+  EXPECT_THAT(Gates().among({"f1", "pose_error_heading", "pose_error_position"}),
+              ElementsAre("pose_error_heading", "pose_error_position"));
+  EXPECT_THAT(Gates().among({"heading_error", "position_error", "rpe_position"}),
+              ElementsAre("heading_error", "position_error"));
+  EXPECT_THAT(Gates(GateSpec{{{"recall", 0.1}, {"t_total", 1.0}}}).among({"f1", "recall", "t_total"}),
+              ElementsAre("recall", "t_total"));
 }
 
 TEST(Comparison, SaysWhatDiffers) {
@@ -304,7 +344,7 @@ fs::path run_with_skip(const fs::path& out, std::int64_t skip, const std::vector
 }
 
 Comparison compare_folders(const fs::path& a, const fs::path& b) {
-  return compare(load_run_results(a), load_run_results(b), Gates());
+  return compare(load_run_results(a), load_run_results(b), Gates(GateSpec{{{"test_unlabelled", 1.0}}}));
 }
 
 TEST(Comparison, OfRunFoldersPairsTheirCells) {
