@@ -69,10 +69,29 @@ void restore_signals() {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
-/// Under bubblewrap: no network, the whole file system read-only but for one folder.
+/// Under bubblewrap: no network, terminal, capabilities or processes of others, the file system read-only but for one
+/// folder, and without the sockets of services in /run. Root keeps its capabilities unless they are dropped.
 std::vector<std::string> in_sandbox(const std::vector<std::string>& program, const ForeignSetting& setting) {
-  std::vector<std::string> argv{"bwrap", "--unshare-all", "--die-with-parent", "--ro-bind", "/",       "/",
-                                "--dev", "/dev",          "--ro-bind-try",     "/dev/shm",  "/dev/shm"};
+  std::vector<std::string> argv{"bwrap",
+                                "--unshare-all",
+                                "--unshare-user",
+                                "--disable-userns",
+                                "--cap-drop",
+                                "ALL",
+                                "--new-session",
+                                "--die-with-parent",
+                                "--ro-bind",
+                                "/",
+                                "/",
+                                "--proc",
+                                "/proc",
+                                "--dev",
+                                "/dev",
+                                "--ro-bind-try",
+                                "/dev/shm",
+                                "/dev/shm",
+                                "--tmpfs",
+                                "/run"};
   if (!setting.writable_folder.empty()) {
     const std::string folder = std::filesystem::absolute(setting.writable_folder).string();
     argv.insert(argv.end(), {"--bind", folder, folder, "--chdir", folder});

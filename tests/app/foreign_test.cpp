@@ -132,6 +132,23 @@ TEST_F(ForeignPrograms, InTheSandboxCanWriteOnlyToTheFolderOfTheirCell) {
   EXPECT_TRUE(fs::exists(outside)) << "without the sandbox nothing keeps the program from writing";
 }
 
+TEST_F(ForeignPrograms, InTheSandboxHaveNoCapabilitiesAndNoTerminal) {
+  if (std::system("bwrap --unshare-all --ro-bind / / true >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "bubblewrap is not installed or not allowed";
+  program("tries.py",
+          "services = os.listdir('/run')\n"
+          "        status = dict(line.split(':', 1) for line in open('/proc/self/status'))\n"
+          "        found = [status[k].strip().strip('0') for k in ('CapEff', 'CapPrm', 'CapBnd')]\n"
+          "        remount = os.system('mount -o remount,rw,bind / 2>/dev/null') == 0\n"
+          "        nested = os.system('unshare -U true 2>/dev/null') == 0\n"
+          "        raise ValueError(f'{found} {remount} {nested} {os.getsid(0) == 0} {services}')");
+  const auto outcome = run({"run", scenario("{program: [python3, tries.py]}"), "--out", folder_ / "a", "--sandbox",
+                            "--json", "--no-figures"});
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("ValueError: ['', '', ''] False False False []"))
+      << "capabilities, remounted, nested user namespace, session of a process outside, sockets of services";
+}
+
 TEST_F(ForeignPrograms, AFaultSpoilsOnlyItsOwnCell) {
   program("raises.py", "raise ValueError('no such wall')");
   program("nan.py", "line = scan.fitted_line(scan.valid_beams()); line.rho = float('nan'); return [line]");
