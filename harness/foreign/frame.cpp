@@ -25,7 +25,29 @@ std::string printable(std::span<const char> bytes) {
   return text;
 }
 
+/// Throws for lists and objects that are nested too deeply: whoever prints or frees them does so recursively.
+void check_nesting(std::string_view json) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_string && c == '\\')
+      ++i;
+    else if (c == '"')
+      in_string = !in_string;
+    else if (!in_string && (c == '[' || c == '{') && ++depth > kDeepestNesting)
+      throw ForeignFault("sent JSON that is nested more than " + std::to_string(kDeepestNesting) + " deep");
+    else if (!in_string && (c == ']' || c == '}'))
+      --depth;
+  }
+}
+
 }  // namespace
+
+nlohmann::json parsed_foreign_json(std::string_view text) {
+  check_nesting(text);
+  return parsed_json(text);
+}
 
 std::array<char, kFrameHead> encode_head(const FrameHead& head) {
   std::array<char, kFrameHead> bytes{};
@@ -51,7 +73,7 @@ FrameHead decode_head(std::span<const char, kFrameHead> bytes) {
 }
 
 Answer::Answer(std::string_view header, std::vector<double> numbers)
-    : header_(parsed_json(header)), numbers_(std::move(numbers)) {
+    : header_(parsed_foreign_json(header)), numbers_(std::move(numbers)) {
   if (!header_.is_object()) throw ForeignFault("sent a header that is no JSON object");
   std::size_t used = 0;
   const auto arrays = header_.find("arrays");

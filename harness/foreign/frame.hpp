@@ -25,6 +25,7 @@ namespace scanbench::harness {
 inline constexpr int kProtocolVersion = 1;
 inline constexpr std::size_t kFrameHead = 16;
 inline constexpr std::uint32_t kLongestHeader = 1U << 20;
+inline constexpr int kDeepestNesting = 32;               ///< of lists and objects in a header
 inline constexpr std::uint64_t kMostNumbers = 1U << 23;  ///< of an answer: 64 MiB
 
 /// The first 16 bytes of a frame.
@@ -32,6 +33,9 @@ struct FrameHead {
   std::uint32_t header_bytes = 0;
   std::uint64_t numbers = 0;
 };
+
+/// JSON that a foreign module has written. Throws ForeignFault if it is nested more than kDeepestNesting deep.
+nlohmann::json parsed_foreign_json(std::string_view text);
 
 std::array<char, kFrameHead> encode_head(const FrameHead& head);
 

@@ -106,8 +106,11 @@ void inspect_program(ForeignSource& source, bool sandbox) {
 
 std::vector<ForeignSource> inspect_library(const fs::path& library) {
   check_stamp(library);
-  const nlohmann::json list = parsed_json(described_by_child(library));
-  if (list.is_object() && list.contains("error")) throw ForeignFault(list["error"].get<std::string>());
+  const nlohmann::json list = parsed_foreign_json(described_by_child(library));
+  if (const auto error = list.find("error"); error != list.end())
+    throw ForeignFault(error->is_string() ? error->get<std::string>()
+                                          : "the library " + library.filename().string() +
+                                                " reports an error that is not a text: " + json_line(*error));
   if (!list.is_array() || list.empty())
     throw ForeignFault("the library " + library.filename().string() + " has no module");
   std::vector<ForeignSource> sources;

@@ -235,6 +235,17 @@ TEST_F(Programs, ThatAnswerTooMuchAreRefused) {
               HasSubstr("announces a header of 1073741824 bytes"));
 }
 
+TEST_F(Programs, ThatNestTooDeeplyAreRefused) {
+  for (const std::string key : {"error", "id", "default"})
+    EXPECT_THAT(fault_of("def extract(header, beams):\n    text = b'{\"" + key +
+                         "\":' + b'[' * 500000 + b']' * 500000 + b'}'\n"
+                         "    return struct.pack('<4sIQ', b'SBF1', len(text), 0) + text\n"),
+                HasSubstr("nested more than 32 deep"));
+  EXPECT_THAT(fault_of("def extract(header, beams): return frame({'id': header['id'], 'error': '[' * 100})\n"),
+              HasSubstr("reports an error: [[["))
+      << "brackets in a text do not nest";
+}
+
 TEST_F(Programs, ThatAnswerWrongFramesAreRefused) {
   EXPECT_THAT(fault_of("def extract(header, beams): return b'lines: 0, labels: none'\n"),
               HasSubstr("sent 'lines: 0, labels' instead of a frame"));
