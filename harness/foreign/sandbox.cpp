@@ -72,12 +72,13 @@ class Shown {
     for (const fs::path& path : names_of(folder))
       if (can_show(path)) add(path);
   }
-  /// An executable, and of one in `bin` what is installed beside it, like the environment of a Python.
+  /// An executable, and of one in `bin` or pyenv's `shims` what is installed beside it, like the libraries of a Python.
   void add_executable(const fs::path& file) {
     const fs::path home = environment("HOME");
     for (const fs::path& path : names_of(file)) {
       const fs::path prefix = path.parent_path().parent_path();
-      const bool is_installed = path.parent_path().filename() == "bin" && prefix != home / ".local";
+      const fs::path folder = path.parent_path().filename();
+      const bool is_installed = (folder == "bin" || folder == "shims") && prefix != home / ".local";
       if (is_installed && can_show(prefix))
         add(prefix);
       else
