@@ -65,8 +65,8 @@ void add_compare(CommandLine& line) {
   auto options = std::make_shared<CompareOptions>();
   Verb verb = line.add_verb("compare",
                             "Judges run B against run A, pipeline by pipeline over their seeds; exit "
-                            "code 1 if a gate is worse, 4 if cells are "
-                            "missing, 5 if both");
+                            "code 1 if a gate is worse or a cell failed, 2 if nothing could be compared, 4 if cells "
+                            "are missing, 5 if both");
   verb.option("A", options->before, "the run folder to compare with").required();
   verb.option("B", options->after, "the run folder that is judged; its suite's gates hold").required();
   verb.option("--csv", options->csv, "write every value of both runs to this file");

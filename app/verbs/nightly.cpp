@@ -118,7 +118,7 @@ void add_night(CommandLine& line) {
   Verb verb = line.add_verb(
       "nightly",
       "Runs a suite, keeps its results, judges them against the baseline and writes a page; exit code 1 if a gate is "
-      "worse, 4 if cells are missing, 5 if both");
+      "worse or a cell failed, 4 if cells are missing, 5 if both");
   verb.option("FILE", options->files, "a suite, or scenario files").required();
   verb.option("--store", options->store, "the file that keeps the results of all nights (SQLite)").required();
   verb.option("-o,--out", options->out, "the run folder, used again every night (default: out/nightly/<suite>)");

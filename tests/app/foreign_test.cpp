@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <set>
 
 #include "tests/app/program.hpp"
 
@@ -117,12 +118,24 @@ TEST_F(ForeignPrograms, ReportsOfARunDoNotNeedTheProgram) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
 
-TEST_F(ForeignPrograms, InTheSandboxCanWriteOnlyToTheFolderOfTheirCell) {
-  if (std::system("bwrap --unshare-all --ro-bind / / true >/dev/null 2>&1") != 0)
-    GTEST_SKIP() << "bubblewrap is not installed or not allowed";
+class SandboxedPrograms : public ForeignPrograms {
+ protected:
+  void SetUp() override {
+    ForeignPrograms::SetUp();
+    if (std::system("bwrap --unshare-all --ro-bind / / true >/dev/null 2>&1") != 0)
+      GTEST_SKIP() << "bubblewrap is not installed or not allowed";
+  }
+  /// A scenario with a program in Python. The sandbox shows the client because it is a file of the program.
+  std::string scenario_of(const std::string& name) const {
+    return scenario("{program: [python3, " + name + "], files: ['" +
+                    (places::source_dir() / "clients/scanbench.py").string() + "']}");
+  }
+};
+
+TEST_F(SandboxedPrograms, CanWriteOnlyToTheFolderOfTheirCell) {
   const auto outside = folder_ / "outside";
   program("writes.py", "open('inside', 'w').close()\n        open('" + outside.string() + "', 'w').close()");
-  const auto file = scenario("{program: [python3, writes.py]}");
+  const auto file = scenario_of("writes.py");
   const auto outcome = run({"run", file, "--out", folder_ / "a", "--sandbox", "--json", "--no-figures"});
   EXPECT_EQ(outcome.code, 3) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("Read-only file system: '" + outside.string() + "'"));
@@ -132,9 +145,7 @@ TEST_F(ForeignPrograms, InTheSandboxCanWriteOnlyToTheFolderOfTheirCell) {
   EXPECT_TRUE(fs::exists(outside)) << "without the sandbox nothing keeps the program from writing";
 }
 
-TEST_F(ForeignPrograms, InTheSandboxHaveNoCapabilitiesAndNoTerminal) {
-  if (std::system("bwrap --unshare-all --ro-bind / / true >/dev/null 2>&1") != 0)
-    GTEST_SKIP() << "bubblewrap is not installed or not allowed";
+TEST_F(SandboxedPrograms, HaveNoCapabilitiesAndNoTerminal) {
   program("tries.py",
           "services = os.listdir('/run')\n"
           "        status = dict(line.split(':', 1) for line in open('/proc/self/status'))\n"
@@ -142,11 +153,63 @@ TEST_F(ForeignPrograms, InTheSandboxHaveNoCapabilitiesAndNoTerminal) {
           "        remount = os.system('mount -o remount,rw,bind / 2>/dev/null') == 0\n"
           "        nested = os.system('unshare -U true 2>/dev/null') == 0\n"
           "        raise ValueError(f'{found} {remount} {nested} {os.getsid(0) == 0} {services}')");
-  const auto outcome = run({"run", scenario("{program: [python3, tries.py]}"), "--out", folder_ / "a", "--sandbox",
-                            "--json", "--no-figures"});
+  const auto outcome =
+      run({"run", scenario_of("tries.py"), "--out", folder_ / "a", "--sandbox", "--json", "--no-figures"});
   EXPECT_EQ(outcome.code, 3) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("ValueError: ['', '', ''] False False False []"))
       << "capabilities, remounted, nested user namespace, session of a process outside, sockets of services";
+}
+
+TEST_F(SandboxedPrograms, SeeNeitherTheTruthNorOtherFilesNorOtherProcesses) {
+  const Folder other;
+  const std::string secret = other.write("secret", "of the user").string();
+  program("looks.py", "truth = [f for _, _, names in os.walk('" + folder_.path().string() +
+                          "') for f in names if f in ('walls.csv', 'lines.csv')]\n"
+                          "        processes = [p for p in os.listdir('/proc') if p.isdigit()]\n"
+                          "        raise ValueError(f'{len(truth) > 0} {os.path.exists(\"" +
+                          secret + "\")} {len(processes) > 3}')");
+  const auto outcome =
+      run({"run", scenario_of("looks.py"), "--out", folder_ / "a", "--sandbox", "--json", "--no-figures"});
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("ValueError: False False False"));
+  const auto open = run({"run", scenario_of("looks.py"), "--out", folder_ / "b", "--json", "--no-figures"});
+  EXPECT_THAT(open.out, HasSubstr("ValueError: True True True")) << "without the sandbox nothing is hidden";
+}
+
+TEST_F(SandboxedPrograms, CannotPassFilesOffAsResults) {
+  program("honest.py", "return []");
+  program("plants.py",
+          "if not os.path.lexists('status.json'):\n"
+          "            os.mkfifo('status.json')\n"
+          "            os.symlink('/etc/passwd', 'map.csv')\n"
+          "            os.makedirs('metrics.csv/deep')\n"
+          "            open('poses.csv', 'w').write('no poses')\n"
+          "        return []");
+  for (const std::string name : {"honest", "plants"}) {
+    const auto outcome = run({"run", scenario_of(name + ".py"), "--out", folder_ / name, "--sandbox", "--quiet"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  std::set<std::string> honest, planted;
+  for (const auto& entry : fs::directory_iterator(folder_ / "honest/cells/room/mine/1"))
+    honest.insert(entry.path().filename().string());
+  for (const auto& entry : fs::directory_iterator(folder_ / "plants/cells/room/mine/1")) {
+    planted.insert(entry.path().filename().string());
+    EXPECT_EQ(entry.symlink_status().type(), fs::file_type::regular) << entry.path();
+  }
+  EXPECT_EQ(planted, honest);
+  EXPECT_EQ(read(folder_ / "plants/cells/room/mine/1/lines.csv"), read(folder_ / "honest/cells/room/mine/1/lines.csv"));
+}
+
+TEST_F(ForeignPrograms, ThatDescribeThemselvesWithDeeplyNestedJsonAreRefused) {
+  const auto file = folder_.write("nests.py",
+                                  "import os, socket, struct\n"
+                                  "connection = socket.socket(fileno=int(os.environ['SCANBENCH_FD']))\n"
+                                  "text = b'{\"id\":1,\"error\":' + b'[' * 500000 + b']' * 500000 + b'}'\n"
+                                  "connection.recv(4096)\n"
+                                  "connection.sendall(struct.pack('<4sIQ', b'SBF1', len(text), 0) + text)\n");
+  const auto outcome = run({"check", scenario("{program: [python3, nests.py]}")});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("room.yaml:12:"), HasSubstr("nested more than 32 deep"))) << file;
 }
 
 TEST_F(ForeignPrograms, AFaultSpoilsOnlyItsOwnCell) {

@@ -99,7 +99,7 @@ inline Killed run_killed(Args args, const fs::path& cwd, std::size_t at, Exchang
   return result;
 }
 
-/// False where the system allows no ptrace().
+/// False where the system allows no ptrace(), and with the leak sanitizer, which cannot work in a traced program.
 inline bool can_trace(const fs::path& cwd) {
   return run_killed({"--version"}, cwd, static_cast<std::size_t>(-1)).code == 0;
 }

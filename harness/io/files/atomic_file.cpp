@@ -34,8 +34,8 @@ FileDescriptor opened(const fs::path& path, int flags) {
 }
 
 /// Returns 0, or errno.
-int write_and_flush(const fs::path& path, std::string_view bytes, bool flush) {
-  FileDescriptor file = opened(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW);
+int write_and_flush(const fs::path& path, std::string_view bytes, bool flush, int if_exists = O_TRUNC) {
+  FileDescriptor file = opened(path, O_WRONLY | O_CREAT | O_NOFOLLOW | if_exists);
   const bool written = file.is_open() && write_all(file.number(), std::as_bytes(std::span(bytes))) &&
                        (!flush || ::fsync(file.number()) == 0) && file.close() == 0;
   return written ? 0 : errno;
@@ -125,8 +125,10 @@ bool write_new_file(const fs::path& path, std::string_view bytes) {
 }
 
 void write_staged_file(const fs::path& path, std::string_view bytes) {
-  const int error = write_and_flush(path, bytes, false);
-  if (error != 0) refuse("write", path, error);
+  std::error_code error;
+  fs::remove_all(path, error);
+  const int reason = error ? error.value() : write_and_flush(path, bytes, false, O_EXCL);
+  if (reason != 0) refuse("write", path, reason);
 }
 
 void remove_file(const fs::path& path) {

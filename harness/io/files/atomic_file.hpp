@@ -21,7 +21,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
 /// The same for a file that must not exist yet. False, and nothing is changed, if it does.
 bool write_new_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Writes a file inside a StagedFolder, which is flushed and renamed as a whole later. Throws ConfigError.
+/// Writes a file inside a StagedFolder, flushed later, in place of a file, link, pipe or folder. Throws ConfigError.
 void write_staged_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Removes a file. A file that does not exist is no error. Throws ConfigError.

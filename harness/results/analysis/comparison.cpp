@@ -48,11 +48,14 @@ class ChangeJudge {
     change.after = mean_of(after);
     change.difference = mean_interval(differences);
     change.worsening = mean_interval(costs);
+    if (change.by_tolerance())
+      for (MeanInterval* interval : {&change.difference, &change.worsening})
+        interval->low = interval->high = interval->mean;
     change.effect = effect_size(differences, change.difference.mean);
     change.q = change.p = kNaN;
     if (change.metric.timing) {
       if (same_processor_ && differences.size() >= kLeastTimes) change.p = rank_p_value(before, after);
-    } else if (differences.size() >= 2 && change.finding != Finding::same) {
+    } else if (!change.by_tolerance() && change.finding != Finding::same) {
       change.p = paired_p_value(costs);
     }
   }
@@ -122,7 +125,7 @@ class ChangeJudge {
   }
 
   static bool is_certain(const MetricChange& change) {
-    if (change.worsening.count == 1) return true;  // equal seeds: the difference comes from the code
+    if (change.by_tolerance()) return true;  // equal seeds: the difference comes from the code
     const bool excludes_zero = change.worsening.low > 0 || change.worsening.high < 0;
     return change.q <= kFalseFindings && (excludes_zero || change.metric.timing);
   }
@@ -221,6 +224,7 @@ class Comparer {
     for (auto& [key, change] : changes_) result_.changes.push_back(std::move(change));
     judge_all();
     result_.absent.assign(absent_.begin(), absent_.end());
+    result_.dropped.assign(dropped_.begin(), dropped_.end());
     result_.differing = what_differs(before_, after_, {differing_scans_.begin(), differing_scans_.end()});
     return std::move(result_);
   }
@@ -232,13 +236,14 @@ class Comparer {
     const runs::CellKey& key = b != nullptr ? b->key : a->key;
     const bool requested = (b != nullptr && b->requested) || (a != nullptr && a->requested);
     if (!is_there(b)) {
+      if (b != nullptr && b->requested) result_.unfinished = true;
       // A cell that neither run asks for may be absent from both.
       if (requested || is_there(a)) result_.missing.push_back(key);
       return;
     }
     if (!is_there(a)) {
       result_.added.push_back(key);
-      if (!b->ok()) result_.failing.push_back(key);
+      if (!b->ok()) result_.failing.push_back({key, "missing", b->status, b->message});
       return;
     }
     if (!a->recording.empty() && !b->recording.empty() && a->recording != b->recording)
@@ -251,7 +256,7 @@ class Comparer {
     } else if (b->ok()) {
       result_.mended.push_back({key, a->status, b->status, ""});
     } else {
-      result_.failing.push_back(key);
+      result_.failing.push_back({key, a->status, b->status, b->message});
     }
   }
 
@@ -260,31 +265,35 @@ class Comparer {
     const auto rows_b = by_metric(b.rows);
     std::set<std::string> names;
     for (const auto& [metric, rows] : rows_a) names.insert(metric);
+    const std::set<std::string> gates = gates_.among(names);
     for (const auto& [metric, rows] : rows_b) names.insert(metric);
     for (const auto& metric : names) {
       const auto in_a = rows_a.find(metric);
       const auto in_b = rows_b.find(metric);
       if (in_a == rows_a.end()) continue;  // a new metric has nothing to be compared with
       if (in_b == rows_b.end()) {
-        absent_.insert(b.key.scenario + "/" + b.key.pipeline + ": " + metric);
+        if (gates.contains(metric))
+          absent_.insert(b.key.scenario + "/" + b.key.pipeline + ": " + metric);
+        else
+          dropped_.insert(metric);
         continue;
       }
       const CellPair pair = pair_of(in_a->second, in_b->second);
-      MetricChange& change = change_of(b.key, metric);
+      MetricChange& change = change_of(b.key, metric, gates.contains(metric));
       change.pairs.push_back({b.key.seed, pair.before, pair.after});
       if (pair.subjects.uncommon() > change.subjects.uncommon()) change.subjects = pair.subjects;
       if (!pair.same) change.finding = Finding::changed;
     }
   }
 
-  MetricChange& change_of(const runs::CellKey& key, const std::string& metric) {
+  MetricChange& change_of(const runs::CellKey& key, const std::string& metric, bool gate) {
     const auto [place, is_new] = changes_.try_emplace({key.scenario, key.pipeline, metric});
     if (is_new) {
       place->second.scenario = key.scenario;
       place->second.pipeline = key.pipeline;
       place->second.metric = gates_.description(metric);
       place->second.metric.metric = metric;
-      place->second.gate = gates_.is_gate(metric);
+      place->second.gate = gate;
     }
     return place->second;
   }
@@ -322,6 +331,7 @@ class Comparer {
   std::map<std::tuple<std::string, std::string, std::string>, MetricChange> changes_;
   std::set<std::string> differing_scans_;
   std::set<std::string> absent_;
+  std::set<std::string> dropped_;
   Comparison result_;
 };
 
@@ -353,10 +363,11 @@ std::size_t Comparison::count(Finding finding, bool gates_only) const {
 }
 
 bool Comparison::failed() const {
-  return !broken.empty() || count(Finding::worse) > 0;
+  return !broken.empty() || !failing.empty() || count(Finding::worse) > 0;
 }
 
 int Comparison::exit_code() const {
+  if (compared_nothing()) return 2;
   return (failed() ? 1 : 0) + (incomplete() ? 4 : 0);
 }
 

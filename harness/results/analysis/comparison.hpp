@@ -53,7 +53,8 @@ struct MetricChange {
   SubjectCounts subjects{};           ///< largest differences between the sets of subjects in both means
   double before = 0.0;                ///< means over the pairs that are defined in both
   double after = 0.0;
-  /// after - before: mean and 95 % interval; low = high = mean for a single pair. The count is that of seeds or scans.
+  /// after - before: mean and 95 % interval; low = high = mean for fewer than three pairs, which have no interval. The
+  /// count is that of seeds or scans.
   MeanInterval difference{};
   MeanInterval worsening{};  ///< of the costs (metrics::cost), above 0: worse; empty without a better direction
   double effect = 0.0;       ///< the mean difference over the standard deviation of the differences; NaN: none
@@ -61,6 +62,8 @@ struct MetricChange {
   double q = 1.0;            ///< the same, corrected for the number of gates (Benjamini and Hochberg)
   Finding finding = Finding::same;
 
+  /// True where the change is compared with the tolerance alone: fewer than three pairs tell nothing about the spread.
+  bool by_tolerance() const { return !scans && difference.count < 3; }
   /// The pair that became worse by most; nullptr if no pair is defined.
   const SeedPair* worst() const;
 };
@@ -80,17 +83,21 @@ struct Comparison {
   std::vector<MetricChange> changes;   ///< scenario by scenario, pipeline by pipeline
   std::vector<StatusChange> broken;    ///< ok before, not now
   std::vector<StatusChange> mended;    ///< ok now, not before
-  std::vector<runs::CellKey> failing;  ///< ok in neither run
+  std::vector<StatusChange> failing;   ///< not ok now, and before not ok or not there
   std::vector<runs::CellKey> missing;  ///< requested, or there before, and not there now
-  std::vector<std::string> absent;     ///< "abcdef/iepf: f1": metrics that were there before and have no rows now
+  bool unfinished = false;             ///< a cell that the run that is judged was to have is missing
+  std::vector<std::string> absent;     ///< "abcdef/iepf: f1": gates that were there before and have no rows now
+  std::vector<std::string> dropped;    ///< other metrics that were there before and have no rows now
   std::vector<runs::CellKey> added;    ///< there now only: not compared
   std::size_t cells = 0;               ///< compared: ok in both runs
   std::size_t gates = 0;               ///< gates with at least one pair
 
   std::size_t count(Finding finding, bool gates_only = true) const;
-  bool failed() const;  ///< a gate is worse, or a cell is broken
-  bool incomplete() const { return !missing.empty() || !absent.empty() || (cells == 0 && broken.empty()); }
-  /// 0 good, 1 failed, 4 incomplete, 5 both.
+  bool failed() const;  ///< a gate is worse, or a cell is not ok
+  bool incomplete() const { return !missing.empty() || !absent.empty(); }
+  /// Of whole runs without a cell that is ok in both: nothing can be said.
+  bool compared_nothing() const { return cells == 0 && !failed() && !unfinished; }
+  /// 0 good, 1 failed, 2 nothing was compared, 4 incomplete, 5 failed and incomplete.
   int exit_code() const;
 };
 
@@ -98,8 +105,8 @@ struct Comparison {
 ///
 /// A gate is worse if the 95 % interval of its mean difference excludes zero, the mean difference is above the
 /// tolerance, and, among all gates of this comparison that a test can judge, at most 5 % of such findings are false
-/// (q <= 0.05). A single pair is exact: its difference is compared with the tolerance alone. A recorded log has one; if
-/// the folders of both runs are known and the metric is a mean over its scans, these are paired instead
+/// (q <= 0.05). The mean difference of fewer than three pairs is compared with the tolerance alone. A recorded log has
+/// one pair; if the folders of both runs are known and the metric is a mean over its scans, these are paired instead
 /// (block_bootstrap.hpp). A gate whose value is lost on some seed is worse too.
 /// Throws ConfigError for damaged files of a log.
 Comparison compare(const RunResults& before, const RunResults& after, const Gates& gates);

@@ -7,7 +7,7 @@
 
 namespace scanbench::results {
 
-/// "PASS", "FAIL" or "INCOMPLETE"; a comparison that fails and is incomplete is a FAIL.
+/// "PASS", "FAIL", "INCOMPLETE" or "NOT COMPARED"; a comparison that fails and is incomplete is a FAIL.
 std::string verdict_word(const Comparison& comparison);
 
 /// The verdict and its reason in one or two sentences, with the worst change: "FAIL: 2 of 36 gates are worse. The worst

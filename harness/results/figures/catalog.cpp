@@ -12,6 +12,7 @@
 #include "core/modules.hpp"
 #include "core/names.hpp"
 #include "harness/io/files/json.hpp"
+#include "harness/results/analysis/gates.hpp"
 #include "harness/results/document/table.hpp"
 #include "harness/study/scenario/sections.hpp"
 #include "metrics/metric.hpp"
@@ -56,6 +57,9 @@ std::string direction_text(const metrics::MetricDescription& metric) {
 std::string gate_text(const metrics::MetricDescription& metric) {
   if (metric.timing) return "gate: only if a suite says so, because it depends on the machine";
   if (metric.direction == metrics::Direction::neither) return "gate: no, compare and nightly only show changes";
+  if (!is_headline(metric.metric))
+    return fmt::format("gate: only if a suite says so; compare and nightly show a change of more than {:g}",
+                       metric.tolerance);
   return fmt::format("gate: compare and nightly fail if it is worse by more than {:g}, unless a suite has other gates",
                      metric.tolerance);
 }

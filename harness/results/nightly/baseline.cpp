@@ -137,7 +137,7 @@ void read_group(const Json& json, RunResults& results) {
 std::vector<MetricRow> gate_rows(const std::vector<MetricRow>& rows, const Gates& gates) {
   std::map<std::string, std::vector<const MetricRow*>> by_metric;
   for (const auto& row : rows)
-    if (gates.is_gate(row.metric)) by_metric[row.metric].push_back(&row);
+    if (gates.is_judged(row.metric)) by_metric[row.metric].push_back(&row);
   std::vector<MetricRow> reduced;
   for (const auto& [metric, subjects] : by_metric) {
     MetricRow row = *subjects.front();

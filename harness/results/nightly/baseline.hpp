@@ -16,11 +16,11 @@ struct Baseline {
   std::filesystem::path file;
   std::string accepted;  ///< UTC, ISO 8601
   std::string reason;
-  RunResults results;  ///< one row per gate and cell, subject "all" or kMeanOfSubjects
+  RunResults results;  ///< one row per judged metric and cell, subject "all" or kMeanOfSubjects
 };
 
-/// What a baseline keeps of a run: of every gate, one value per cell (comparison.hpp says which). A run is compared
-/// with a baseline after the same reduction.
+/// What a baseline keeps of a run: of every gate and watched metric, one value per cell (comparison.hpp says which). A
+/// run is compared with a baseline after the same reduction.
 RunResults gate_values(const RunResults& results, const Gates& gates);
 
 /// The files of a suite's baselines, by number; none if the folder does not exist. Other files there do not count.
@@ -35,7 +35,7 @@ std::vector<std::filesystem::path> current_baselines(const std::vector<std::file
 Baseline load_baseline(const std::filesystem::path& file);
 
 /// Writes the next file of the suite, never over another one, also if several processes accept at once: per pipeline
-/// and gate the seeds' values, their median and the 95 % interval of their mean, and per pipeline the hash of its
+/// and metric the seeds' values, their median and the 95 % interval of their mean, and per pipeline the hash of its
 /// values. Returns its path. Throws ConfigError if a cell is missing or not ok, if the reason is empty, and if nothing
 /// differs from the newest baseline.
 std::filesystem::path accept_baseline(const std::filesystem::path& baselines, const std::string& suite,

@@ -98,9 +98,10 @@ std::string comparison_json(const Comparison& comparison) {
                   {"gates", comparison.gates},
                   {"broken", statuses_json(comparison.broken)},
                   {"mended", statuses_json(comparison.mended)},
-                  {"failing", cells_json(comparison.failing)},
+                  {"failing", statuses_json(comparison.failing)},
                   {"missing", cells_json(comparison.missing)},
                   {"absent_metrics", comparison.absent},
+                  {"dropped_metrics", comparison.dropped},
                   {"added", cells_json(comparison.added)},
                   {"changes", std::move(changes)}};
   return io::json_text(json) + "\n";
@@ -118,12 +119,13 @@ std::string comparison_junit(const Comparison& comparison) {
     cases += test_case(change.scenario + "." + change.pipeline, change.metric.metric,
                        worse ? "<failure message=\"" + xml(change_sentence(change)) + "\"/>" : "");
   }
-  for (const auto& broken : comparison.broken) {
-    ++tests;
-    ++failures;
-    cases += test_case(broken.cell.scenario + "." + broken.cell.pipeline, "seed " + std::to_string(broken.cell.seed),
-                       fmt::format("<failure message=\"{}: {}\"/>", xml(broken.after), xml(broken.message)));
-  }
+  for (const auto* cells : {&comparison.broken, &comparison.failing})
+    for (const auto& failed : *cells) {
+      ++tests;
+      ++failures;
+      cases += test_case(failed.cell.scenario + "." + failed.cell.pipeline, "seed " + std::to_string(failed.cell.seed),
+                         fmt::format("<failure message=\"{}: {}\"/>", xml(failed.after), xml(failed.message)));
+    }
   for (const auto& key : comparison.missing) {
     ++tests;
     cases += test_case(key.scenario + "." + key.pipeline, "seed " + std::to_string(key.seed),

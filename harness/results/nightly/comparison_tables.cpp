@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "harness/results/analysis/verdict.hpp"
@@ -34,7 +35,7 @@ std::string effect_text(double effect) {
 }
 
 std::string interval(const MetricChange& change) {
-  if (change.difference.count < 2) return "";
+  if (change.by_tolerance()) return "";
   return fmt::format("({:+.3g} … {:+.3g})", change.difference.low, change.difference.high);
 }
 
@@ -164,11 +165,11 @@ std::optional<Table> completeness_table(const Comparison& comparison) {
   Table table{"completeness", "Cells", "", {"what", "scenario", "pipeline", "seed", "status"}, {}, {}};
   add_changes(table, "no longer ok", comparison.broken);
   add_cells(table, "missing", comparison.missing, kLargestTable);
-  add_cells(table, "not ok in both", comparison.failing, kLargestTable);
+  add_changes(table, "not ok", comparison.failing);
   add_changes(table, "ok again", comparison.mended);
   add_cells(table, "new, not compared", comparison.added, kListedNew);
   for (const auto& metric : comparison.absent)
-    table.rows.push_back({{"metric without values", metric, "", "", ""}, {}, false});
+    table.rows.push_back({{"gate without values", metric, "", "", ""}, {}, false});
   if (table.rows.empty()) return std::nullopt;
   shorten(table);
   return table;
@@ -177,17 +178,19 @@ std::optional<Table> completeness_table(const Comparison& comparison) {
 std::vector<Table> comparison_tables(const Comparison& comparison, bool all) {
   std::vector<Table> tables;
   const auto add = [&](const char* id, const char* title, Finding finding, bool gates_only, const char* caption) {
-    Table table = change_table(id, title, changes_with(comparison, finding, gates_only), comparison.after);
+    auto changes = changes_with(comparison, finding, gates_only);
+    if (std::string_view(id) == "watched") std::erase_if(changes, [](const auto* change) { return change->gate; });
+    Table table = change_table(id, title, changes, comparison.after);
     if (table.rows.empty()) return;
     table.caption = caption + (table.caption.empty() ? "" : " " + table.caption);
     tables.push_back(std::move(table));
   };
-  add("worse", "What became worse", Finding::worse, false,
+  add("worse", "What became worse", Finding::worse, true,
       "The pipeline with the largest difference in tolerances comes first. Differences are now − before, with their 95 "
       "% "
       "intervals, over equal seeds or, of a recorded log, over its scans. The effect is the mean difference over its "
-      "standard deviation; q is the share of false alarms among all gates that are as certain (Benjamini–Hochberg). "
-      "Only gates fail.");
+      "standard deviation; q is the share of false alarms among all gates that are as certain (Benjamini–Hochberg).");
+  add("watched", "Watched metrics that became worse", Finding::worse, false, "They are not gates and fail nothing.");
   if (auto cells = completeness_table(comparison)) tables.push_back(std::move(*cells));
   add("uncertain", "Changed by more than the tolerance, but not on enough seeds to be certain", Finding::uncertain,
       true, "More seeds, or a longer log, would tell.");

@@ -35,7 +35,7 @@ void check_plan(const NightPlan& plan);
 struct NightOutcome {
   std::string sentence;
   std::filesystem::path page;
-  int exit_code = 0;  ///< 0 good, 1 a gate is worse or a cell broken, 4 incomplete, 5 both
+  int exit_code = 0;  ///< 0 good, 1 a gate is worse or a cell failed, 2 nothing to compare, 4 incomplete, 5 both
 };
 
 /// Stores the run as a night of its suite, compares it with the baseline, else with the last good night, and writes

@@ -202,6 +202,7 @@ Blocks worse_blocks(const NightInput& input) {
   if (blocks.empty()) blocks.push_back(Paragraph{"Nothing."});
   add_blocks(blocks, picture_blocks(input.pictures));
   add_blocks(blocks, change_blocks(*input.comparison, "uncertain", true));
+  add_blocks(blocks, change_blocks(*input.comparison, "watched", true));
   return blocks;
 }
 

@@ -27,7 +27,7 @@ struct MatrixGroup {
 /// The findings of a comparison about one pipeline in one scenario.
 struct State {
   std::size_t gates = 0, worse = 0, better = 0, uncertain = 0, same = 0;
-  std::size_t broken = 0, failing = 0, missing = 0, added = 0;  // cells
+  std::size_t failed = 0, missing = 0, added = 0;  // cells
   std::vector<const MetricChange*> changes;
 };
 
@@ -59,17 +59,17 @@ std::vector<MatrixGroup> groups_of(const RunResults& now, const Comparison& comp
 std::map<Place, State> states_of(const Comparison& comparison) {
   std::map<Place, State> states;
   for (const auto& change : comparison.changes) {
-    if (!change.gate) continue;
     State& state = states[{change.scenario, change.pipeline}];
+    state.changes.push_back(&change);
+    if (!change.gate) continue;
     ++state.gates;
     state.worse += change.finding == Finding::worse ? 1U : 0U;
     state.better += change.finding == Finding::better ? 1U : 0U;
     state.uncertain += change.finding == Finding::uncertain ? 1U : 0U;
     state.same += change.finding == Finding::same ? 1U : 0U;
-    state.changes.push_back(&change);
   }
-  for (const auto& broken : comparison.broken) ++states[{broken.cell.scenario, broken.cell.pipeline}].broken;
-  for (const auto& key : comparison.failing) ++states[{key.scenario, key.pipeline}].failing;
+  for (const auto* cells : {&comparison.broken, &comparison.failing})
+    for (const auto& change : *cells) ++states[{change.cell.scenario, change.cell.pipeline}].failed;
   for (const auto& key : comparison.missing) ++states[{key.scenario, key.pipeline}].missing;
   for (const auto& key : comparison.added) ++states[{key.scenario, key.pipeline}].added;
   return states;
@@ -83,7 +83,8 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 std::string largest_change(const State& state, Finding finding) {
   const MetricChange* largest = nullptr;
   for (const MetricChange* change : state.changes)
-    if (change->finding == finding && (largest == nullptr || severity(*change) > severity(*largest))) largest = change;
+    if (change->gate && change->finding == finding && (largest == nullptr || severity(*change) > severity(*largest)))
+      largest = change;
   if (largest == nullptr) return "";
   if (largest->lost > 0 || !std::isfinite(largest->difference.mean)) return largest->metric.metric + " undefined";
   const Display display = display_for(largest->metric.unit, std::fabs(largest->difference.mean));
@@ -110,11 +111,12 @@ TableCell cell_of(const State& state, const std::string& ranked) {
   const auto cell = [](std::string text, const char* kind, std::string value) {
     return TableCell{.text = std::move(text), .spread = std::move(value), .state = kind};
   };
-  if (state.broken > 0) return cell("✗ " + counted(state.broken, "cell failed", "cells failed"), "failed", "");
+  if (state.failed > 0) return cell("✗ " + counted(state.failed, "cell failed", "cells failed"), "failed", "");
   if (state.missing > 0) return cell("∅ " + counted(state.missing, "cell missing", "cells missing"), "missing", "");
   if (state.worse > 0)
-    return cell("▼ " + fmt::format("{} worse", state.worse), "worse", largest_change(state, Finding::worse));
-  if (state.failing > 0) return cell("✗ " + fmt::format("{} not ok in both", state.failing), "failed", ranked);
+    return cell(
+        fmt::format("▼ {} worse", state.worse) + (state.better > 0 ? fmt::format(", ▲ {} better", state.better) : ""),
+        "worse", largest_change(state, Finding::worse));
   if (state.uncertain > 0)
     return cell(fmt::format("? {} uncertain", state.uncertain), "uncertain", largest_change(state, Finding::uncertain));
   if (state.better > 0)

@@ -42,6 +42,8 @@ class CellSink {
   /// Makes an empty folder, in which a child writes the files of the group's recording or of a cell. `place` is their
   /// path in a run. Throws ConfigError, also if the recording of the group could not be kept.
   io::StagedFolder begin(std::size_t group, const std::filesystem::path& place);
+  /// The folder of the run or the sweep, in which all that it begins is.
+  virtual const std::filesystem::path& root() const = 0;
   /// What the sink must know of written files. The child that has written them computes it.
   virtual std::string hashes_of(const std::filesystem::path& folder) const;
   void put(FinishedRecording recording);

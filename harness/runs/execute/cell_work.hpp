@@ -18,9 +18,11 @@ struct CellOutput {
   std::vector<metrics::MetricRow> rows;
 };
 
-/// Runs the pipeline, scores it with the scenario's metrics, and writes all files of the cell but status.json. Throws
+/// Runs the pipeline, scores it with the scenario's metrics, and writes all files of the cell but status.json. Files
+/// that a module has made there are removed. A program in the sandbox sees nothing else of the folder `root`. Throws
 /// what run_pipeline() and score_cell() throw.
-CellOutput make_cell(const std::filesystem::path& folder, const study::Scenario& scenario,
-                     const study::PipelineSpec& pipeline, const study::TraceChoice& trace, const Recording& recording);
+CellOutput make_cell(const std::filesystem::path& folder, const std::filesystem::path& root,
+                     const study::Scenario& scenario, const study::PipelineSpec& pipeline,
+                     const study::TraceChoice& trace, const Recording& recording);
 
 }  // namespace scanbench::runs

@@ -169,7 +169,8 @@ TaskOutput Execution::work_on_recording(std::size_t index, int threads, std::opt
 TaskOutput Execution::work_on_cell(std::size_t cell, const fs::path& folder, const Recording& recording) const {
   const PlannedCell& planned = plan_.cells[cell];
   const PlannedWork& work = plan_.works[planned.work];
-  const CellOutput made = make_cell(folder, *work.scenario, *work.pipeline, plan_.trace(planned), recording);
+  const CellOutput made =
+      make_cell(folder, sink_->root(), *work.scenario, *work.pipeline, plan_.trace(planned), recording);
   TaskOutput output(made.remarks);
   output.summary = summary_lines(plan_.key(planned), made.rows);
   output.file_hashes = sink_->hashes_of(folder);

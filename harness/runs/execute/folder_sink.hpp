@@ -18,6 +18,7 @@ class FolderSink : public CellSink {
   /// `written` gets the hashes of all files that are put in place.
   FolderSink(std::filesystem::path run, WrittenHashes& written);
 
+  const std::filesystem::path& root() const override { return run_; }
   std::string hashes_of(const std::filesystem::path& folder) const override;
 
  private:

@@ -9,7 +9,8 @@
 namespace scanbench::runs {
 namespace fs = std::filesystem;
 
-ArchiveSink::ArchiveSink(const RunPlan& plan, const fs::path& sweep, int shard) : plan_(plan), writer_(sweep, shard) {}
+ArchiveSink::ArchiveSink(const RunPlan& plan, const fs::path& sweep, int shard)
+    : plan_(plan), sweep_(sweep), writer_(sweep, shard) {}
 
 ArchivedCell ArchiveSink::take_cell(std::size_t cell) {
   return std::move(kept_.extract(cell).mapped());

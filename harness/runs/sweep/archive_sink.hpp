@@ -19,6 +19,7 @@ class ArchiveSink : public CellSink {
   /// Throws SystemError. `plan` must remain.
   ArchiveSink(const RunPlan& plan, const std::filesystem::path& sweep, int shard);
 
+  const std::filesystem::path& root() const override { return sweep_; }
   /// A cell that was kept; it is taken out.
   ArchivedCell take_cell(std::size_t cell);
   /// As CommitWriter::commit(); no child may write any more.
@@ -31,6 +32,7 @@ class ArchiveSink : public CellSink {
   void use_again(io::StagedFolder files);
 
   const RunPlan& plan_;
+  std::filesystem::path sweep_;
   CommitWriter writer_;
   std::map<std::size_t, ArchivedCell> kept_;          ///< by index into RunPlan::cells
   std::vector<std::filesystem::path> empty_folders_;  ///< to be used again

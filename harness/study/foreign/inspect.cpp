@@ -76,7 +76,7 @@ std::string described_by_child(const fs::path& library) {
 
 ForeignModule described_by(const ForeignSource& source, bool sandbox) {
   const io::NothingStays after_this;
-  Program program(source, {.sandbox = sandbox, .writable_folder = {}}, ProgramOutput::captured);
+  Program program(source, {.sandbox = sandbox, .writable_folder = {}, .hidden_folder = {}}, ProgramOutput::captured);
   const Call hello = Call("hello").key("scanbench", kProtocolVersion);
   const Answer answer = program.call(hello.header(), {}, kSeconds);
   try {

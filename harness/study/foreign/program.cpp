@@ -19,6 +19,7 @@
 #include "harness/io/process/output_tail.hpp"
 #include "harness/study/foreign/confine.hpp"
 #include "harness/study/foreign/fault.hpp"
+#include "harness/study/foreign/sandbox.hpp"
 
 namespace scanbench::study {
 namespace {
@@ -69,38 +70,6 @@ void restore_signals() {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
-/// Under bubblewrap: no network, terminal, capabilities or processes of others, the file system read-only but for one
-/// folder, and without the sockets of services in /run. Root keeps its capabilities unless they are dropped.
-std::vector<std::string> in_sandbox(const std::vector<std::string>& program, const ForeignSetting& setting) {
-  std::vector<std::string> argv{"bwrap",
-                                "--unshare-all",
-                                "--unshare-user",
-                                "--disable-userns",
-                                "--cap-drop",
-                                "ALL",
-                                "--new-session",
-                                "--die-with-parent",
-                                "--ro-bind",
-                                "/",
-                                "/",
-                                "--proc",
-                                "/proc",
-                                "--dev",
-                                "/dev",
-                                "--ro-bind-try",
-                                "/dev/shm",
-                                "/dev/shm",
-                                "--tmpfs",
-                                "/run"};
-  if (!setting.writable_folder.empty()) {
-    const std::string folder = std::filesystem::absolute(setting.writable_folder).string();
-    argv.insert(argv.end(), {"--bind", folder, folder, "--chdir", folder});
-  }
-  argv.emplace_back("--");
-  argv.insert(argv.end(), program.begin(), program.end());
-  return argv;
-}
-
 }  // namespace
 
 double called_programs_cpu_seconds() {
@@ -112,7 +81,7 @@ Program::Program(const ForeignSource& source, const ForeignSetting& setting, Pro
       in_sandbox_(setting.sandbox),
       is_captured_(output == ProgramOutput::captured),
       ahead_(kAhead) {
-  start(setting.sandbox ? in_sandbox(source.program, setting) : source.program);
+  start(setting.sandbox ? sandbox_command(source, setting) : source.program);
   // In a sandbox the program is out of sight: the duration of the calls counts.
   if (in_sandbox_ || ::clock_getcpuclockid(child_.pid(), &clock_) != 0) clock_ = CLOCK_MONOTONIC;
   accounted_seconds_ = seconds_on(clock_);

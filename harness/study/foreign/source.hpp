@@ -49,6 +49,7 @@ struct ForeignSource {
 struct ForeignSetting {
   bool sandbox = false;                   ///< run programs under bubblewrap
   std::filesystem::path writable_folder;  ///< the only one that a program in the sandbox can write to; may be empty
+  std::filesystem::path hidden_folder;    ///< shown empty in the sandbox, but for the writable one; may be empty
 };
 
 }  // namespace scanbench::study

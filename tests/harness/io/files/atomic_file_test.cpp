@@ -6,11 +6,14 @@
 
 #include <csignal>
 
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "harness/io/files/descriptor.hpp"
 #include "harness/io/files/hash.hpp"
 #include "harness/runs/execute/worker.hpp"
 #include "tests/support/runs.hpp"
@@ -100,6 +103,25 @@ TEST(AtomicFile, AKilledWriterLeavesTheOldOrTheNewFileWhole) {
     EXPECT_TRUE(found == a || found == b) << found.size();
   }
   for (const auto& name : fixtures::listing(folder.path())) EXPECT_TRUE(name == "f" || is_temporary_name(name)) << name;
+}
+
+TEST(StagedFile, TakesThePlaceOfALinkAPipeAndAFolder) {
+  const support::TemporaryFolder folder;
+  const fs::path other = folder.path() / "other", pipe = folder.path() / "pipe";
+  write_staged_file(other, "of another");
+  fs::create_symlink(other, folder.path() / "link");
+  fs::create_directories(folder.path() / "folder/deep");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const FileDescriptor reader(::open(pipe.c_str(), O_RDONLY | O_NONBLOCK));  // without one, opening to write waits
+  for (const std::string name : {"link", "pipe", "folder", "other"}) {
+    const fs::path path = folder.path() / name;
+    if (name == "other") {
+      EXPECT_EQ(read_file(path), "of another") << "the link was followed";
+    }
+    write_staged_file(path, "ours");
+    EXPECT_EQ(fs::symlink_status(path).type(), fs::file_type::regular) << name;
+    EXPECT_EQ(read_file(path), "ours") << name;
+  }
 }
 
 TEST(StagedFolder, AppearsAsAWholeOrNotAtAll) {

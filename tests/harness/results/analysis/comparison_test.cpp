@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/special_values.hpp"
@@ -55,7 +57,7 @@ TEST(Comparison, TakesDifferencesSeedBySeed) {
   EXPECT_EQ(change.finding, Finding::worse);
   EXPECT_EQ(change.worst()->seed, 3U);
   EXPECT_EQ(c.exit_code(), 1);
-  EXPECT_THAT(verdict_sentence(c), HasSubstr("FAIL: 1 of 1 gate is worse. It is: f1 of iepf in room fell from 0.6 to "
+  EXPECT_THAT(verdict_sentence(c), HasSubstr("FAIL: 1 of 1 gate is worse. Worse: f1 of iepf in room fell from 0.6 to "
                                              "0.55 (by 0.05, 95 % interval "));
 }
 
@@ -92,6 +94,22 @@ TEST(Comparison, NeedsTheIntervalAndTheTolerance) {
 TEST(Comparison, OfASinglePairIsExact) {
   EXPECT_EQ(finding_of({0.9}, {0.85}), Finding::worse);  // a log: the same scans, so the code is the cause
   EXPECT_EQ(finding_of({0.9}, {0.895}), Finding::within);
+}
+
+TEST(Comparison, OfFewerThanThreeSeedsComparesWithTheToleranceAlone) {
+  // Student's t with one degree of freedom is 12.7: no interval of two seeds like these would exclude zero.
+  const Comparison two = compared({0.995, 0.991}, {0.737, 0.837});
+  EXPECT_EQ(two.changes.at(0).finding, Finding::worse);
+  EXPECT_EQ(two.exit_code(), 1);
+  EXPECT_THAT(verdict_sentence(two), HasSubstr("fell from 0.993 to 0.787 (by 0.206, without an interval: 2 seeds are "
+                                               "too few; tolerance 0.01)"));
+  EXPECT_TRUE(std::isnan(two.changes.at(0).p));
+  EXPECT_THAT(verdict_sentence(compared({0.9}, {0.8})), HasSubstr("without an interval: 1 seed is too few"));
+  EXPECT_EQ(finding_of({0.9, 0.8}, {0.892, 0.792}), Finding::within);
+  const Comparison better = compared({0.737, 0.837}, {0.995, 0.991});
+  EXPECT_EQ(better.exit_code(), 0);
+  EXPECT_THAT(verdict_sentence(better),
+              HasSubstr("1 gate changed on fewer than three seeds, where the tolerance alone decides."));
 }
 
 TEST(Comparison, OfAValueThatIsLostIsWorseAndAnInfiniteOneIsNeverBetter) {
@@ -156,7 +174,10 @@ TEST(Comparison, ACellThatFailsNowIsBrokenAndOneThatIsMissingMakesItIncomplete) 
   EXPECT_THAT(verdict_sentence(broken), HasSubstr("1 cell is no longer ok. room/iepf/2 crashed: signal 11."));
   EXPECT_EQ(compare(crashed, good, Gates(kF1)).exit_code(), 0);
   EXPECT_EQ(compare(crashed, good, Gates(kF1)).mended.size(), 1U);
-  EXPECT_EQ(compare(crashed, crashed, Gates(kF1)).failing.size(), 1U);
+  const Comparison still = compare(crashed, crashed, Gates(kF1));
+  EXPECT_EQ(still.failing.size(), 1U);
+  EXPECT_EQ(still.exit_code(), 1);
+  EXPECT_THAT(verdict_sentence(still), HasSubstr("FAIL: 1 cell is not ok, as before. room/iepf/2 crashed: signal 11."));
 
   const RunResults shorter = f1_run({0.9, 0.8});
   const Comparison missing = compare(good, shorter, Gates(kF1));
@@ -169,7 +190,36 @@ TEST(Comparison, ACellThatFailsNowIsBrokenAndOneThatIsMissingMakesItIncomplete) 
   RunResults both = crashed;
   both.cells.pop_back();
   EXPECT_EQ(compare(good, both, Gates(kF1)).exit_code(), 5);               // neither hides the other
-  EXPECT_EQ(compare(RunResults{}, RunResults{}, Gates()).exit_code(), 4);  // nothing is never good
+  EXPECT_EQ(compare(RunResults{}, RunResults{}, Gates()).exit_code(), 2);  // nothing is never good
+}
+
+TEST(Comparison, AFailedCellOfANewPipelineFails) {
+  const auto value = [](const auto&, const auto&, std::uint64_t) { return 0.9; };
+  RunResults now = made_up_run({"iepf", "lt"}, {"f1"}, 2, value);
+  for (auto& cell : now.cells)
+    if (cell.key.pipeline == "lt") cell.status = "timeout";
+  const Comparison c = compare(made_up_run({"iepf"}, {"f1"}, 2, value), now, Gates(kF1));
+  EXPECT_EQ(c.exit_code(), 1);
+  EXPECT_THAT(verdict_sentence(c), HasSubstr("FAIL: 2 new cells are not ok. room/lt/1 timeout: no message."));
+}
+
+TEST(Comparison, OfRunsWithoutACommonCellSaysThatNothingWasCompared) {
+  const auto value = [](const auto&, const auto&, std::uint64_t) { return 0.9; };
+  RunResults iepf = made_up_run({"iepf"}, {"f1"}, 2, value), lt = made_up_run({"lt"}, {"f1"}, 2, value);
+  iepf.name = "one";
+  lt.name = "other";
+  const Comparison c = compare(iepf, lt, Gates(kF1));
+  EXPECT_EQ(c.exit_code(), 2);
+  EXPECT_EQ(verdict_sentence(c),
+            "NOT COMPARED: no cell is in both runs, so nothing was compared: one has cells such as room/iepf/1, other "
+            "has cells such as room/lt/1.");
+  // A run that lacks its own cells is incomplete.
+  RunResults gone = iepf;
+  for (auto& cell : gone.cells) {
+    cell.status = "missing";
+    cell.requested = true;
+  }
+  EXPECT_EQ(compare(iepf, gone, Gates(kF1)).exit_code(), 4);
 }
 
 TEST(Comparison, AMetricWithoutRowsMakesItIncomplete) {
@@ -178,7 +228,57 @@ TEST(Comparison, AMetricWithoutRowsMakesItIncomplete) {
   const Comparison c = compare(f1_run({0.9, 0.8}), without, Gates(kF1));
   EXPECT_THAT(c.absent, ElementsAre("room/iepf: f1"));
   EXPECT_EQ(c.exit_code(), 4);
+  EXPECT_THAT(verdict_sentence(c), HasSubstr("INCOMPLETE: 1 gate has no values any more, first room/iepf: f1."));
   EXPECT_EQ(compare(without, f1_run({0.9, 0.8}), Gates(kF1)).exit_code(), 0);  // a new metric
+}
+
+TEST(Comparison, AMetricThatIsNoGateNowIsSaidAndNotMissing) {
+  const auto value = [](const auto&, const auto&, std::uint64_t) { return 0.9; };
+  const RunResults before = made_up_run({"iepf", "lt"}, {"f1", "precision", "recall"}, 3, value);
+  const Comparison c = compare(before, made_up_run({"iepf", "lt"}, {"f1"}, 3, value), Gates(kF1));
+  EXPECT_EQ(c.exit_code(), 0);
+  EXPECT_THAT(c.dropped, ElementsAre("precision", "recall"));
+  EXPECT_EQ(
+      verdict_sentence(c),
+      "PASS: none of 2 gates is worse (2 equal to the bit). Not gates, and without values now: precision, recall.");
+}
+
+TEST(Comparison, OnlyHeadlinesFailAndTheSentenceCountsBothSides) {
+  // f1 of a is better, that of b worse; precision and recall are watched.
+  const auto run = [](double a, double b, double watched) {
+    return made_up_run({"a", "b"}, {"f1", "precision", "recall"}, 4,
+                       [=](const std::string& pipeline, const std::string& metric, std::uint64_t seed) {
+                         const double spread = 0.001 * static_cast<double>(seed * seed) * a;
+                         return (metric == "f1" ? (pipeline == "a" ? a : b) : watched) + spread;
+                       });
+  };
+  const Comparison mixed = compare(run(0.7, 0.8, 0.9), run(0.8, 0.7, 0.6), Gates());
+  EXPECT_EQ(mixed.gates, 2U);
+  EXPECT_EQ(mixed.exit_code(), 1);
+  EXPECT_THAT(verdict_sentence(mixed), HasSubstr("FAIL: 1 of 2 gates is worse, 1 is better. Worse: f1 of b in room"));
+  EXPECT_THAT(verdict_sentence(mixed), HasSubstr("Of the watched metrics 4 are worse."));
+  const Comparison watched = compare(run(0.7, 0.7, 0.9), run(0.8, 0.8, 0.6), Gates());
+  EXPECT_EQ(watched.exit_code(), 0);
+  EXPECT_THAT(verdict_sentence(watched), HasSubstr("PASS: none of 2 gates is worse (2 better)."));
+  EXPECT_THAT(verdict_sentence(watched), HasSubstr("Of the watched metrics 4 are worse."));
+}
+
+TEST(Gates, AreAtMostTwoHeadlinesOfTheLastStage) {
+  const auto descriptions = metric_descriptions();
+  std::set<std::string> all;
+  for (const auto& [metric, description] : descriptions) {
+    all.insert(metric);
+    EXPECT_LE(Gates().among({metric}).size(), 1U);
+    EXPECT_TRUE(!is_headline(metric) || description.direction != metrics::Direction::neither) << metric;
+  }
+  EXPECT_THAT(Gates().among(all), ElementsAre("covered_5cm", "true_share_5cm"));
+  EXPECT_THAT(Gates().among({"f1", "recall", "raster_f1"}), ElementsAre("f1"));
+  EXPECT_THAT(Gates().among({"f1", "pose_error_heading", "pose_error_position"}),
+              ElementsAre("pose_error_heading", "pose_error_position"));
+  EXPECT_THAT(Gates().among({"heading_error", "position_error", "rpe_position"}),
+              ElementsAre("heading_error", "position_error"));
+  EXPECT_THAT(Gates(study::GateSpec{{{"recall", 0.1}, {"t_total", 1.0}}}).among({"f1", "recall", "t_total"}),
+              ElementsAre("recall", "t_total"));
 }
 
 TEST(Comparison, SaysWhatDiffers) {
@@ -244,7 +344,7 @@ fs::path run_with_skip(const fs::path& out, std::int64_t skip, const std::vector
 }
 
 Comparison compare_folders(const fs::path& a, const fs::path& b) {
-  return compare(load_run_results(a), load_run_results(b), Gates());
+  return compare(load_run_results(a), load_run_results(b), Gates(study::GateSpec{{{"test_unlabelled", 1.0}}}));
 }
 
 TEST(Comparison, OfRunFoldersPairsTheirCells) {
@@ -276,7 +376,7 @@ TEST(Comparison, OfTwoRunsWithTheSameSelectionIsComplete) {
   const fs::path other = run_only("other", "b");
   EXPECT_EQ(compare_folders(one, two).exit_code(), 0);
   EXPECT_EQ(compare_folders(one, two).cells, 2U);
-  EXPECT_EQ(compare_folders(one, other).exit_code(), 4);
+  EXPECT_EQ(compare_folders(one, other).exit_code(), 2);
   fs::remove_all(runs::cell_path(one, {"s", "a", 2}));
   fs::remove_all(runs::cell_path(two, {"s", "a", 2}));
   EXPECT_EQ(compare_folders(one, two).exit_code(), 4);  // requested, and missing in both

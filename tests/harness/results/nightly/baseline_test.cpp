@@ -50,7 +50,7 @@ TEST(Baseline, KeepsOneValuePerGateAndCell) {
   rows.back().subject = "wall 2";
   rows.back().value = 0.75;
   rows.push_back(rows[0]);
-  rows.back().metric = "precision";
+  rows.back().metric = "n_false";  // no value is better
   const RunResults reduced = gate_values(run, f1_gate());
   ASSERT_EQ(reduced.cells[0].rows.size(), 1U);
   EXPECT_EQ(reduced.cells[0].rows[0].subject, kMeanOfSubjects);

@@ -46,6 +46,9 @@ TEST(ComparisonFiles, JunitCountsAFailurePerGateAndCell) {
   const std::string xml = comparison_junit(worse_and_broken());
   EXPECT_THAT(xml, HasSubstr("<testsuite name=\"scanbench\" tests=\"2\" failures=\"2\" errors=\"0\">"));
   EXPECT_THAT(xml, HasSubstr("classname=\"room.iepf\" name=\"f1\"><failure message=\"f1 of iepf in room fell"));
+  RunResults crashed = f1_run({0.5, 0.41, 0.3});
+  crashed.cells[2].status = "crashed";
+  EXPECT_THAT(comparison_junit(compare(crashed, crashed, gate_of_f1())), HasSubstr("tests=\"2\" failures=\"1\""));
   const std::string good = comparison_junit(compare(f1_run({0.9}), f1_run({0.9}), gate_of_f1()));
   EXPECT_THAT(good, HasSubstr("tests=\"1\" failures=\"0\" errors=\"0\""));
   const std::string missing = comparison_junit(compare(f1_run({0.9, 0.8}), f1_run({0.9}), gate_of_f1()));

@@ -264,6 +264,11 @@ TEST_F(Programs, ThatNestTooDeeplyAreRefused) {
                          "\":' + b'[' * 500000 + b']' * 500000 + b'}'\n"
                          "    return struct.pack('<4sIQ', b'SBF1', len(text), 0) + text\n"),
                 HasSubstr("nested more than 32 deep"));
+  for (const std::string key : {"error", "id", "params", "protocol"})
+    EXPECT_THAT(fault_of("def answer(header, beams):\n    text = b'{\"" + key +
+                         "\":' + b'[' * 500000 + b']' * 500000 + b'}'\n"
+                         "    return struct.pack('<4sIQ', b'SBF1', len(text), 0) + text\n"),
+                HasSubstr("nested more than 32 deep"));
   EXPECT_THAT(fault_of("def extract(header, beams): return frame({'id': header['id'], 'error': '[' * 100})\n"),
               HasSubstr("reports an error: [[["))
       << "brackets in a text do not nest";
