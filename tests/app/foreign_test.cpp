@@ -132,7 +132,7 @@ class SandboxedPrograms : public ForeignPrograms {
   }
 };
 
-TEST_F(SandboxedPrograms, CanWriteOnlyToTheFolderOfTheirCell) {
+TEST_F(SandboxedPrograms, CanWriteOnlyToAFolderOfTheirOwn) {
   const auto outside = folder_ / "outside";
   program("writes.py", "open('inside', 'w').close()\n        open('" + outside.string() + "', 'w').close()");
   const auto file = scenario_of("writes.py");

@@ -34,8 +34,8 @@ FileDescriptor opened(const fs::path& path, int flags) {
 }
 
 /// Returns 0, or errno.
-int write_and_flush(const fs::path& path, std::string_view bytes, bool flush, int if_exists = O_TRUNC) {
-  FileDescriptor file = opened(path, O_WRONLY | O_CREAT | O_NOFOLLOW | if_exists);
+int write_and_flush(const fs::path& path, std::string_view bytes, bool flush) {
+  FileDescriptor file = opened(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW);
   const bool written = file.is_open() && write_all(file.number(), std::as_bytes(std::span(bytes))) &&
                        (!flush || ::fsync(file.number()) == 0) && file.close() == 0;
   return written ? 0 : errno;
@@ -125,10 +125,8 @@ bool write_new_file(const fs::path& path, std::string_view bytes) {
 }
 
 void write_staged_file(const fs::path& path, std::string_view bytes) {
-  std::error_code error;
-  fs::remove_all(path, error);
-  const int reason = error ? error.value() : write_and_flush(path, bytes, false, O_EXCL);
-  if (reason != 0) refuse("write", path, reason);
+  const int error = write_and_flush(path, bytes, false);
+  if (error != 0) refuse("write", path, error);
 }
 
 void remove_file(const fs::path& path) {
@@ -189,12 +187,13 @@ bool put_back(const fs::path& folder) {
   return true;
 }
 
-void remove_temporaries(const fs::path& folder) {
+void remove_temporaries(const fs::path& folder, const std::vector<fs::path>& kept) {
   std::vector<fs::path> found;
   for (auto it = fs::recursive_directory_iterator(folder); it != fs::recursive_directory_iterator(); ++it) {
-    if (!is_temporary_name(it->path().filename().string())) continue;
-    found.push_back(it->path());
-    if (it->is_directory() && !it->is_symlink()) it.disable_recursion_pending();
+    const bool is_kept = std::ranges::find(kept, it->path()) != kept.end();
+    const bool is_found = !is_kept && is_temporary_name(it->path().filename().string());
+    if (is_found) found.push_back(it->path());
+    if ((is_kept || is_found) && it->is_directory() && !it->is_symlink()) it.disable_recursion_pending();
   }
   std::error_code ignored;
   for (const auto& path : found) fs::remove_all(path, ignored);

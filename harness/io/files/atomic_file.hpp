@@ -21,7 +21,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
 /// The same for a file that must not exist yet. False, and nothing is changed, if it does.
 bool write_new_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Writes a file inside a StagedFolder, flushed later, in place of a file, link, pipe or folder. Throws ConfigError.
+/// Writes a file inside a StagedFolder, which is flushed and renamed as a whole later. Throws ConfigError.
 void write_staged_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Removes a file. A file that does not exist is no error. Throws ConfigError.
@@ -50,9 +50,9 @@ bool put_back(const std::filesystem::path& folder);
 /// The folders that exchange_folders() has left aside of `folder`, sorted.
 std::vector<std::filesystem::path> folders_aside(const std::filesystem::path& folder);
 
-/// Removes the unfinished files and folders of killed processes inside a folder and below it. The caller excludes other
-/// writers.
-void remove_temporaries(const std::filesystem::path& folder);
+/// Removes the unfinished files and folders of killed processes inside a folder and below it, but for the paths `kept`
+/// and what is below these. The caller excludes other writers.
+void remove_temporaries(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& kept = {});
 
 /// Removes the unfinished folders that killed processes have left beside a target, after put_back(). The caller
 /// excludes other writers of the target.

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <utility>
-#include <vector>
 
 #include "harness/io/files/atomic_file.hpp"
 #include "harness/runs/execute/pipeline.hpp"
@@ -14,11 +13,14 @@ namespace scanbench::runs {
 
 namespace {
 
-/// A module may have made links, pipes or files there, which would be taken for results.
-void remove_leftovers(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> left;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) left.push_back(entry.path());
-  for (const auto& path : left) std::filesystem::remove_all(path);
+/// A program of the pipeline runs in a folder of its own, which is removed with all that it leaves there: none of it is
+/// taken for a result.
+PipelineRun run_in_own_folder(const std::filesystem::path& folder, const std::filesystem::path& root,
+                              const study::Scenario& scenario, const study::PipelineSpec& pipeline,
+                              const Recording& recording, Journal* journal) {
+  const io::StagedFolder own(folder / "module");  // never committed
+  return run_pipeline(pipeline, recording.observed, journal,
+                      {.sandbox = scenario.limits.sandbox, .writable_folder = own.path(), .hidden_folder = root});
 }
 
 }  // namespace
@@ -28,10 +30,7 @@ CellOutput make_cell(const std::filesystem::path& folder, const std::filesystem:
                      const study::TraceChoice& trace, const Recording& recording) {
   Journal journal(trace);
   const bool traced = !trace.nothing();
-  const PipelineRun run =
-      run_pipeline(pipeline, recording.observed, traced ? &journal : nullptr,
-                   {.sandbox = scenario.limits.sandbox, .writable_folder = folder, .hidden_folder = root});
-  remove_leftovers(folder);
+  const PipelineRun run = run_in_own_folder(folder, root, scenario, pipeline, recording, traced ? &journal : nullptr);
   write_result(folder, pipeline, run.result);
   if (traced) io::write_staged_file(folder / kTraceFile, journal.csv());
   Scores scores = score_cell(scenario.metrics, recording, folder);

@@ -18,8 +18,8 @@ struct CellOutput {
   std::vector<metrics::MetricRow> rows;
 };
 
-/// Runs the pipeline, scores it with the scenario's metrics, and writes all files of the cell but status.json. Files
-/// that a module has made there are removed. A program in the sandbox sees nothing else of the folder `root`. Throws
+/// Runs the pipeline, scores it with the scenario's metrics, and writes all files of the cell but status.json. A
+/// program in the sandbox sees nothing of the folder `root` but one of its own, which is removed after it. Throws
 /// what run_pipeline() and score_cell() throw.
 CellOutput make_cell(const std::filesystem::path& folder, const std::filesystem::path& root,
                      const study::Scenario& scenario, const study::PipelineSpec& pipeline,

@@ -49,19 +49,6 @@ void require_sweep_or_nothing(const fs::path& folder) {
     throw ConfigError((folder / kSweepFile).string() + " is not the plan of a sweep");
 }
 
-/// Removes what a killed plan has left. Shards may be at work in a folder of their own.
-void remove_unfinished_files(const fs::path& folder) {
-  std::vector<fs::path> found;
-  for (auto it = fs::recursive_directory_iterator(folder); it != fs::recursive_directory_iterator(); ++it) {
-    if (it->is_directory() && (it->is_symlink() || it->path() == folder / "shards"))
-      it.disable_recursion_pending();
-    else if (io::is_temporary_name(it->path().filename().string()) && it->path() != folder / kUnfinishedPlan)
-      found.push_back(it->path());
-  }
-  std::error_code ignored;
-  for (const auto& path : found) fs::remove_all(path, ignored);
-}
-
 /// Deals the recordings that have cells to run to the shards, one after the other, so that each shard gets a part of
 /// every scenario. Returns the number of shards.
 int deal(const RunPlan& plan, const SweepOptions& options, std::vector<SweepCell>& cells) {
@@ -150,7 +137,8 @@ SweepPlan plan_sweep(const std::vector<study::Scenario>& scenarios, const SweepO
   for (const PlannedCell& cell : cells.cells) plan.cells.push_back({cells.key(cell), cells.address(cell), 0});
   plan.shards = deal(cells, options, plan.cells);
   io::make_folders(options.out);
-  remove_unfinished_files(options.out);
+  // Of a killed plan. Shards may be at work in a folder of their own.
+  io::remove_temporaries(options.out, {options.out / "shards", options.out / kUnfinishedPlan});
   if (!fs::exists(options.out / kSweepFile)) io::write_file_atomically(options.out / kUnfinishedPlan, "");
   io::make_folders(options.out / "shards");
   write_suite_rules(options.out, options.rules);
