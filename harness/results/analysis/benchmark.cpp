@@ -10,6 +10,7 @@
 
 #include "core/index.hpp"
 #include "core/special_values.hpp"
+#include "harness/results/analysis/shared_best.hpp"
 
 namespace scanbench::results {
 namespace {
@@ -60,7 +61,7 @@ std::map<std::string, int> conditions_won(const CellValues& rank, const study::B
     double best = kNaN;
     for (const double m : means)
       if (better(column.description(), m, best)) best = m;
-    for (std::size_t i = 0; i < means.size(); ++i) won[pipelines[i]] += means[i] == best;
+    for (std::size_t i = 0; i < means.size(); ++i) won[pipelines[i]] += means[i] == best ? 1 : 0;
   }
   return won;
 }
@@ -76,28 +77,10 @@ bool is_complete(const CellValues& values, const std::string& pipeline, const st
   });
 }
 
-/// Index of the best mean but for that of `without`; -1: none.
-int best_of(const std::vector<MeanInterval>& values, const study::BenchmarkColumn& column, int without = -1) {
-  int best = -1;
-  for (int i = 0; i < static_cast<int>(values.size()); ++i) {
-    const double mean = values[as_index(i)].mean;
-    if (i == without || !std::isfinite(mean)) continue;
-    if (best < 0 || better(column.description(), mean, values[as_index(best)].mean)) best = i;
-  }
-  return best;
-}
-
-/// The difference per seed, of the logarithms where the mean is geometric.
-std::vector<double> differences(std::vector<double> a, const std::vector<double>& b, bool geometric) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = geometric ? std::log(a[i]) - std::log(b[i]) : a[i] - b[i];
-  return a;
-}
-
 }  // namespace
 
 std::string next_head(const study::BenchmarkColumn& rank) {
-  const std::string name = rank.head.substr(0, rank.head.find(" ["));
-  return rank.geometric ? name + " over next" : name + " − next";
+  return rank.geometric ? rank.name() + " over next" : rank.name() + " − next";
 }
 
 CellValues values_of(const std::vector<runs::SummaryRow>& rows, const std::string& metric) {
@@ -152,7 +135,7 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<study::Scenario>& s
     for (const auto& name : names) {
       std::vector<double>& by_seed = by_name[name].by_seed[column.metric];
       by_seed = per_seed(values, name, seeds, conditions, column.geometric);
-      by_name[name].values[column.metric] = mean_interval(by_seed);
+      by_name[name].values[column.metric] = seed_interval(by_seed, range_of(column.description()));
     }
   }
   std::vector<RankedPipeline> ranking;
@@ -166,7 +149,7 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<study::Scenario>& s
     for (const auto& condition : conditions)
       for (const std::uint64_t seed : seeds) {
         const auto found = rank_values.find({name, seed, condition});
-        ranked.missing += found == rank_values.end() || !std::isfinite(found->second);
+        ranked.missing += found == rank_values.end() || !std::isfinite(found->second) ? 1 : 0;
       }
     ranking.push_back(ranked);
   }
@@ -183,27 +166,11 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<study::Scenario>& s
       std::ranges::transform(rank_of[ranking[i].name], rank_of[ranking[i + 1].name], std::back_inserter(differences),
                              std::minus<>{});
     ranking[i].next_difference = average(differences, false);
-    p_values.push_back(paired_p_value(differences));
+    p_values.push_back(std::ssize(seeds) < kFewestForInterval ? kNaN : paired_p_value(differences));
   }
   const std::vector<double> adjusted = holm_adjusted(p_values);
   for (std::size_t i = 0; i < ranking.size(); ++i) ranking[i].next_p = adjusted[i];
   return ranking;
-}
-
-std::vector<int> not_separated(const std::vector<std::vector<double>>& by_seed, int best, bool geometric) {
-  std::vector<int> others;
-  std::vector<double> p_values;
-  for (int i = 0; i < static_cast<int>(by_seed.size()); ++i) {
-    const auto& values = by_seed[as_index(i)];
-    if (i == best || !std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) continue;
-    others.push_back(i);
-    p_values.push_back(paired_p_value(differences(by_seed[as_index(best)], values, geometric)));
-  }
-  const std::vector<double> adjusted = holm_adjusted(p_values);
-  std::vector<int> together{best};
-  for (std::size_t k = 0; k < others.size(); ++k)
-    if (!(adjusted[k] < 0.05)) together.push_back(others[k]);
-  return together;
 }
 
 std::vector<LevelResult> results_by_level(const std::vector<study::Scenario>& scenarios,
@@ -214,7 +181,6 @@ std::vector<LevelResult> results_by_level(const std::vector<study::Scenario>& sc
   const std::vector<std::uint64_t> seeds = seeds_of(rows);
   const std::vector<std::string> in_run = scenario_names(scenarios);
   std::vector<LevelResult> results;
-  std::vector<double> p_values;
   for (const study::BenchmarkLevel& level : spec.levels) {
     std::vector<std::string> conditions;
     std::ranges::copy_if(level.scenarios, std::back_inserter(conditions),
@@ -226,19 +192,11 @@ std::vector<LevelResult> results_by_level(const std::vector<study::Scenario>& sc
       by_seed.push_back(is_complete(values, name, seeds, conditions)
                             ? per_seed(values, name, seeds, conditions, rank.geometric)
                             : std::vector<double>(seeds.size(), kNaN));
-      result.values.push_back(mean_interval(by_seed.back()));
+      result.values.push_back(seed_interval(by_seed.back(), range_of(rank.description())));
     }
-    result.best = best_of(result.values, rank);
-    result.second = best_of(result.values, rank, result.best);
-    p_values.push_back(result.second < 0
-                           ? kNaN
-                           : paired_p_value(differences(by_seed[as_index(result.best)],
-                                                        by_seed[as_index(result.second)], rank.geometric)));
-    if (result.best >= 0) result.leaders = not_separated(by_seed, result.best, rank.geometric);
+    result.leaders = shared_best(by_seed, rank.description());
     results.push_back(std::move(result));
   }
-  const std::vector<double> adjusted = holm_adjusted(p_values);
-  for (std::size_t i = 0; i < results.size(); ++i) results[i].p = adjusted[i];
   return results;
 }
 

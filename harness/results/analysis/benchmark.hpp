@@ -33,7 +33,8 @@ struct RankedPipeline {
   int missing = 0;               ///< cells without a value of the rank's metric: not ok, or not there
   double next_difference = 0.0;  ///< mean of the rank's metric minus that of the next in rank, paired by seed, of the
                                  ///< logarithms where the mean is geometric; NaN for the last
-  double next_p = 1.0;           ///< of that difference, paired t test, corrected after Holm; NaN: no test
+  double next_p = 1.0;           ///< of that difference, paired t test, corrected after Holm; NaN: no test, as of
+                                 ///< fewer than kFewestForInterval seeds
   int conditions_won = 0;        ///< in which it is the best, averaged over the seeds
 };
 
@@ -59,17 +60,9 @@ struct LevelResult {
   std::string factor;
   std::string level;
   std::vector<MeanInterval> values;  ///< one per name; all NaN for a pipeline with missing cells at this level
-  int best = -1;                     ///< index of the best value; -1 if no pipeline has one
-  int second = -1;                   ///< the best of the others
-  double p = 1.0;                    ///< of the difference of these two, as RankedPipeline::next_p, over all levels
-  std::vector<int> leaders{};        ///< the best and those that not_separated() finds beside it, best first
+  std::vector<int> leaders{};        ///< indices, from shared_best(): the best first; empty if no pipeline has a value
   std::vector<std::vector<double>> by_seed{};  ///< one per name: what `values` are the means of
 };
-
-/// Indices of the pipelines that the seeds do not separate from pipeline `best`, which comes first: paired t tests at
-/// the 5 % level, corrected for their number after Holm. Pipelines with NaN are left out. With one seed, all are found.
-/// `by_seed`: a value per pipeline and seed.
-std::vector<int> not_separated(const std::vector<std::vector<double>>& by_seed, int best, bool geometric);
 
 /// One result per level of the specification that has scenarios in the run; `names` are pipelines.
 std::vector<LevelResult> results_by_level(const std::vector<study::Scenario>& scenarios,

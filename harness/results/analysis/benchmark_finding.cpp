@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/index.hpp"
+#include "harness/results/analysis/shared_best.hpp"
 
 namespace scanbench::results {
 namespace {
@@ -19,7 +20,8 @@ bool contains(const std::vector<int>& indices, int index) {
 
 /// Whether a leader of each of the two levels is not among the leaders of the other.
 bool leaders_change(const LevelResult& a, const LevelResult& b) {
-  return a.best >= 0 && b.best >= 0 && !contains(b.leaders, a.best) && !contains(a.leaders, b.best);
+  return !a.leaders.empty() && !b.leaders.empty() && !contains(b.leaders, a.leaders.front()) &&
+         !contains(a.leaders, b.leaders.front());
 }
 
 bool leaders_change(const Levels& levels) {
@@ -70,24 +72,16 @@ double interaction(const Levels& levels, const std::vector<int>& pipelines, bool
   return squares / (rows * columns);
 }
 
-std::vector<std::string> overall_leaders(const std::vector<study::Scenario>& scenarios,
-                                         const std::vector<runs::SummaryRow>& rows, const study::BenchmarkSpec& spec,
-                                         const std::vector<RankedPipeline>& ranking) {
+std::vector<std::string> overall_leaders(const study::BenchmarkSpec& spec, const std::vector<RankedPipeline>& ranking) {
   const study::BenchmarkColumn& rank = spec.subject().rank_column();
-  const CellValues values = values_of(rows, rank.metric);
-  const std::vector<std::uint64_t> seeds = seeds_of(rows);
-  std::vector<std::string> conditions;
-  for (const auto& scenario : scenarios) conditions.push_back(scenario.name);
-  std::vector<std::string> names;
   std::vector<std::vector<double>> by_seed;
+  std::vector<bool> complete;
   for (const auto& ranked : ranking) {
-    if (ranked.missing > 0 || !std::isfinite(ranked.values.at(rank.metric).mean)) continue;
-    names.push_back(ranked.name);
-    by_seed.push_back(per_seed(values, ranked.name, seeds, conditions, rank.geometric));
+    by_seed.push_back(ranked.by_seed.at(rank.metric));
+    complete.push_back(ranked.missing == 0);
   }
   std::vector<std::string> leaders;
-  if (names.empty()) return leaders;
-  for (const int i : not_separated(by_seed, 0, rank.geometric)) leaders.push_back(names[as_index(i)]);
+  for (const int i : shared_best(by_seed, rank.description(), complete)) leaders.push_back(ranking[as_index(i)].name);
   return leaders;
 }
 
@@ -96,7 +90,7 @@ std::vector<std::string> overall_leaders(const std::vector<study::Scenario>& sce
 BenchmarkFinding find_leaders(const std::vector<study::Scenario>& scenarios, const std::vector<runs::SummaryRow>& rows,
                               const study::BenchmarkSpec& spec, const std::vector<RankedPipeline>& ranking) {
   if (std::ssize(seeds_of(rows)) < kFewestSeedsToSeparate) return {};
-  BenchmarkFinding finding{overall_leaders(scenarios, rows, spec, ranking), "", {}};
+  BenchmarkFinding finding{overall_leaders(spec, ranking), "", {}};
   std::vector<std::string> names;
   for (const auto& ranked : ranking) names.push_back(ranked.name);
   finding.levels = results_by_level(scenarios, rows, spec, names);

@@ -8,12 +8,12 @@
 
 namespace scanbench::results {
 
-/// Fewer seeds separate nothing: the paired t test of two has one degree of freedom.
+/// Of fewer seeds, one of two equal methods is ahead on all of them more often than not.
 constexpr int kFewestSeedsToSeparate = 3;
 
 struct BenchmarkFinding {
-  /// The first in rank, then those that the seeds do not separate from it, in rank order: paired t tests at 5 % with
-  /// Holm's correction for the number of pipelines. Empty if no pipeline has a result in every cell, or of fewer seeds.
+  /// The first in rank, then those of shared_best() in rank order. Empty if no pipeline has a result in every cell, and
+  /// for fewer than kFewestSeedsToSeparate seeds.
   std::vector<std::string> leaders;
   /// The factor that changes most which pipeline leads; empty if none changes it. A factor changes it if one pipeline
   /// leads at a level and is separated from the leaders of another, and vice versa. Among such factors, the one with

@@ -197,31 +197,23 @@ std::string bound_text(const RankedPipeline& ranked, const study::BenchmarkSubje
                      ranked.name, subject.bound.of, ratio);
 }
 
-/// Words for values of the column that decides the rank.
-class RankWords {
- public:
-  explicit RankWords(const study::BenchmarkColumn& rank) : rank_(rank) {
-    const std::size_t unit = rank.head.find(" [");
-    is_share_ = rank.head.substr(std::min(unit, rank.head.size())) == " [%]";
-    name_ = is_share_ ? rank.head.substr(0, unit) : rank.head;
-  }
-  const std::string& name() const { return name_; }
-  std::string value(double of) const { return number(of) + (is_share_ ? " %" : ""); }
-  /// "95.20 % (95.01 to 95.39)"
-  std::string value(const MeanInterval& of) const {
-    return fmt::format("{} ({} to {})", value(of.mean), number(of.low), number(of.high));
-  }
+/// A value of the column that decides the rank: "95.20 %".
+std::string rank_text(const study::BenchmarkColumn& rank, double value) {
+  return fmt::format("{:.{}f}{}", rank.scale * value, rank.decimals, rank.is_share() ? " %" : "");
+}
 
- private:
-  std::string number(double of) const { return fmt::format("{:.{}f}", rank_.scale * of, rank_.decimals); }
+/// "95.20 % (95.01 to 95.39)"
+std::string rank_text(const study::BenchmarkColumn& rank, const MeanInterval& value) {
+  return fmt::format("{} ({:.{}f} to {:.{}f})", rank_text(rank, value.mean), rank.scale * value.low, rank.decimals,
+                     rank.scale * value.high, rank.decimals);
+}
 
-  const study::BenchmarkColumn& rank_;
-  std::string name_;
-  bool is_share_ = false;
-};
-
+/// "a, b and c", "a, b, c and 4 more".
 std::string and_list(const std::vector<std::string>& names) {
-  if (names.size() < 2) return fmt::format("{}", fmt::join(names, ""));
+  constexpr std::size_t kListed = 4;
+  if (names.size() > kListed)
+    return fmt::format("{} and {} more", fmt::join(names.begin(), names.begin() + kListed - 1, ", "),
+                       names.size() - kListed + 1);
   return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 
@@ -232,27 +224,26 @@ std::string with_count(std::size_t count, const std::string& noun) {
 /// Which pipelines lead: the page's first sentence, and how far the first is from the best possible.
 std::string answer_text(const ReportInput& input, const study::BenchmarkSpec& spec, const BenchmarkFinding& finding) {
   const study::BenchmarkSubject& subject = spec.subject();
-  const RankWords words(subject.rank_column());
+  const study::BenchmarkColumn& rank = subject.rank_column();
   const RankedPipeline& first = input.ranking.front();
-  const auto value = [&](const RankedPipeline& ranked) {
-    return words.value(ranked.values.at(subject.rank_column().metric).mean);
-  };
-  if (first.missing > 0 || !std::isfinite(first.values.at(subject.rank_column().metric).mean))
+  const auto value = [&](const RankedPipeline& ranked) { return rank_text(rank, ranked.values.at(rank.metric).mean); };
+  if (first.missing > 0 || !std::isfinite(first.values.at(rank.metric).mean))
     return fmt::format("No {} has a result in every cell, so the ranking has no winner.", subject.noun);
   const std::size_t seeds = seeds_of(input.rows).size();
   if (seeds < kFewestSeedsToSeparate)
     return fmt::format("{} too few to say which of {} {}s is best (at least {}); {} has the best {} on {}, {}.{}",
                        with_count(seeds, "seed") + (seeds == 1 ? " is" : " are"), input.ranking.size(), subject.noun,
-                       kFewestSeedsToSeparate, first.name, words.name(), seeds == 1 ? "it" : "them", value(first),
+                       kFewestSeedsToSeparate, first.name, rank.name(), seeds == 1 ? "it" : "them", value(first),
                        bound_text(first, subject));
   if (finding.leaders.size() > 1) {
     const auto last = std::ranges::find(input.ranking, finding.leaders.back(), &RankedPipeline::name);
     return fmt::format("{} share the best {} of {} {}s, {} to {}: {} seeds do not separate them.{}",
-                       and_list(finding.leaders), words.name(), input.ranking.size(), subject.noun, value(first),
+                       and_list(finding.leaders), rank.name(), input.ranking.size(), subject.noun, value(first),
                        value(*last), seeds, bound_text(first, subject));
   }
-  std::string text = fmt::format("{} has the best {} of {} {}s, {}", first.name, words.name(), input.ranking.size(),
+  std::string text = fmt::format("{} has the best {} of {} {}s, {}", first.name, rank.name(), input.ranking.size(),
                                  subject.noun, value(first));
+  if (seeds < kFewestForInterval) text += fmt::format(", and is ahead on each of {} seeds", seeds);
   if (input.ranking.size() > 1 && input.ranking[1].missing > 0)
     text += fmt::format("; {} has no result in {} cells", input.ranking[1].name, input.ranking[1].missing);
   else if (input.ranking.size() > 1)
@@ -264,14 +255,15 @@ std::string answer_text(const ReportInput& input, const study::BenchmarkSpec& sp
 std::string split_text(const std::vector<RankedPipeline>& ranking, const study::BenchmarkSpec& spec,
                        const BenchmarkFinding& finding) {
   if (finding.leaders.empty() || finding.levels.empty()) return "";
-  const RankWords words(spec.subject().rank_column());
-  if (finding.factor.empty()) return " No factor changes that beyond chance.";
+  const study::BenchmarkColumn& rank = spec.subject().rank_column();
+  if (finding.factor.empty()) return " No factor of the suite changes which is best.";
   std::vector<std::string> levels;
   for (const auto& level : finding.levels) {
-    if (level.best < 0) continue;
+    if (level.leaders.empty()) continue;
+    const std::size_t best = as_index(level.leaders.front());
     const std::size_t others = level.leaders.size() - 1;
-    levels.push_back(fmt::format("{}: {} with {}{}", level.level, ranking[as_index(level.best)].name,
-                                 words.value(level.values[as_index(level.best)]),
+    levels.push_back(fmt::format("{}: {} with {}{}", level.level, ranking[best].name,
+                                 rank_text(rank, level.values[best]),
                                  others == 0 ? "" : fmt::format(", not separated from {} more", others)));
   }
   return fmt::format(" Which is best depends most on the {}. {}.", finding.factor, fmt::join(levels, "; "));
@@ -286,9 +278,14 @@ std::string significance_text(const std::vector<RankedPipeline>& ranking) {
     ++tests;
     if (ranking[i].next_p >= 0.05) ties.push_back(ranking[i].name + " and " + ranking[i + 1].name);
   }
-  if (tests == 0) return "There is one seed, so differences cannot be tested.";
+  if (tests == 0)
+    return fmt::format(
+        "Below a value: the smallest and the largest one of the seeds. Fewer than {} seeds have no "
+        "intervals, and their differences are not tested.",
+        kFewestForInterval);
   const std::string method = fmt::format(
-      "Neighbours in the ranking were compared by paired t tests over the seeds, corrected for their number ({}) after "
+      "Below a value: its 95 % interval. Neighbours in the ranking were compared by paired t tests over the seeds, "
+      "corrected for their number ({}) after "
       "Holm. ",
       tests);
   if (ties.empty()) return method + "All of them differ at the 5 % level.";

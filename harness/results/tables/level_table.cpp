@@ -17,11 +17,6 @@
 namespace scanbench::results {
 namespace {
 
-/// "F1 [%]" without its unit.
-std::string short_head(const study::BenchmarkColumn& rank) {
-  return rank.head.substr(0, rank.head.find(" ["));
-}
-
 /// "noise 1cm / 5cm, sensor ladar": levels in their order, those of one factor together.
 std::string names_of(const std::vector<const LevelResult*>& results) {
   std::string text, factor;
@@ -37,7 +32,7 @@ std::string names_of(const std::vector<const LevelResult*>& results) {
 int best_at_most(const std::vector<LevelResult>& results) {
   std::map<int, int> wins;
   for (const auto& result : results)
-    if (result.best >= 0) ++wins[result.best];
+    if (!result.leaders.empty()) ++wins[result.leaders.front()];
   const auto most = std::ranges::max_element(wins, {}, [](const auto& win) { return win.second; });
   return most == wins.end() ? -1 : most->first;
 }
@@ -63,8 +58,8 @@ Table level_table(const std::vector<LevelResult>& results, const std::vector<std
     mark_best(cells, seeds, rank.description());
   }
   table.caption =
-      "Means over all conditions of one level. * marks the best of a column and those that the seeds do not tell "
-      "apart from it. – marks missing cells.";
+      "Means over all conditions of one level. * marks the best of a column and those that the seeds do not "
+      "separate from it. – marks missing cells.";
   return table;
 }
 
@@ -73,25 +68,19 @@ std::string best_by_level_text(const std::vector<LevelResult>& results, const st
   const int most = best_at_most(results);
   if (most < 0) return "";
   std::map<int, std::vector<const LevelResult*>> best;
-  std::map<std::pair<int, int>, std::vector<const LevelResult*>> uncertain;  // levels of the best two
+  std::vector<const LevelResult*> shared;
   for (const auto& result : results) {
-    if (result.best >= 0) best[result.best].push_back(&result);
-    if (result.best >= 0 && result.second >= 0 && result.p >= 0.05)
-      uncertain[std::minmax(result.best, result.second)].push_back(&result);
+    if (!result.leaders.empty()) best[result.leaders.front()].push_back(&result);
+    if (result.leaders.size() > 1) shared.push_back(&result);
   }
-  std::string text =
-      fmt::format("{} has the best {} ", names[as_index(most)], short_head(spec.subject().rank_column()));
+  std::string text = fmt::format("{} has the best {} ", names[as_index(most)], spec.subject().rank_column().name());
   text += best.size() == 1 ? "at every level" : "at " + names_of(best.at(most));
   for (const auto& [pipeline, levels] : best)
     if (pipeline != most) text += fmt::format("; {} at {}", names[as_index(pipeline)], names_of(levels));
   text += ".";
-  if (uncertain.empty()) return text;
-  std::vector<std::string> pairs;
-  pairs.reserve(uncertain.size());
-  for (const auto& [pair, levels] : uncertain)
-    pairs.push_back(
-        fmt::format("{} and {} at {}", names[as_index(pair.first)], names[as_index(pair.second)], names_of(levels)));
-  return text + fmt::format(" The seeds do not separate {} (paired t tests, Holm).", fmt::join(pairs, "; "));
+  if (shared.empty()) return text;
+  return text +
+         fmt::format(" The seeds do not separate the best from others at {}; these have a star too.", names_of(shared));
 }
 
 }  // namespace scanbench::results

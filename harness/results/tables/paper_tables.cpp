@@ -86,7 +86,7 @@ Table lines_table(const std::string& scenario, const Columns& columns, const Fin
   Table table{scenario + "-paper-" + first.table,
               title_of(scenario, first),
               caption_of(first) +
-                  " * marks the best and those that the seeds do not tell apart from it; grey: of a "
+                  " * marks the best and those that the seeds do not separate from it; grey: of a "
                   "line that a pipeline misses in most scans.",
               {"line"},
               {},

@@ -30,14 +30,17 @@ TableCell interval_cell(const MeanInterval& interval, const study::BenchmarkColu
   const int large = column.geometric ? static_cast<int>(mean >= 10) + static_cast<int>(mean >= 100) : 0;
   const int decimals = std::max(0, column.decimals - large);
   TableCell cell{number(mean, decimals)};
-  if (interval.count > 1) cell.spread = "± " + number(interval.half_width() * column.scale, decimals);
+  if (interval.count > 1)
+    cell.spread =
+        number(interval.low * column.scale, decimals) + " to " + number(interval.high * column.scale, decimals);
   return cell;
 }
 
 TableCell next_cell(const RankedPipeline& ranked, const study::BenchmarkColumn& rank) {
-  if (!std::isfinite(ranked.next_p)) return {"–"};
+  if (!std::isfinite(ranked.next_difference)) return {"–"};
   TableCell cell{rank.geometric ? fmt::format("× {:.3f}", std::exp(ranked.next_difference))
                                 : fmt::format("{:+.2f}", rank.scale * ranked.next_difference)};
+  if (!std::isfinite(ranked.next_p)) return cell;
   cell.spread = ranked.next_p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", ranked.next_p);
   if (ranked.next_p >= 0.05) cell.spread += " n.s.";
   return cell;

@@ -293,7 +293,7 @@ class TableBuilder {
       return;
     }
     parts.emplace_back("* marks the best value");
-    if (scenario_.seeds.size() > 1) parts.back() += " and those that the seeds do not tell apart from it";
+    if (scenario_.seeds.size() > 1) parts.back() += " and those that the seeds do not separate from it";
     if (any([&](const auto& m) { return has_best(m) && unjudged(m); }))
       parts.back() += "; times and distances from lines have no mark, because they do not show which pipeline is right";
     if (gate_ != nullptr) parts.back() += "; of pipelines that find what is judged";

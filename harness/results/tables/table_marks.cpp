@@ -61,10 +61,6 @@ std::string heading(const std::string& metric, const Display& display) {
   return display.unit.empty() ? metric : metric + " [" + display.unit + "]";
 }
 
-ValueRange range_of(const metrics::MetricDescription& metric) {
-  return metric.is_share ? ValueRange::share : ValueRange::not_negative;
-}
-
 std::string seeds_text(const std::vector<double>& seeds, ValueRange range, const Display& display) {
   constexpr double kLopsided = 0.1;  // of the half width
   const MeanInterval interval = seed_interval(seeds, range);
@@ -76,41 +72,20 @@ std::string seeds_text(const std::vector<double>& seeds, ValueRange range, const
   return fmt::format("{} ({} to {})", text, value_text(interval.low, display), value_text(interval.high, display));
 }
 
-namespace {
-
-/// +1 or -1: by how much the cost grows with the value, near this mean.
-double slope_of_cost(const metrics::MetricDescription& metric, double mean) {
-  if (metric.direction == metrics::Direction::target) return mean < metric.target ? -1.0 : 1.0;
-  return metric.direction == metrics::Direction::higher_is_better ? -1.0 : 1.0;
-}
-
-}  // namespace
-
 void mark_best(const std::vector<TableCell*>& cells, const std::vector<std::vector<double>>& seeds,
                const metrics::MetricDescription& metric, const std::vector<bool>& eligible) {
   if (metric.direction == metrics::Direction::neither) return;
-  std::vector<double> means;
-  means.reserve(seeds.size());
-  for (const auto& values : seeds) means.push_back(seed_interval(values, ValueRange::any).mean);
-  const auto may_win = [&](std::size_t i) { return std::isfinite(means[i]) && (eligible.empty() || eligible[i]); };
   std::set<std::string> finite;  // as they read
-  std::optional<std::size_t> best;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (std::isfinite(means[i])) finite.insert(cells[i]->text);
-    cells[i]->not_eligible = std::isfinite(means[i]) && !may_win(i);
-    if (may_win(i) && (!best || metrics::better(metric, means[i], means[*best]))) best = i;
+    const bool has_value = std::isfinite(seed_interval(seeds[i], ValueRange::any).mean);
+    if (has_value) finite.insert(cells[i]->text);
+    cells[i]->not_eligible = has_value && !eligible.empty() && !eligible[i];
   }
-  if (finite.size() < 2 || !best) return;
-  const auto told_apart = [&](std::size_t i) {
-    if (seeds[i].size() != seeds[*best].size()) return false;
-    const double a = slope_of_cost(metric, means[*best]), b = slope_of_cost(metric, means[i]);
-    std::vector<double> worse_by;
-    for (std::size_t k = 0; k < seeds[i].size(); ++k)
-      worse_by.push_back(b * (seeds[i][k] - metric.target) - a * (seeds[*best][k] - metric.target));
-    return seed_interval(worse_by, ValueRange::any).low > 0.0;
-  };
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    cells[i]->best = may_win(i) && (cells[i]->text == cells[*best]->text || !told_apart(i));
+  const std::vector<int> best = shared_best(seeds, metric, eligible);
+  if (finite.size() < 2 || best.empty()) return;
+  for (const int i : best) cells[as_index(i)]->best = true;
+  for (TableCell* cell : cells)
+    if (cell->text == cells[as_index(best.front())]->text && !cell->not_eligible) cell->best = true;
 }
 
 }  // namespace scanbench::results

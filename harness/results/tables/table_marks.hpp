@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/results/analysis/statistics.hpp"
+#include "harness/results/analysis/shared_best.hpp"
 #include "harness/results/document/table.hpp"
 #include "metrics/metric.hpp"
 
@@ -34,18 +34,12 @@ std::string heading(const std::string& metric, const Display& display);
 /// A line that a pipeline misses in a larger share of the scans is not found: its other values are not compared.
 constexpr double kMostMissed = 0.5;
 
-/// The range of a metric's values.
-ValueRange range_of(const metrics::MetricDescription& metric);
-
 /// The mean over seeds with its interval, or with the range of fewer than kFewestForInterval values: "0.80 ± 0.03" if
 /// the ends are about equally far from the mean, else "0.97 (0.88 to 0.99)". "–" without a value.
 std::string seeds_text(const std::vector<double>& seeds, ValueRange range, const Display& display);
 
-/// Marks the cell with the best mean among those that may be marked, and the cells that cannot be told apart from it:
-/// whose differences from it, seed by seed, have a seed_interval() that contains zero, or that read the same. Nothing
-/// is marked if the metric has no best value, fewer than two cells have one, or all read the same. `seeds`: the values
-/// of each cell, in the same order of seeds; NaN: no value. `eligible`, one entry per cell, excludes cells from the
-/// mark and makes them grey; empty: none is excluded.
+/// Marks the cells that shared_best() finds, and those that read like the best. Nothing is marked if fewer than two
+/// cells have a value, or all read the same. Cells that are not `eligible` become grey.
 void mark_best(const std::vector<TableCell*>& cells, const std::vector<std::vector<double>>& seeds,
                const metrics::MetricDescription& metric, const std::vector<bool>& eligible = {});
 

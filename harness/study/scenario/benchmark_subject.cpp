@@ -190,11 +190,20 @@ const std::vector<BenchmarkSubject>& subjects() {
 
 }  // namespace
 
+bool BenchmarkColumn::is_share() const {
+  return head.ends_with(" [%]");
+}
+
+std::string BenchmarkColumn::name() const {
+  return head.substr(0, head.find(" ["));
+}
+
 metrics::MetricDescription BenchmarkColumn::description() const {
   metrics::MetricDescription result;
   result.metric = metric;
   result.direction = direction;
   result.target = target;
+  result.is_share = is_share();
   return result;
 }
 

@@ -22,6 +22,8 @@ struct BenchmarkColumn {
   std::string definition;  ///< a sentence for the reader of the page
   double target = 0.0;     ///< the best value if direction is `target`
 
+  bool is_share() const;                           ///< shown in percent
+  std::string name() const;                        ///< the head without its unit
   metrics::MetricDescription description() const;  ///< for comparisons of values
 };
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/registry.hpp"
 #include "core/special_values.hpp"
-#include "harness/results/analysis/statistics.hpp"
+#include "harness/results/analysis/gates.hpp"
+#include "harness/results/analysis/shared_best.hpp"
 #include "harness/study/catalog/find_module.hpp"
 #include "metrics/metric.hpp"
 
@@ -36,7 +36,8 @@ render::MetricLook look_of(const metrics::MetricDescription& metric) {
 }
 
 render::MeasuredPipeline measured_pipeline(const runs::RunStore& store, const study::Scenario& scenario,
-                                           const study::PipelineSpec& pipeline) {
+                                           const study::PipelineSpec& pipeline,
+                                           const std::map<std::string, metrics::MetricDescription>& descriptions) {
   render::MeasuredPipeline measured{.pipeline = pipeline.name, .slots = {}, .units = {}, .metrics = {}};
   for (const auto& slot : pipeline.slots) {
     measured.slots[slot.kind + " " + slot.module] = slot.params;
@@ -49,7 +50,9 @@ render::MeasuredPipeline measured_pipeline(const runs::RunStore& store, const st
       if (std::isfinite(row.value)) measured.metrics[row.metric].push_back(row.value);
     }
   for (const auto& [metric, values] : measured.metrics) {
-    const MeanInterval interval = seed_interval(values, ValueRange::any);
+    const auto known = descriptions.find(metric);
+    const ValueRange range = known == descriptions.end() ? ValueRange::any : range_of(known->second);
+    const MeanInterval interval = seed_interval(values, range);
     measured.bands[metric] = {interval.mean, interval.low, interval.high, interval.count < kFewestForInterval};
   }
   return measured;
@@ -58,15 +61,17 @@ render::MeasuredPipeline measured_pipeline(const runs::RunStore& store, const st
 }  // namespace
 
 std::vector<render::MeasuredPipeline> measured_pipelines(const runs::RunStore& store, const study::Scenario& scenario) {
+  const auto descriptions = metric_descriptions();
   std::vector<render::MeasuredPipeline> all;
-  for (const auto& pipeline : scenario.pipelines) all.push_back(measured_pipeline(store, scenario, pipeline));
+  all.reserve(scenario.pipelines.size());
+  for (const auto& pipeline : scenario.pipelines)
+    all.push_back(measured_pipeline(store, scenario, pipeline, descriptions));
   return all;
 }
 
 std::map<std::string, render::MetricLook> metric_looks() {
   std::map<std::string, render::MetricLook> looks;
-  for (const auto& [name, entry] : Registry<metrics::MetricFamily>::all())
-    for (const auto& metric : entry.make({})->describe()) looks[metric.metric] = look_of(metric);
+  for (const auto& [name, description] : metric_descriptions()) looks[name] = look_of(description);
   return looks;
 }
 
