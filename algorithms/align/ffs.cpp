@@ -11,19 +11,8 @@ namespace {
 
 class Ffs final : public Aligner {
  public:
-  struct Params {
-    double resample_m = 0.1;
-    double sigma_start_m = 0.6;
-    double sigma_end_m = 0.05;
-    int cooling_iterations = 60;
-    int max_iterations = 200;
-    double step_start = 10.0;
-    double step_end = 1.0;
-    double cut_sigmas = 4.0;
-    double soft_sigmas = 0.05;
-    static auto fields() { return align::ffs::schedule_fields<Params>(); }
-  };
-  explicit Ffs(const Params& params) : schedule_(align::ffs::schedule_of(params)) {}
+  using Params = align::ffs::Schedule;
+  explicit Ffs(const Params& params) : schedule_(params) { schedule_.check(); }
 
   Alignment align(std::span<const Observation> scans, std::span<const Pose2> initial, Trace& trace) const override {
     return align::ffs::simulate(scans, initial, schedule_, {}, trace);

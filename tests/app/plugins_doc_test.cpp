@@ -2,26 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <sstream>
-
-#include "tests/app/program.hpp"
+#include "tests/app/page_blocks.hpp"
 
 namespace scanbench::app_test {
 namespace {
-
-/// The lines of all blocks in this language.
-std::string blocks(const std::string& text, const std::string& language) {
-  std::string lines, line;
-  std::istringstream in(text);
-  for (bool inside = false; std::getline(in, line);) {
-    if (line.starts_with("```"))
-      inside = line == "```" + language;
-    else if (inside)
-      lines += line + "\n";
-  }
-  return lines;
-}
 
 TEST(PluginsDoc, EveryCommandWorksAsWritten) {
   if (kSanitized) GTEST_SKIP() << "the package builds without sanitizers, and a library must have them as well";
@@ -33,16 +17,10 @@ TEST(PluginsDoc, EveryCommandWorksAsWritten) {
   fs::create_symlink(places::program(), folder / "scanbench");
   fs::create_directories(folder / "build");
   fs::create_directory_symlink(fs::path(places::program()).parent_path(), folder / "build/release");
-  folder.write("mine/walls.py", blocks(text, "python"));
-  folder.write("mine/room.yaml", blocks(text, "yaml"));
-  std::istringstream commands(blocks(text, "sh"));
-  int count = 0;
-  for (std::string command; std::getline(commands, command); ++count) {
-    const std::string all = "cd " + folder.path().string() + " && " + command + " >log 2>&1";
-    ASSERT_EQ(std::system(all.c_str()), 0) << command << "\n" << read(folder / "log");
-  }
-  EXPECT_GE(count, 12);
-  EXPECT_THAT(read(folder / "examples/plugin/CMakeLists.txt"), testing::HasSubstr(blocks(text, "cmake")));
+  folder.write("mine/walls.py", page_blocks(text, "python").at(0));
+  folder.write("mine/room.yaml", page_blocks(text, "yaml").at(0));
+  EXPECT_GE(run_commands_of_page(text, folder), 12);
+  EXPECT_THAT(read(folder / "examples/plugin/CMakeLists.txt"), testing::HasSubstr(page_blocks(text, "cmake").at(0)));
   EXPECT_TRUE(fs::exists(folder / "out/library/report.html"));
 }
 

@@ -7,25 +7,7 @@
 
 namespace scanbench::align::ffs {
 
-/// Names, defaults and documentation of the parameters that all simulations share.
-struct Schedule {
-  double resample_m = 0.1;
-  double sigma_start_m = 0.6;
-  double sigma_end_m = 0.05;
-  int cooling_iterations = 60;
-  int max_iterations = 200;
-  double step_start = 10.0;
-  double step_end = 1.0;
-  double cut_sigmas = 4.0;
-  double soft_sigmas = 0.05;
-
-  double sigma_at(int iteration) const;  ///< geometric from start to end, then constant
-  double step_at(int iteration) const;   ///< the same
-  bool cooled(int iteration) const { return iteration + 1 >= cooling_iterations; }
-  /// Throws ParamError for an end above its start, and for fewer iterations than the cooling takes.
-  void check() const;
-};
-
+/// The fields of Schedule for parameters P that have its members and more.
 template <class P>
 auto schedule_fields() {
   return std::tuple{
@@ -44,6 +26,26 @@ auto schedule_fields() {
       field("soft_sigmas", &P::soft_sigmas, between(1e-6, 1), "",
             "pairs nearer than this many radii pull in proportion to their distance, not with full force")};
 }
+
+/// Names, defaults and documentation of the parameters that all simulations share.
+struct Schedule {
+  double resample_m = 0.1;
+  double sigma_start_m = 0.6;
+  double sigma_end_m = 0.05;
+  int cooling_iterations = 60;
+  int max_iterations = 200;
+  double step_start = 10.0;
+  double step_end = 1.0;
+  double cut_sigmas = 4.0;
+  double soft_sigmas = 0.05;
+
+  double sigma_at(int iteration) const;  ///< geometric from start to end, then constant
+  double step_at(int iteration) const;   ///< the same
+  bool cooled(int iteration) const { return iteration + 1 >= cooling_iterations; }
+  /// Throws ParamError for an end above its start, and for fewer iterations than the cooling takes.
+  void check() const;
+  static auto fields() { return schedule_fields<Schedule>(); }
+};
 
 /// The members of Params that schedule_fields() names.
 template <class P>

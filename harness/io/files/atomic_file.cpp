@@ -1,6 +1,7 @@
 // Writes files and folders atomically with POSIX calls: std::filesystem has neither fsync nor an exchange of names.
 #include "harness/io/files/atomic_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>

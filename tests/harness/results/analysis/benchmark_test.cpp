@@ -134,7 +134,7 @@ TEST(Benchmark, TableMarksTheBestOfEveryColumn) {
       EXPECT_TRUE(table.rows[0].cells[c].best);  // 1.5 against 4, F1 within 5 points
     }
     if (table.columns[c].head == "F1 − next") {
-      EXPECT_THAT(table.rows[0].cells[c].spread, HasSubstr("n.s."));
+      EXPECT_EQ(table.rows[0].cells[c].spread, "");  // two seeds are not tested
     }
   }
 }
