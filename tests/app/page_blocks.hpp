@@ -28,8 +28,8 @@ inline std::vector<std::string> page_blocks(const std::string& text, const std::
   return blocks;
 }
 
-/// Runs the lines of all `sh` blocks in a folder, one after the other, and returns their number. The first one that ends
-/// with another exit code than 0 fails the test, and no further one is run.
+/// Runs the lines of all `sh` blocks in a folder, one after the other, and returns their number. The first one that
+/// ends with another exit code than 0 fails the test, and no further one is run.
 inline int run_commands_of_page(const std::string& text, const Folder& folder) {
   int count = 0;
   for (const std::string& block : page_blocks(text, "sh")) {
