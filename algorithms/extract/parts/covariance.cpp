@@ -1,22 +1,25 @@
-// First-order propagation of the noise of the readings through a line fit.
+// First-order propagation of the noise of the readings through a line fit, held against the fits of parts of the line.
 #include "algorithms/extract/parts/covariance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "core/geometry/portable_math.hpp"
+#include "core/geometry/symmetric_matrix.hpp"
 #include "core/index.hpp"
 
 namespace scanbench::extract {
 
 namespace {
 
-constexpr std::size_t kMostTrimmed = 5;  // points at each end, and at most a fifth of all
-// Squared Mahalanobis distance (two degrees of freedom) between the lines with and without the ends, from which on the
-// ends count as foreign. Noise alone exceeds it in one line of seven.
-constexpr double kForeign = 4.0;
+constexpr std::size_t kBlocks = 5;  // of neighbouring points
+// Variance by the jackknife over that by the noise, in the direction where it is largest, from which on the points
+// count as more than noise. Noise alone exceeds it in about one line of four.
+constexpr double kMoreThanNoise = 3.0;
 
 // Offset at a point along the normal of `reference`, and angle, of a line from `reference`.
 Eigen::Vector2d shift(const LineFit& line, const PolarLine& reference, const Vec2& at) {
@@ -24,6 +27,28 @@ Eigen::Vector2d shift(const LineFit& line, const PolarLine& reference, const Vec
   const double side = line.normal.dot(m) < 0 ? -1.0 : 1.0;
   const Vec2 n = side * line.normal;
   return {side * line.offset - n.dot(at), portable::atan2(cross(m, n), m.dot(n))};
+}
+
+/// Covariance of shift() by the line fits without one of `blocks` blocks of neighbouring points, (b - 1)/b sum d d^T.
+/// Absent if one of them has no direction.
+std::optional<Eigen::Matrix2d> block_jackknife(const ScanPoints& points, std::span<const int> support,
+                                               std::size_t blocks, const PolarLine& line, const Vec2& at) {
+  std::array<PointMoments, kBlocks> moments;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::size_t first = b * support.size() / blocks, end = (b + 1) * support.size() / blocks;
+    moments[b] = moments_of(points.points, support.subspan(first, end - first));
+  }
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (std::size_t left_out = 0; left_out < blocks; ++left_out) {
+    PointMoments rest;
+    for (std::size_t b = 0; b < blocks; ++b)
+      if (b != left_out) rest.add(moments[b]);
+    const LineFit fit = fit_line(rest);
+    if (fit.degenerate) return std::nullopt;
+    const Eigen::Vector2d d = shift(fit, line, at);
+    sum += d * d.transpose();
+  }
+  return static_cast<double>(blocks - 1) / static_cast<double>(blocks) * sum;
 }
 
 }  // namespace
@@ -66,19 +91,18 @@ std::optional<Eigen::Matrix2d> tls_covariance(const Scan& scan, const ScanPoints
 
 std::optional<Eigen::Matrix2d> checked_covariance(const Scan& scan, const ScanPoints& points,
                                                   std::span<const int> support, const PolarLine& line, const Vec2& at) {
-  const auto whole = tls_covariance(scan, points, support, line, at);
-  const std::size_t n = support.size();
-  const std::size_t trim = std::min(kMostTrimmed, n / 5);
-  if (!whole || trim == 0) return whole;
-  const auto inner = support.subspan(trim, n - 2 * trim);
-  const LineFit fit = fit_line(moments_of(points.points, inner));
-  const auto trimmed = tls_covariance(scan, points, inner, line, at);
-  if (fit.degenerate || !trimmed) return std::nullopt;
-  const Eigen::Vector2d d = shift(fit, line, at);
-  // The fit to all points is the more exact one, so the difference of the two has the difference of their covariances.
-  const Eigen::Matrix2d expected = *trimmed - *whole;
-  if (expected(0, 0) > 0 && expected.determinant() > 0 && d.dot(expected.inverse() * d) <= kForeign) return whole;
-  return *trimmed + d * d.transpose();
+  const auto by_noise = tls_covariance(scan, points, support, line, at);
+  const std::size_t blocks = std::min(kBlocks, support.size());
+  if (!by_noise || blocks < 3) return by_noise;
+  const auto jackknife = block_jackknife(points, support, blocks, line, at);
+  if (!jackknife) return std::nullopt;
+  // In coordinates in which the noise has the covariance 1: the jackknife's is l^-1 J l^-T.
+  const Eigen::Matrix2d l = by_noise->llt().matrixL();
+  const Eigen::Matrix2d inverse = l.inverse();
+  const auto [values, vectors] = symmetric_eigen(Eigen::Matrix2d(inverse * *jackknife * inverse.transpose()));
+  if (!(values[1] > kMoreThanNoise)) return by_noise;
+  const Eigen::Matrix2d larger = vectors * values.cwiseMax(1.0).asDiagonal() * vectors.transpose();
+  return l * larger * l.transpose();
 }
 
 void add_covariances(const Scan& scan, const ScanPoints& points, ScanLines& lines) {
