@@ -72,21 +72,21 @@ std::vector<bool> marked(const std::vector<double>& values, const MetricDescript
 }
 
 TEST(MarkBest, MarksTheValuesNearestToATargetOnEitherSide) {
-  const MetricDescription nees{"nees", "", Direction::target, 0.1, "", false, 2.0};
+  const MetricDescription nees{"nees", "NEES", "", Direction::target, 0.1, "", false, 2.0};
   EXPECT_THAT(marked({0.5, 2.25, 1.75, 3.0}, nees), ElementsAre(false, true, true, false));
   EXPECT_THAT(marked({0.0, 9.0}, nees), ElementsAre(true, false));
 }
 
 TEST(MarkBest, MarksValuesThatReadTheSameAlike) {
-  const MetricDescription lower{"x", "", Direction::lower_is_better, 0, ""};
+  const MetricDescription lower{"x", "x", "", Direction::lower_is_better, 0, ""};
   EXPECT_THAT(marked({12.602, 12.601, 14}, lower), ElementsAre(true, true, false));
   EXPECT_THAT(marked({12.602, 12.601, 14}, lower, {true, false, true}), ElementsAre(true, false, false));
   EXPECT_THAT(marked({12.602, 12.601}, lower), ElementsAre(false, false));
 }
 
 TEST(MarkBest, MarksNothingWithoutADirectionACompetitorOrADifference) {
-  const MetricDescription lower{"x", "", Direction::lower_is_better, 0, ""};
-  const MetricDescription neither{"x", "", Direction::neither, 0, ""};
+  const MetricDescription lower{"x", "x", "", Direction::lower_is_better, 0, ""};
+  const MetricDescription neither{"x", "x", "", Direction::neither, 0, ""};
   const double nan = std::nan("");
   EXPECT_THAT(marked({1, 2}, neither), ElementsAre(false, false));
   EXPECT_THAT(marked({1, nan}, lower), ElementsAre(false, false));
@@ -97,7 +97,7 @@ TEST(MarkBest, MarksNothingWithoutADirectionACompetitorOrADifference) {
 }
 
 TEST(MarkBest, SharesTheMarkAmongValuesThatTheSeedsDoNotTellApart) {
-  const MetricDescription lower{"x", "", Direction::lower_is_better, 0, ""};
+  const MetricDescription lower{"x", "x", "", Direction::lower_is_better, 0, ""};
   std::vector<TableCell> cells{{"a"}, {"b"}, {"c"}, {"d"}};
   std::vector<TableCell*> pointers;
   for (auto& c : cells) pointers.push_back(&c);
@@ -119,7 +119,7 @@ TEST(MarkBest, SharesTheMarkAmongValuesThatTheSeedsDoNotTellApart) {
 }
 
 TEST(MarkBest, OfFewSeedsNeedsEverySeedToAgree) {
-  const MetricDescription higher{"x", "", Direction::higher_is_better, 0, ""};
+  const MetricDescription higher{"x", "x", "", Direction::higher_is_better, 0, ""};
   std::vector<TableCell> cells{{"a"}, {"b"}, {"c"}};
   std::vector<TableCell*> pointers;
   for (auto& c : cells) pointers.push_back(&c);
