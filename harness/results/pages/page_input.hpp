@@ -20,8 +20,7 @@
 namespace scanbench::results {
 
 struct ReportInput {
-  std::filesystem::path run;  ///< figures are read from run/figures
-  std::string title;
+  std::filesystem::path run;                               ///< figures are read from run/figures
   std::vector<std::pair<std::string, std::string>> facts;  ///< "commit", "compiler", ...: shown at the end
   std::vector<study::Scenario> scenarios;
   std::vector<runs::SummaryRow> rows;

@@ -105,7 +105,6 @@ std::map<std::string, MethodRanking> rankings_by_scenario(const runs::RunStore& 
 ReportInput load_report_input(const fs::path& run, const std::vector<study::Scenario>& scenarios) {
   ReportInput input;
   input.run = run;
-  input.title = "scanbench: " + fs::absolute(run).lexically_normal().filename().string();
   input.facts = runs::manifest_facts(run);
   input.scenarios = scenarios;
   if (fs::exists(run / runs::kSummaryFile)) input.rows = runs::load_summary(run / runs::kSummaryFile);
@@ -119,6 +118,8 @@ ReportInput load_report_input(const fs::path& run, const std::vector<study::Scen
       line.message = plain_line(record->outcome.message);
       line.wall_seconds = record->outcome.wall_seconds;
       line.peak_memory_bytes = record->outcome.peak_memory_bytes;
+      const std::string folder = "cells/" + runs::to_string(key) + "/";
+      if (fs::is_directory(run / folder)) line.folder = folder;  // a merged run may keep its cells in archives
     }
     input.cells.push_back(std::move(line));
   }
@@ -164,10 +165,10 @@ Document closing_document(const ReportInput& input) {
 }
 
 void write_reports(const fs::path& run, const ReportInput& input) {
+  write_agreement(run, input);  // before the page, which links to it
   const Document page = input.benchmark ? benchmark_document(input) : report_document(input);
   io::write_file_atomically(run / kReportPage, to_html(page));
   io::write_file_atomically(run / kReportMarkdown, to_markdown(page));
-  write_agreement(run, input);
   runs::refresh_manifest(run);
 }
 
