@@ -28,6 +28,9 @@ thead th { white-space: normal; vertical-align: bottom; max-width: 10rem; } thea
 th.head { text-align: left; font-weight: 600; } th.group { text-align: left; border-bottom: 1px solid var(--rule); max-width: none; }
 thead tr, tbody tr { background: var(--paper); } tbody tr:nth-child(even) { background: var(--tint); }
 .scroll .head:first-child { position: sticky; left: 0; z-index: 1; background: inherit; box-shadow: 1px 0 var(--rule); }
+/* In a ranking the number of the rank is narrow, and the name beside it stays too. */
+.ranks .scroll .head:first-child { width: 2.2rem; min-width: 2.2rem; max-width: 2.2rem; box-shadow: none; }
+.ranks .head:nth-child(2) { position: sticky; left: 2.2rem; z-index: 1; background: inherit; box-shadow: 1px 0 var(--rule); }
 .first { padding-left: 1.3rem; } td.best { font-weight: 700; } td.not-eligible { color: var(--faint); }
 td small, th small { display: block; color: var(--faint); font-weight: 400; font-size: .78rem; line-height: 1.15; }
 th small { white-space: normal; max-width: 18rem; } .published { color: var(--faint); font-style: italic; }
@@ -72,6 +75,7 @@ dl { display: grid; grid-template-columns: minmax(8rem, max-content) minmax(0, 1
   body { padding: .8rem; font-size: 14px; } h1 { font-size: 1.3rem; } h2 { font-size: 1.15rem; } .lead { font-size: 1rem; }
   nav { flex-wrap: nowrap; overflow-x: auto; white-space: nowrap; padding-bottom: .3rem; }
   .scroll .head:first-child { white-space: normal; overflow-wrap: anywhere; min-width: 6rem; max-width: 8rem; } thead th { max-width: 6.5rem; }
+  .ranks .head:nth-child(2) { white-space: normal; overflow-wrap: anywhere; max-width: 7rem; }
   th, td { padding: .18rem .35rem; } .beside figure { display: block; } dl { grid-template-columns: 1fr; } dd { margin-bottom: .4rem; }
   /* A change has two lines: what changed, then before, now, difference and seed. */
   .changes tr { display: grid; grid-template-columns: 1fr 1fr 1.5fr .7fr; } .changes th, .changes td { white-space: normal; overflow-wrap: anywhere; }
@@ -82,9 +86,9 @@ dl { display: grid; grid-template-columns: minmax(8rem, max-content) minmax(0, 1
 @page { size: A4 landscape; margin: 10mm; }
 @media print {
   :root { --ink: #000; --faint: #444; --rule: #bbb; --paper: #fff; --tint: #f4f6f8; --accent: #0068a3; }
-  body { max-width: none; padding: 0; font-size: 10px; } nav, .tools, .files, canvas, input, select, button { display: none; }
-  .scroll { overflow: visible; } .scroll .head:first-child { position: static; box-shadow: none; }
-  table { font-size: 7.5px; } th, td, thead th.head { padding: .1rem .25rem; white-space: normal; overflow-wrap: anywhere; max-width: none; } .first { padding-left: .5rem; }
+  html { font-size: 11px; } body { max-width: none; padding: 0; font-size: 1rem; } nav, .tools, .files, canvas, input, select, button { display: none; }
+  .scroll { overflow: visible; } .scroll .head:first-child, .ranks .head:nth-child(2) { position: static; box-shadow: none; }
+  table, .compact table { font-size: .75rem; } th, td, thead th.head { padding: .1rem .25rem; white-space: normal; max-width: none; } .first { padding-left: .6rem; }
   tr, figure { break-inside: avoid; } h2, h3, caption { break-after: avoid; } .figures, .glance, .ranking, .matrices { display: block; }
   figure img { max-height: 16cm; width: auto; padding: 0; filter: none; } .beside figure { display: block; } caption h3 { position: static; }
 }

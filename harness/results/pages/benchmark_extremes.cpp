@@ -60,17 +60,10 @@ std::string folder_of(const ReportInput& input, const runs::CellKey& key) {
   return "";
 }
 
-/// The worst scan of each of these cells, drawn small.
-Blocks scan_blocks(const ReportInput& input, const std::map<std::string, WorstCell>& worst) {
-  RunResults results;
-  for (const RankedPipeline& ranked : input.ranking)
-    if (const auto cell = worst.find(ranked.name); cell != worst.end()) {
-      CellResults& added = results.cells.emplace_back();
-      added.key = cell->second.key;
-      added.status = "ok";
-    }
+/// The worst scans, drawn small.
+Blocks scan_blocks(const std::vector<PipelineWorst>& worst) {
   BlockGroup sketches{"scans", {}};
-  for (const auto& [pipeline, scans] : worst_scans(input.run, results, 1))
+  for (const auto& [pipeline, scans] : worst)
     for (const WorstScan& scan : scans)
       sketches.blocks.push_back(
           Picture{.alt = fmt::format("the worst scan of {}", pipeline),
@@ -125,8 +118,22 @@ Blocks worst_blocks(const ReportInput& input) {
                                       "that draws its worst scan large.",
                                       subject.noun, rank.name())},
                 BlockGroup{"plain", {std::move(table)}}};
-  if (subject.shows_example) add_blocks(blocks, scan_blocks(input, worst));
+  add_blocks(blocks, scan_blocks(input.worst));
   return blocks;
+}
+
+std::vector<PipelineWorst> benchmark_worst_scans(const ReportInput& input) {
+  const study::BenchmarkSubject& subject = input.benchmark.value().subject();
+  if (!subject.shows_example) return {};
+  const auto worst = worst_cells(input, subject.rank_column().description());
+  RunResults results;  // of these cells alone
+  for (const RankedPipeline& ranked : input.ranking)
+    if (const auto cell = worst.find(ranked.name); cell != worst.end()) {
+      CellResults& added = results.cells.emplace_back();
+      added.key = cell->second.key;
+      added.status = "ok";
+    }
+  return worst_scans(input.run, results, 1);
 }
 
 }  // namespace scanbench::results

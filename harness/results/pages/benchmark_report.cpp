@@ -341,7 +341,7 @@ std::vector<std::pair<std::string, std::string>> numbered_figures(const study::B
 }
 
 Blocks ranking_section(const ReportInput& input, const study::BenchmarkSpec& spec) {
-  Blocks blocks{BlockGroup{"compact", {ranking_table(input.ranking, spec)}}, Paragraph{kArrowKey, "caption"},
+  Blocks blocks{BlockGroup{"compact ranks", {ranking_table(input.ranking, spec)}}, Paragraph{kArrowKey, "caption"},
                 Paragraph{significance_text(input.ranking)}};
   add_blocks(blocks, level_blocks(input, spec));
   return blocks;

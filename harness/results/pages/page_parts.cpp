@@ -148,13 +148,13 @@ std::optional<Table> remarks(const std::vector<CellLine>& cells) {
 
 Blocks status_blocks(const std::vector<CellLine>& cells) {
   Blocks blocks{Paragraph{outcome_text(cells), "status"}};
-  if (auto table = failures(cells)) blocks.push_back(std::move(*table));
+  if (auto table = failures(cells)) blocks.push_back(BlockGroup{"prose plain", {std::move(*table)}});
   return blocks;
 }
 
 Blocks remark_blocks(const std::vector<CellLine>& cells) {
   Blocks blocks;
-  if (auto table = remarks(cells)) blocks.push_back(std::move(*table));
+  if (auto table = remarks(cells)) blocks.push_back(BlockGroup{"prose plain", {std::move(*table)}});
   return blocks;
 }
 

@@ -18,6 +18,7 @@
 #include "harness/results/document/html_page.hpp"
 #include "harness/results/document/plain_text.hpp"
 #include "harness/results/figures/benchmark_figures.hpp"
+#include "harness/results/pages/benchmark_extremes.hpp"
 #include "harness/results/pages/benchmark_report.hpp"
 #include "harness/results/pages/report.hpp"
 #include "harness/results/tables/ranking_table.hpp"
@@ -129,11 +130,13 @@ ReportInput load_report_input(const fs::path& run, const std::vector<study::Scen
     if (const auto* recorded = std::get_if<study::RecordedInput>(&scenario.input))
       input.sources[scenario.name] = source_of(store, scenario, *recorded);
   input.benchmark = runs::load_benchmark(run, scenarios);
-  if (input.benchmark)
+  if (input.benchmark) {
     input.ranking = rank_pipelines(scenarios, input.rows, *input.benchmark);
-  else
+    input.worst = benchmark_worst_scans(input);
+  } else {
     for (const auto& scenario : scenarios)
       input.results[scenario.name] = scenario_results(scenario, input.rows, input.cells);
+  }
   return input;
 }
 

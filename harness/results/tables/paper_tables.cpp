@@ -145,7 +145,8 @@ Table methods_table(const std::string& scenario, const Columns& columns) {
   for (const ComparedColumn* column : columns) {
     const Display display = display_of(*column);
     // Where today's times need another unit than the printed ones, each value has its own and the head none.
-    const bool own_units = column->metric.timing && column->printed_unit != display.unit;
+    const bool own_units =
+        column->metric.timing && !column->printed_unit.empty() && column->printed_unit != display.unit;
     const Display shown = own_units ? Display{} : display;
     const auto with_unit = [&](std::string text, const std::string& unit) {
       return own_units && !text.empty() && text != "–" ? text + " " + unit : text;
