@@ -20,14 +20,26 @@ void add_word(std::string& words, const std::string& word) {
   if (!word.empty()) words += (words.empty() ? "" : " ") + word;
 }
 
+/// Where the interval or range of a value begins: "0.80 ± 0.03", "0.97 (0.88 to 0.99)"; npos if there is none. It is
+/// below the value, because columns are then half as wide.
+std::size_t interval_at(const std::string& text) {
+  std::size_t at = text.find(" ± ");
+  if (at == std::string::npos && text.ends_with(')') && text.find(" to ") != std::string::npos) at = text.find(" (");
+  return at == std::string::npos || text.find(' ') < at ? std::string::npos : at;
+}
+
 std::string html_content(const TableCell& cell) {
-  std::string text = html_escaped(cell.best ? cell.text + "*" : cell.text) + cell.drawing;
+  const std::size_t interval = interval_at(cell.text);
+  const std::string value = cell.text.substr(0, interval);
+  std::string text = html_escaped(cell.best ? value + "*" : value) + cell.drawing;
   const std::string hint = attribute("title", cell.hint);
   if (!cell.link.empty())
     text = fmt::format("<a href=\"{}\"{}>{}</a>", html_escaped(cell.link), hint, text);
   else if (!hint.empty())
     text = fmt::format("<span{}>{}</span>", hint, text);
-  return cell.spread.empty() ? text : text + "<small>" + html_escaped(cell.spread) + "</small>";
+  std::string below = interval == std::string::npos ? "" : cell.text.substr(interval + 1);
+  add_word(below, cell.spread);
+  return below.empty() ? text : text + "<small>" + html_escaped(below) + "</small>";
 }
 
 bool begins_group(const Table& table, std::size_t column) {

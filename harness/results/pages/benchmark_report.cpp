@@ -387,9 +387,9 @@ Document benchmark_document(const ReportInput& input) {
                                            "How the columns are defined",
                                            {Paragraph{spec.subject().method}, column_definitions(spec),
                                             BlockGroup{"prose plain", {modules_table(input, spec)}}}},
-                                          {"limits-section", "What it does not show", {limits}}},
+                                          {"limits-section", "What it does not show", {limits}},
+                                          {"files", "Files", file_blocks(input.run, input.cells)}},
                                          input.facts));
-  add_blocks(page.blocks, file_blocks(input.run, input.cells));
   return page;
 }
 

@@ -122,6 +122,7 @@ Blocks overview_blocks(const ReportInput& input) {
           Paragraph{{link(scenario.name, "#" + scenario.name), results.answer.empty() ? "" : ": " + results.answer}});
     Table table = *results.overview;
     table.id = scenario.name + "-overview";
+    if (only) table.title = "At a glance";
     link_pipelines(table, scenario.name, input.cells);
     BlockGroup glance{"glance", {std::move(table)}};
     if (const auto ranking = input.rankings.find(scenario.name); ranking != input.rankings.end()) {
@@ -204,6 +205,7 @@ Document report_document(const ReportInput& input) {
   for (const auto& scenario : input.scenarios) add_blocks(chapters, chapter_of(input, scenario));
   add_blocks(chapters, meaning_of_metrics(input.rows));
   add_blocks(chapters, fact_blocks(input.facts));
+  chapters.push_back(Heading{2, "Files", "files"});
   add_blocks(chapters, file_blocks(input.run, input.cells));
   Document page{.title = report_title(input.scenarios),
                 .blocks = status_blocks(input.cells),

@@ -116,7 +116,7 @@ Blocks file_blocks(const fs::path& run, const std::vector<CellLine>& cells) {
   for (const KnownFile& file : kFiles)
     if (file.written_with_pages || fs::exists(run / file.name))
       files.items.push_back({link(file.name, file.name), fmt::format(": {}", file.what)});
-  Blocks blocks{Heading{2, "Files", "files"}, std::move(files)};
+  Blocks blocks{std::move(files)};
   if (!fs::exists(run / kScansPage))
     blocks.push_back(
         Paragraph{{"The page that plays the scans is not there; ", code("scanbench report RUN --scans"), " writes it."},

@@ -25,8 +25,8 @@ Prose figure_caption(const std::filesystem::path& run, const FigureFile& figure)
 /// Leads from the pipelines of a table to the folders of their cells in the scenario.
 void link_pipelines(Table& table, const std::string& scenario, const std::vector<CellLine>& cells);
 
-/// The section "Files": the tables, pages and folders that the run has, and in HTML a table with the folder of every
-/// cell and recording. Nothing is linked that does not exist; pages that are written beside this one are taken to.
+/// The tables, pages and folders that the run has, and in HTML a table with the folder of every cell and recording. No
+/// file is linked that does not exist, but those that are written together with the page.
 Blocks file_blocks(const std::filesystem::path& run, const std::vector<CellLine>& cells);
 
 }  // namespace scanbench::results

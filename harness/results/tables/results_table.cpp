@@ -171,15 +171,19 @@ class TableBuilder {
     return !(gate_->direction == Direction::higher_is_better ? value <= 0.0 : value > kMostMissed);
   }
 
+  /// One unit for all values of a metric, which its head states: that of most of them, so that a single bad pipeline
+  /// does not turn millimetres into 0.00270 m.
   Display display_of(const MetricDescription& metric) const {
+    std::vector<double> sizes;
     double largest = 0.0;
     bool whole = true;
     for (const auto& row : results_.rows) {
       if (row.metric != metric.metric || !std::isfinite(row.value)) continue;
-      largest = std::max(largest, std::fabs(row.value));
+      sizes.push_back(std::fabs(row.value));
+      largest = std::max(largest, sizes.back());
       whole = whole && row.value == std::floor(row.value);
     }
-    Display display = display_for(metric.unit, largest);
+    Display display = display_for(metric.unit, sizes.empty() ? 0.0 : median(sizes));
     if (whole && scenario_.seeds.size() == 1 && display.scale == 1.0 && largest >= 1.0)
       display.decimals = 0;  // a count
     return display;
@@ -389,12 +393,17 @@ std::size_t deciding_column(const Table& table) {
   return c;
 }
 
+/// A value without its interval or range: "0.80" of "0.80 ± 0.03".
+std::string mean_of(const std::string& text) {
+  return text.substr(0, text.find(' '));
+}
+
 /// "a (0.98), b (0.98)"
 std::string named(const std::vector<const Table::Row*>& rows, std::size_t column) {
   std::vector<std::string> names;
   names.reserve(rows.size());
   for (const Table::Row* row : rows)
-    names.push_back(fmt::format("{} ({})", row->heads.front(), row->cells[column].text));
+    names.push_back(fmt::format("{} ({})", row->heads.front(), mean_of(row->cells[column].text)));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -420,7 +429,7 @@ std::string other_best(const Table& table, std::size_t column, const std::vector
   return text;
 }
 
-/// "mine: segments per scan 12.3, total time 0.05 ms.": the values of the only pipeline.
+/// "mine found: segments per scan 12.3; total time 0.05 ms.": the values of the only pipeline.
 std::string found_by(const Table::Row& row, const Table& table) {
   std::vector<std::string> values;
   for (std::size_t c = 0; c < row.cells.size(); ++c) {
@@ -434,7 +443,7 @@ std::string found_by(const Table::Row& row, const Table& table) {
     values.push_back(fmt::format("{} {}{}", words, row.cells[c].text, unit));
   }
   const std::string note = row.note.empty() ? "" : " (" + row.note + ")";
-  return values.empty() ? "" : fmt::format("{}{}: {}.", row.heads.front(), note, fmt::join(values, ", "));
+  return values.empty() ? "" : fmt::format("{}{} found: {}.", row.heads.front(), note, fmt::join(values, "; "));
 }
 
 }  // namespace
@@ -458,8 +467,9 @@ std::string overview_sentence(const Table& overview) {
     return fmt::format("Best {} of {} pipelines: {}{}.", sentence_words(overview.columns[c]), overview.rows.size(),
                        named(best, c), other_best(overview, c, best, rows));
   const auto value_shared = [](const std::vector<const Table::Row*>& of_rows, std::size_t column) {
-    const std::string& value = of_rows.front()->cells[column].text;
-    const bool one = std::ranges::all_of(of_rows, [&](const auto* row) { return row->cells[column].text == value; });
+    const std::string value = mean_of(of_rows.front()->cells[column].text);
+    const auto reads_so = [&](const auto* row) { return mean_of(row->cells[column].text) == value; };
+    const bool one = std::ranges::all_of(of_rows, reads_so);
     return one ? ", " + value : "";
   };
   std::string text = fmt::format("{} of {} pipelines share the best {}{}", best.size(), overview.rows.size(),

@@ -27,7 +27,7 @@ std::optional<Table> overview_table(const study::Scenario& scenario, const Compa
 
 /// The first answer of an overview in a sentence: "Best F1 of 3 pipelines: sef (0.811)." or why no pipeline is called
 /// best. Distances of points from their lines, numbers of lines and times do not judge a pipeline. Of a single
-/// pipeline, what it found: "mine: segments per scan 12.3, total time 0.05 ms."
+/// pipeline, what it found: "mine found: segments per scan 12.3; total time 0.05 ms."
 std::string overview_sentence(const Table& overview);
 
 /// The pipelines that have or share the best value of the first column that judges them; empty if none has.

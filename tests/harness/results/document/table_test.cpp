@@ -94,6 +94,14 @@ TEST(HtmlTable, SaysWhatEveryHeadIsOf) {
   EXPECT_FALSE(std::regex_search(html, without_scope)) << html;
 }
 
+TEST(HtmlTable, HasIntervalsBelowTheirValues) {
+  Table table{"t", "", "", {"pipeline"}, {{"", "x"}, {"", "y"}, {"", "z"}}, {}};
+  table.rows = {{{"a"}, {{"0.80 ± 0.03", true}, {"0.97 (0.88 to 0.99)"}, {"2 seeds (3 to 4)"}}}};
+  EXPECT_THAT(to_html(table),
+              AllOf(HasSubstr(">0.80*<small>± 0.03</small></td>"), HasSubstr(">0.97<small>(0.88 to 0.99)</small></td>"),
+                    HasSubstr(">2 seeds (3 to 4)</td>")));
+}
+
 TEST(Heads, AreWordsOnPagesAndNamesOfMetricsOnATerminal) {
   Table table{"t", "", "", {"pipeline"}, {{"", "sigma_offset [cm]", false, "sigma_offset", "offset error [cm] ↓"}}, {}};
   table.rows = {{{"a"}, {{"0.5"}}, false, "not converged", "cells/room/a/"}};

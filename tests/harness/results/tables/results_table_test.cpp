@@ -377,7 +377,17 @@ TEST(Overview, OfOnePipelineSaysWhatItFound) {
   const auto table = overview_table(scenario, comparable_rows(scenario, rows, {cell("mine", 1, "ok")}));
   ASSERT_TRUE(table);
   EXPECT_EQ(overview_sentence(*table),
-            "mine: segments per scan 12.5, point distance, by segment 0.420 cm, total time 3 ms.");
+            "mine found: segments per scan 12.5; point distance, by segment 0.420 cm; total time 3 ms.");
+}
+
+// Placed scans are wrong by millimetres; a pipeline that places none is wrong by metres.
+TEST(ResultTables, ShowAllValuesOfAMetricInTheUnitOfMostOfThem) {
+  const study::Scenario scenario = scenario_of({"a", "b", "c"}, {"alignment"});
+  const auto tables = result_tables(
+      scenario, comparable_rows(scenario, {row("a", "position_error", 0.0027), row("b", "position_error", 0.0038),
+                                           row("c", "position_error", 2.5)}));
+  EXPECT_EQ(at(tables.at(0), "a", "position_error [cm]").text, "0.270");
+  EXPECT_EQ(at(tables.at(0), "c", "position_error [cm]").text, "250");
 }
 
 TEST(PageHeads, HaveTheLabelTheUnitAndWhichValuesAreBetter) {
