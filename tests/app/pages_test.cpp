@@ -121,7 +121,8 @@ TEST_F(Pages, HaveReadableTitlesAndSentences) {
   EXPECT_THAT(run, AllOf(HasSubstr("<h1>Room</h1>"), HasSubstr("seeds 1 to 2"), HasSubstr("class=\"lead\">Best F1")));
   EXPECT_THAT(read(folder() / "suite/report.html"),
               AllOf(HasSubstr("<h1>Benchmark of 2 extractors</h1>"), HasSubstr("F1 against time")));
-  EXPECT_THAT(read(folder() / "night/nightly.html"), HasSubstr("<p class=\"lead verdict good\">PASS"));
+  EXPECT_THAT(read(folder() / "night/nightly.html"),
+              AllOf(HasSubstr("<h1>Nights, night of 2"), HasSubstr("<p class=\"lead verdict good\">PASS")));
   EXPECT_THAT(read(folder() / "gallery/index.html"), HasSubstr("1 figure and table, made."));
   EXPECT_THAT(read(folder() / "gallery/gallery.md"), HasSubstr("![A \\[1\\]](first.png)"));
 }

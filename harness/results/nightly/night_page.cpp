@@ -239,7 +239,9 @@ std::string reuse_text(std::size_t cells, std::size_t reused) {
 Document night_document(const NightInput& input) {
   std::set<std::uint64_t> seeds;
   for (const CellResults& cell : input.now.cells) seeds.insert(cell.key.seed);
-  Document page{.title = "Night of " + words_of_name(input.suite),
+  const auto started = std::ranges::find(input.facts, "started", &std::pair<std::string, std::string>::first);
+  const std::string date = started == input.facts.end() ? "" : " of " + started->second.substr(0, 10);
+  Document page{.title = words_of_name(input.suite) + ", night" + date,
                 .blocks = verdict_blocks(input),
                 .lead = input.sentence,
                 .lead_style = input.sentence.starts_with("PASS") ? "verdict good" : "verdict bad",
