@@ -2,6 +2,7 @@
 #include "harness/results/document/html_table.hpp"
 
 #include <cstddef>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -42,6 +43,18 @@ std::string html_content(const TableCell& cell) {
   return below.empty() ? text : text + "<small>" + html_escaped(below) + "</small>";
 }
 
+/// A head whose arrow stays on the line of the word before it.
+std::string html_head(const std::string& head) {
+  std::string text = html_escaped(head);
+  for (const std::string_view sign : {"↑", "↓", "≈ "}) {
+    const std::size_t at = text.find(" " + std::string(sign));
+    if (at == std::string::npos) continue;
+    if (sign.ends_with(' ')) text.replace(at + sign.size(), 1, "&nbsp;");
+    text.replace(at, 1, "&nbsp;");
+  }
+  return text;
+}
+
 bool begins_group(const Table& table, std::size_t column) {
   return column == 0 || table.columns[column].group != table.columns[column - 1].group;
 }
@@ -56,7 +69,7 @@ std::string html_heads(const Table& table) {
     for (const ColumnGroup& group : column_groups(table)) {
       const TableColumn& first = table.columns[group.first];
       out += fmt::format(R"(<th class="group" scope="colgroup" colspan="{}"{}>{}</th>)", group.count,
-                         attribute("title", first.metric), html_escaped(page_group(first)));
+                         attribute("title", first.metric), html_head(page_group(first)));
     }
     out += "</tr>\n";
   }
@@ -67,7 +80,7 @@ std::string html_heads(const Table& table) {
     std::string classes = column.published ? "published" : "";
     if (begins_group(table, c)) add_word(classes, "first");
     out += fmt::format("<th scope=\"col\"{}{}>{}</th>", attribute("class", classes), attribute("title", column.metric),
-                       html_escaped(page_head(column)));
+                       html_head(page_head(column)));
   }
   return out + "</tr>";
 }

@@ -103,7 +103,7 @@ for (const table of document.querySelectorAll('table')) {
   const heads = [...table.tHead.rows[table.tHead.rows.length - 1].cells];
   const groups = table.tHead.rows.length < 2 ? [] :
     [...table.tHead.rows[0].cells].flatMap(cell => Array(cell.colSpan).fill(cell.textContent.trim()));
-  const names = heads.map((head, c) => [groups[c], head.textContent.trim()].filter(part => part).join(' ') || 'column ' + c);
+  const names = heads.map((head, c) => [groups[c], head.textContent.trim()].filter(part => part).join(' ').replace(/\u00a0/g, ' ') || 'column ' + c);
   const value = (row, c) => {
     const text = row.cells[c] ? row.cells[c].textContent.trim() : '';
     const number = parseFloat(text.replace('−', '-'));

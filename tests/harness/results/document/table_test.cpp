@@ -107,11 +107,11 @@ TEST(Heads, AreWordsOnPagesAndNamesOfMetricsOnATerminal) {
   table.rows = {{{"a"}, {{"0.5"}}, false, "not converged", "cells/room/a/"}};
   EXPECT_THAT(to_terminal(table, false), AllOf(HasSubstr("sigma_offset [cm]"), HasSubstr("a (not converged)")));
   EXPECT_THAT(to_markdown(table), AllOf(HasSubstr("| offset error [cm] ↓ |"), HasSubstr("| a (not converged) |")));
-  EXPECT_THAT(to_html(table), AllOf(HasSubstr("title=\"sigma_offset\">offset error [cm] ↓</th>"),
+  EXPECT_THAT(to_html(table), AllOf(HasSubstr("title=\"sigma_offset\">offset error [cm]&nbsp;↓</th>"),
                                     HasSubstr("<a href=\"cells/room/a/\">a</a><small>not converged</small></th>")));
   table.columns = {{"sigma_offset [cm]", "iepf", false, "sigma_offset", "offset error [cm] ↓"}};
   EXPECT_THAT(to_markdown(table), HasSubstr("| offset error [cm] ↓ iepf |"));
-  EXPECT_THAT(to_html(table), AllOf(HasSubstr(">offset error [cm] ↓</th>"), HasSubstr(">iepf</th>")));
+  EXPECT_THAT(to_html(table), AllOf(HasSubstr(">offset error [cm]&nbsp;↓</th>"), HasSubstr(">iepf</th>")));
 }
 
 TEST(HtmlTable, EscapesWhatHtmlReserves) {
