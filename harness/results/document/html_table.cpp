@@ -22,9 +22,11 @@ void add_word(std::string& words, const std::string& word) {
 }
 
 /// Where the interval or range of a value begins: "0.80 ± 0.03", "0.97 (0.88 to 0.99)"; npos if there is none. It is
-/// below the value, because columns are then half as wide.
+/// below the value, because columns are then half as wide. A unit behind it keeps both on one line.
 std::size_t interval_at(const std::string& text) {
-  std::size_t at = text.find(" ± ");
+  constexpr std::string_view kPlusMinus = " ± ";
+  std::size_t at = text.find(kPlusMinus);
+  if (at != std::string::npos && text.find(' ', at + kPlusMinus.size()) != std::string::npos) return std::string::npos;
   if (at == std::string::npos && text.ends_with(')') && text.find(" to ") != std::string::npos) at = text.find(" (");
   return at == std::string::npos || text.find(' ') < at ? std::string::npos : at;
 }

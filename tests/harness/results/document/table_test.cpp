@@ -95,11 +95,11 @@ TEST(HtmlTable, SaysWhatEveryHeadIsOf) {
 }
 
 TEST(HtmlTable, HasIntervalsBelowTheirValues) {
-  Table table{"t", "", "", {"pipeline"}, {{"", "x"}, {"", "y"}, {"", "z"}}, {}};
-  table.rows = {{{"a"}, {{"0.80 ± 0.03", true}, {"0.97 (0.88 to 0.99)"}, {"2 seeds (3 to 4)"}}}};
+  Table table{"t", "", "", {"pipeline"}, {{"", "x"}, {"", "y"}, {"", "z"}, {"", "t"}}, {}};
+  table.rows = {{{"a"}, {{"0.80 ± 0.03", true}, {"0.97 (0.88 to 0.99)"}, {"2 seeds (3 to 4)"}, {"0.85 ± 0.05 µs"}}}};
   EXPECT_THAT(to_html(table),
               AllOf(HasSubstr(">0.80*<small>± 0.03</small></td>"), HasSubstr(">0.97<small>(0.88 to 0.99)</small></td>"),
-                    HasSubstr(">2 seeds (3 to 4)</td>")));
+                    HasSubstr(">2 seeds (3 to 4)</td>"), HasSubstr(">0.85 ± 0.05 µs</td>")));
 }
 
 TEST(Heads, AreWordsOnPagesAndNamesOfMetricsOnATerminal) {
