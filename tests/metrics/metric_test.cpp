@@ -85,6 +85,14 @@ TEST(Label, OfEveryMetricIsShortUniqueAndInWords) {
   EXPECT_GT(metric_of_label.size(), 100u);
 }
 
+// A page lists definitions by name, so that none may lean on the one before it.
+TEST(Definition, OfEveryMetricStandsAlone) {
+  const std::regex leans("^(the same|their|its|both|that|this|these|those)\\b|harmonic mean of both");
+  for (const auto& [name, entry] : Registry<MetricFamily>::all())
+    for (const MetricDescription& d : entry.make({})->describe())
+      EXPECT_FALSE(std::regex_search(d.doc, leans)) << d.metric << ": " << d.doc;
+}
+
 TEST(Direction, HasATargetOnlyWhereItIsTarget) {
   for (const auto& [name, entry] : Registry<MetricFamily>::all())
     for (const MetricDescription& d : entry.make({})->describe()) {

@@ -277,6 +277,15 @@ TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
   }
 }
 
+TEST(Benchmark, EveryColumnHasADefinitionThatStandsAlone) {
+  for (const char* slot : {"extract", "match", "align"})
+    for (const auto& column : study::benchmark_subject(slot).columns) {
+      EXPECT_FALSE(column.definition.empty()) << column.head;
+      EXPECT_FALSE(column.definition.starts_with("the same") || column.definition.starts_with("that "))
+          << column.head << ": " << column.definition;
+    }
+}
+
 TEST(Benchmark, PageShowsAllNumbersOfScansOfAWorld) {
   std::string longer = kScene;
   longer.replace(longer.find("scans: 4"), 8, "scans: 6");
