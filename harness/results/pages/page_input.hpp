@@ -27,7 +27,7 @@ struct ReportInput {
   std::vector<runs::SummaryRow> rows;
   std::vector<CellLine> cells;
   std::vector<FigureFile> figures;
-  std::map<std::string, MethodRanking> rankings = {};   ///< by scenario: of its pipelines
+  std::map<std::string, MethodRanking> rankings = {};   ///< by scenario: of its pipelines; empty for a benchmark
   std::map<std::string, std::string> sources = {};      ///< of recorded scenarios: the log's hash and beam angles
   std::optional<study::BenchmarkSpec> benchmark = {};   ///< if the run is one
   std::vector<RankedPipeline> ranking = {};             ///< of the benchmark's pipelines

@@ -125,7 +125,6 @@ ReportInput load_report_input(const fs::path& run, const std::vector<study::Scen
     input.cells.push_back(std::move(line));
   }
   input.figures = load_figure_index(run / "figures");
-  input.rankings = rankings_by_scenario(store, input);
   for (const auto& scenario : scenarios)
     if (const auto* recorded = std::get_if<study::RecordedInput>(&scenario.input))
       input.sources[scenario.name] = source_of(store, scenario, *recorded);
@@ -134,6 +133,7 @@ ReportInput load_report_input(const fs::path& run, const std::vector<study::Scen
     input.ranking = rank_pipelines(scenarios, input.rows, *input.benchmark);
     input.worst = benchmark_worst_scans(input);
   } else {
+    input.rankings = rankings_by_scenario(store, input);
     for (const auto& scenario : scenarios)
       input.results[scenario.name] = scenario_results(scenario, input.rows, input.cells);
   }
