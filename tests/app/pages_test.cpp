@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <regex>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ using testing::Not;
 class Pages : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new Folder;
+    folder_ = std::make_unique<Folder>();
     folder_->write("room.yaml", room_with("metrics:", "  - {name: lt, extract: {module: line_tracking}}\nmetrics:"));
     folder_->write("suite.yaml",
                    "schema: 1\nscenarios: [room.yaml]\nmetrics: [segments, {name: efficiency, params: {matches: "
@@ -38,10 +39,7 @@ class Pages : public testing::Test {
       ASSERT_EQ(outcome.code, 0) << args[0] << ": " << outcome.err;
     }
   }
-  static void TearDownTestSuite() {
-    delete folder_;
-    folder_ = nullptr;
-  }
+  static void TearDownTestSuite() { folder_.reset(); }
   static const Folder& folder() { return *folder_; }
   static std::vector<fs::path> pages() {
     return {"run/report.html",    "run/scans.html",    "suite/report.html",
@@ -49,7 +47,7 @@ class Pages : public testing::Test {
   }
 
  private:
-  inline static Folder* folder_ = nullptr;
+  inline static std::unique_ptr<Folder> folder_;
 };
 
 std::size_t count_of(const std::string& text, const std::string& word) {
