@@ -49,7 +49,10 @@ int make_gallery(GalleryOptions options) {
   const auto made = results::make_entries(finished.result.out, catalogue, options.figures,
                                           [&](double share, const std::string& what) { progress.update(share, what); });
   progress.finish();
-  const results::Document page = results::gallery_document(catalogue, made, options.figures);
+  auto facts = runs::manifest_facts(finished.result.out);
+  std::erase_if(facts, [](const auto& fact) { return fact.first == "started"; });  // the same figures, the same page
+  const results::Document page =
+      results::gallery_document(catalogue, made, options.figures, results::stamp_of(facts, {}));
   io::write_file_atomically(options.out / "gallery.md", results::to_markdown(page));
   io::write_file_atomically(options.out / "index.html", results::to_html(page));
   for (const auto& entry : made)

@@ -16,7 +16,6 @@
 #include "harness/runs/execute/runner.hpp"
 #include "harness/runs/execute/score.hpp"
 #include "harness/runs/store/archived_run.hpp"
-#include "harness/runs/store/manifest.hpp"
 #include "harness/runs/store/run_folder.hpp"
 #include "harness/runs/store/run_lock.hpp"
 #include "harness/runs/store/run_scenarios.hpp"
@@ -50,12 +49,11 @@ int report(const fs::path& run, bool scans) {
   const auto scenarios = scenarios_for(run, {});
   const runs::RunLock lock(run);
   runs::refuse_linked_folders(run);
+  // The report links to the player, which is therefore written first.
+  if (scans) io::write_file_atomically(run / results::kPlayerPage, results::player_page(run, scenarios));
   results::write_reports(run, results::load_report_input(run, scenarios));
   fmt::print("{}\n{}\n", (run / results::kReportPage).string(), (run / results::kReportMarkdown).string());
-  if (!scans) return kGood;
-  io::write_file_atomically(run / results::kPlayerPage, results::player_page(run, scenarios));
-  runs::refresh_manifest(run);
-  fmt::print("{}\n", (run / results::kPlayerPage).string());
+  if (scans) fmt::print("{}\n", (run / results::kPlayerPage).string());
   return kGood;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 #include <utility>
@@ -105,10 +106,19 @@ struct Block : AnyBlock {
   using AnyBlock::AnyBlock;
 };
 
+/// Every page has the same head: the title, a sentence, and one line of when, what and from which seeds.
 struct Document {
   std::string title;
   Blocks blocks;
+  Prose lead{};              ///< what a reader wants to know first, in a sentence or two; may be empty
+  std::string lead_style{};  ///< HTML: its class in the style sheet
+  std::string stamp{};       ///< stamp_of(); may be empty
 };
+
+/// "2026-11-24 10:12 UTC · scanbench 0.1.0, commit 0123456789ab · seeds 1 to 5" from the facts "started" and "version"
+/// of a run; what is not known is left out.
+std::string stamp_of(const std::vector<std::pair<std::string, std::string>>& facts,
+                     const std::vector<std::uint64_t>& seeds);
 
 /// Appends `more` to `blocks`.
 void add_blocks(Blocks& blocks, Blocks more);

@@ -20,6 +20,9 @@ std::string markdown_escaped(std::string_view text);
 /// The five characters that HTML and XML reserve, escaped.
 std::string html_escaped(std::string_view text);
 
+/// A name as the words of a title: "lakaemper2010_four_rooms" as "Lakaemper 2010 four rooms".
+std::string words_of_name(const std::string& name);
+
 /// The text as one word of a POSIX shell: as it is, or in single quotes if it has other characters than letters, digits
 /// and -_./=:,+@%.
 std::string shell_word(std::string_view text);

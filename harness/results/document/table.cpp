@@ -1,4 +1,4 @@
-// Writes a table for a terminal, as Markdown and as HTML. Best values are marked by characters, not by colour alone.
+// Writes a table for a terminal and as Markdown. Best values are marked by characters, not by colour alone.
 #include "harness/results/document/table.hpp"
 
 #include <algorithm>
@@ -28,50 +28,24 @@ std::string padded(const std::string& text, std::size_t width, bool right) {
   return right ? space + text : text + space;
 }
 
+std::string flat_head(const TableColumn& column) {
+  return column.group.empty() ? page_head(column) : page_group(column) + " " + page_head(column);
+}
+
+/// The first heading of a row, with its note.
+std::string noted_head(const Table::Row& row) {
+  return row.note.empty() ? row.heads.front() : row.heads.front() + " (" + row.note + ")";
+}
+
 // The table without characters that would control a terminal.
 Table plain(Table table) {
   table.title = plain_line(table.title);
   for (auto& row : table.rows) {
+    if (!row.heads.empty()) row.heads.front() = noted_head(row);
     for (auto& head : row.heads) head = plain_line(head);
     for (auto& cell : row.cells) cell.text = plain_line(cell.text);
   }
   return table;
-}
-
-std::string html_content(const TableCell& cell) {
-  std::string text = html_escaped(marked(cell)) + cell.drawing;
-  const std::string hint = cell.hint.empty() ? "" : " title=\"" + html_escaped(cell.hint) + "\"";
-  if (!cell.link.empty())
-    text = fmt::format("<a href=\"{}\"{}>{}</a>", html_escaped(cell.link), hint, text);
-  else if (!hint.empty())
-    text = fmt::format("<span{}>{}</span>", hint, text);
-  return cell.spread.empty() ? text : text + "<small>" + html_escaped(cell.spread) + "</small>";
-}
-
-bool has_groups(const Table& table) {
-  return std::ranges::any_of(table.columns, [](const TableColumn& c) { return !c.group.empty(); });
-}
-
-// Neighbouring columns of one group: first column and number of columns.
-struct Span {
-  std::string group;
-  std::size_t first;
-  std::size_t count;
-};
-
-std::vector<Span> group_spans(const Table& table) {
-  std::vector<Span> spans;
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    if (!spans.empty() && spans.back().group == table.columns[c].group)
-      ++spans.back().count;
-    else
-      spans.push_back({table.columns[c].group, c, 1});
-  }
-  return spans;
-}
-
-std::string flat_head(const TableColumn& column) {
-  return column.group.empty() ? column.head : column.group + " " + column.head;
 }
 
 /// Of a leading text column.
@@ -119,7 +93,7 @@ class TerminalTable {
     for (std::size_t h = 0; h < heads_; ++h) widths_.push_back(head_width(table, h));
     for (std::size_t c = 0; c < table.columns.size(); ++c) widths_.push_back(column_width(table, c));
     // A group wider than its columns widens the last of them.
-    for (const auto& span : group_spans(table)) {
+    for (const auto& span : column_groups(table)) {
       const std::size_t group = display_width(span.group), columns = width_of(span);
       if (group > columns) widths_[heads_ + span.first + span.count - 1] += group - columns;
     }
@@ -136,7 +110,7 @@ class TerminalTable {
 
  private:
   /// Of a group's columns, with the blanks between them.
-  std::size_t width_of(const Span& span) const {
+  std::size_t width_of(const ColumnGroup& span) const {
     std::size_t width = 2 * (span.count - 1);
     for (std::size_t c = 0; c < span.count; ++c) width += widths_[heads_ + span.first + c];
     return width;
@@ -145,7 +119,7 @@ class TerminalTable {
   std::string group_line() const {
     std::string line;
     for (std::size_t h = 0; h < heads_; ++h) line += padded("", widths_[h], false) + "  ";
-    for (const auto& span : group_spans(table_)) line += padded(span.group, width_of(span), false) + "   ";
+    for (const auto& span : column_groups(table_)) line += padded(span.group, width_of(span), false) + "   ";
     return without_trailing_blanks(line);
   }
 
@@ -183,66 +157,30 @@ class TerminalTable {
   std::vector<std::size_t> widths_;  ///< of the heads, then of the columns
 };
 
-bool begins_group(const Table& table, std::size_t column) {
-  return column == 0 || table.columns[column].group != table.columns[column - 1].group;
-}
-
-/// The rows of thead.
-std::string html_heads(const Table& table) {
-  std::string out;
-  if (has_groups(table)) {
-    out += "<tr>";
-    for (std::size_t c = 0; c < table.row_heads.size(); ++c) out += "<th></th>";
-    for (const auto& span : group_spans(table))
-      out += fmt::format(R"(<th class="group" colspan="{}">{}</th>)", span.count, html_escaped(span.group));
-    out += "</tr>\n";
-  }
-  out += "<tr>";
-  for (const auto& head : table.row_heads) out += "<th class=\"head\">" + html_escaped(head) + "</th>";
-  for (std::size_t c = 0; c < table.columns.size(); ++c)
-    out += fmt::format("<th class=\"{}{}\">{}</th>", table.columns[c].published ? "published " : "",
-                       begins_group(table, c) ? "first" : "", html_escaped(table.columns[c].head));
-  return out + "</tr>";
-}
-
-std::string html_row(const Table& table, const Table::Row& row) {
-  std::string out = row.published ? "<tr class=\"published\">" : "<tr>";
-  for (const auto& head : row.heads) out += "<th class=\"head\">" + html_escaped(head) + "</th>";
-  for (std::size_t c = 0; c < row.cells.size(); ++c) {
-    const auto& cell = row.cells[c];
-    out += fmt::format("<td class=\"{}{}{}{}{}\">{}</td>", cell.best ? "best " : "", cell.published ? "published " : "",
-                       cell.not_eligible ? "not-eligible " : "", cell.state.empty() ? "" : cell.state + " ",
-                       begins_group(table, c) ? "first" : "", html_content(cell));
-  }
-  return out + "</tr>\n";
-}
-
-std::string part_to_html(const Table& table) {
-  // A part without a title continues the one before it.
-  std::string out = table.title.empty() ? "<section class=\"table\">"
-                                        : fmt::format(R"(<section class="table" id="{}"><h3>{}</h3>)",
-                                                      html_escaped(table.id), html_escaped(table.title));
-  out += "<div class=\"scroll\"><table>\n<thead>" + html_heads(table) + "</thead>\n<tbody>\n";
-  for (const auto& row : table.rows) out += html_row(table, row);
-  out += "</tbody></table></div>";
-  if (!table.caption.empty()) out += "<p class=\"caption\">" + html_escaped(table.caption) + "</p>";
-  return out + "</section>\n";
-}
-
-/// The cells of a table of one column beside each other, each with the head of its row.
-std::string chips_to_html(const Table& table) {
-  std::string out = "<section class=\"chips\"><h3>" + html_escaped(table.title) + "</h3><div>\n";
-  for (const auto& row : table.rows) {
-    const TableCell& cell = row.cells.front();
-    const std::string tag = cell.link.empty() ? "span" : "a";
-    const std::string link = cell.link.empty() ? "" : " href=\"" + html_escaped(cell.link) + "\"";
-    out += fmt::format("<{0} class=\"chip {1}\"{2}><b>{3}</b>{4}<small>{5}</small></{0}>\n", tag, cell.state, link,
-                       html_escaped(row.heads.front()), html_escaped(cell.text), html_escaped(cell.spread));
-  }
-  return out + "</div></section>\n";
-}
-
 }  // namespace
+
+std::vector<ColumnGroup> column_groups(const Table& table) {
+  std::vector<ColumnGroup> groups;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (!groups.empty() && groups.back().group == table.columns[c].group)
+      ++groups.back().count;
+    else
+      groups.push_back({table.columns[c].group, c, 1});
+  }
+  return groups;
+}
+
+bool has_groups(const Table& table) {
+  return std::ranges::any_of(table.columns, [](const TableColumn& column) { return !column.group.empty(); });
+}
+
+std::string page_group(const TableColumn& column) {
+  return column.words.empty() || column.group.empty() ? column.group : column.words;
+}
+
+std::string page_head(const TableColumn& column) {
+  return column.words.empty() || !column.group.empty() ? column.head : column.words;
+}
 
 std::vector<Table> parts_of_width(const Table& table, std::size_t width) {
   std::size_t heads = 0;
@@ -250,9 +188,9 @@ std::vector<Table> parts_of_width(const Table& table, std::size_t width) {
   std::vector<Table> parts;
   std::size_t first = 0;
   std::size_t used = heads;
-  std::vector<Span> spans;
+  std::vector<ColumnGroup> spans;
   if (has_groups(table))
-    spans = group_spans(table);
+    spans = column_groups(table);
   else
     for (std::size_t c = 0; c < table.columns.size(); ++c) spans.push_back({"", c, 1});
   for (const auto& span : spans) {
@@ -290,7 +228,8 @@ std::string to_markdown(const Table& table) {
   out += "\n";
   for (const auto& row : table.rows) {
     out += "|";
-    for (const auto& head : row.heads) out += " " + markdown_escaped(head) + " |";
+    for (std::size_t h = 0; h < row.heads.size(); ++h)
+      out += " " + markdown_escaped(h == 0 ? noted_head(row) : row.heads[h]) + " |";
     for (const auto& cell : row.cells) {
       const std::string text = markdown_escaped(cell.text);
       out += " " + with_spread(cell.best ? "**" + text + "**" : text, cell) + " |";
@@ -298,13 +237,6 @@ std::string to_markdown(const Table& table) {
     out += "\n";
   }
   if (!table.caption.empty()) out += "\n" + bold_caption(table.caption) + "\n";
-  return out;
-}
-
-std::string to_html(const Table& table) {
-  if (table.side_by_side) return chips_to_html(table);
-  std::string out;
-  for (const auto& part : parts_of_width(table, table.page_width)) out += part_to_html(part);
   return out;
 }
 

@@ -1,4 +1,4 @@
-// Tables that are written as terminal text, Markdown and HTML.
+// Tables, and how they are written as terminal text and Markdown. html_table.hpp writes them as HTML.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +23,8 @@ struct TableColumn {
   std::string group;  ///< heading over neighbouring columns of the same group; may be empty
   std::string head;
   bool published = false;
+  std::string metric{};  ///< the id of the metric of its values; may be empty
+  std::string words{};   ///< pages: instead of the metric's id, in the group if there is one, else in the head
 };
 
 struct Table {
@@ -35,12 +37,30 @@ struct Table {
     std::vector<std::string> heads;
     std::vector<TableCell> cells;
     bool published = false;
+    std::string note{};  ///< "not converged in 1 of 6": in parentheses after the first heading, below it in HTML
+    std::string link{};  ///< HTML: what the first heading leads to, a relative address; may be empty
   };
   std::vector<Row> rows;
-  std::size_t page_width = 1000;  ///< HTML: a wider table is split by parts_of_width()
-  bool side_by_side = false;      ///< HTML: the cells of its only column beside each other, because the table is narrow
-  bool pages_only = false;        ///< too long for a terminal
+  bool side_by_side = false;  ///< HTML: the cells of its only column beside each other, because the table is narrow
+  bool pages_only = false;    ///< too long for a terminal
 };
+
+/// Neighbouring columns of one group.
+struct ColumnGroup {
+  std::string group;
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+/// The groups of a table's columns, in order. Columns without a group are groups too, one for each run of them.
+std::vector<ColumnGroup> column_groups(const Table& table);
+
+/// True if a column has a group.
+bool has_groups(const Table& table);
+
+/// The group and the head of a column as pages show them.
+std::string page_group(const TableColumn& column);
+std::string page_head(const TableColumn& column);
 
 /// Splits a table into parts of at most `width` characters if it is wider: between groups of columns, or between single
 /// columns if there are no groups. The first part has the title, the last the caption.
@@ -49,6 +69,5 @@ std::vector<Table> parts_of_width(const Table& table, std::size_t width);
 /// Groups of columns that do not fit `width` characters side by side are written below each other.
 std::string to_terminal(const Table& table, bool color, std::size_t width = 1000);
 std::string to_markdown(const Table& table);
-std::string to_html(const Table& table);
 
 }  // namespace scanbench::results

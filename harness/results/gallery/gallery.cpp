@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/index.hpp"
 #include "core/names.hpp"
 #include "core/params.hpp"
 #include "harness/results/analysis/agreement.hpp"
+#include "harness/results/document/plain_text.hpp"
 #include "harness/results/tables/paper_tables.hpp"
 #include "harness/runs/store/summary.hpp"
 
@@ -17,10 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kPageWidth = 120;  // characters of a table
-
 constexpr const char* kStyle = R"css(<style>
-.gallery { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 24rem), 1fr)); gap: 1.6rem; align-items: start; grid-auto-flow: dense; }
+.gallery { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 24rem), 1fr)); gap: 1.6rem; align-items: start; }
 .gallery figure { margin: 0; } .gallery img { width: 100%; max-height: 20rem; object-fit: contain; object-position: left top; }
 .gallery h2 { margin: 1.4rem 0 .4rem; padding: 0; border: 0; font-size: 1.05rem; }
 .wide { grid-column: 1 / -1; } .gallery code, .command { font-size: .8rem; overflow-wrap: anywhere; }
@@ -95,13 +95,17 @@ BlockGroup group_of(const Catalogue& catalogue, const MadeEntry& made, const Fig
                    {Heading{2, made.entry.of}, Paragraph{made.entry.shows}},
                    made.entry.name};
   if (!made.failure.empty()) group.blocks.push_back(Paragraph{made.failure, "faint"});
-  for (Table table : made.tables) {
-    table.page_width = kPageWidth;
-    group.blocks.push_back(std::move(table));
-  }
+  for (const Table& table : made.tables) group.blocks.push_back(table);
   for (const FigureFile& file : made.files) group.blocks.push_back(picture_of(made, file, options));
   group.blocks.push_back(Paragraph{{code(command_of(catalogue, made.entry)), ": " + recipe_of(made.entry)}, "command"});
   return group;
+}
+
+std::string made_sentence(std::size_t entries, std::size_t failed) {
+  const std::string all =
+      fmt::format("{} figure{} and table{}", entries, entries == 1 ? "" : "s", entries == 1 ? "" : "s");
+  if (failed == 0) return all + (entries == 1 ? ", made." : ", all of them made.");
+  return fmt::format("{}; {} could not be made.", all, failed);
 }
 
 }  // namespace
@@ -126,12 +130,17 @@ std::string command_of(const Catalogue& catalogue, const CatalogueEntry& entry) 
   return fmt::format("scanbench figures {} --only {}", catalogue.path.generic_string(), entry.name);
 }
 
-Document gallery_document(const Catalogue& catalogue, const std::vector<MadeEntry>& made,
-                          const FigureOptions& options) {
+Document gallery_document(const Catalogue& catalogue, const std::vector<MadeEntry>& made, const FigureOptions& options,
+                          const std::string& stamp) {
   BlockGroup entries{"gallery", {}};
   for (const MadeEntry& entry : made) entries.blocks.push_back(group_of(catalogue, entry, options));
-  Document page{"Figures of " + catalogue.path.filename().string(),
-                {Markup{kStyle}, Paragraph{catalogue.about}, std::move(entries)}};
+  const auto failed = std::ranges::count_if(made, [](const MadeEntry& entry) { return !entry.failure.empty(); });
+  Document page{.title = "Gallery: " + words_of_name(catalogue.path.stem().string()),
+                .blocks = {Markup{kStyle}},
+                .lead = made_sentence(made.size(), as_index(failed)),
+                .stamp = stamp};
+  if (!catalogue.about.empty()) page.blocks.push_back(Paragraph{catalogue.about});
+  page.blocks.push_back(std::move(entries));
   if (catalogue.absent.empty()) return page;
   Definitions absent;
   for (const AbsentEntry& entry : catalogue.absent) absent.items.emplace_back(entry.of, entry.why);

@@ -30,7 +30,9 @@ std::vector<MadeEntry> make_entries(const std::filesystem::path& run, const Cata
 /// "scanbench figures scenarios/figures.yaml --only NAME": makes one entry again.
 std::string command_of(const Catalogue& catalogue, const CatalogueEntry& entry);
 
-/// The page of the folder: thumbnail, the paper's number, caption and command of each entry, and what is absent.
-Document gallery_document(const Catalogue& catalogue, const std::vector<MadeEntry>& made, const FigureOptions& options);
+/// The page of the folder: thumbnail, the paper's number, caption and command of each entry in the order of the
+/// catalogue, and what is absent. `stamp`: as Document::stamp.
+Document gallery_document(const Catalogue& catalogue, const std::vector<MadeEntry>& made, const FigureOptions& options,
+                          const std::string& stamp = "");
 
 }  // namespace scanbench::results

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <set>
 #include <utility>
 
@@ -24,7 +25,7 @@ namespace scanbench::results {
 namespace {
 
 Blocks verdict_blocks(const NightInput& input) {
-  Blocks blocks{Paragraph{input.sentence, input.sentence.starts_with("PASS") ? "verdict good" : "verdict bad"}};
+  Blocks blocks;
   if (input.comparison) blocks.push_back(Paragraph{"Compared with " + input.reference + "."});
   if (input.drift)
     blocks.push_back(Paragraph{
@@ -236,7 +237,15 @@ std::string reuse_text(std::size_t cells, std::size_t reused) {
 }
 
 Document night_document(const NightInput& input) {
-  Document page{"scanbench, night of " + input.suite, verdict_blocks(input)};
+  std::set<std::uint64_t> seeds;
+  for (const CellResults& cell : input.now.cells) seeds.insert(cell.key.seed);
+  const auto started = std::ranges::find(input.facts, "started", &std::pair<std::string, std::string>::first);
+  const std::string date = started == input.facts.end() ? "" : " of " + started->second.substr(0, 10);
+  Document page{.title = words_of_name(input.suite) + ", night" + date,
+                .blocks = verdict_blocks(input),
+                .lead = input.sentence,
+                .lead_style = input.sentence.starts_with("PASS") ? "verdict good" : "verdict bad",
+                .stamp = stamp_of(input.facts, {seeds.begin(), seeds.end()})};
   add_blocks(page.blocks, section_blocks(sections_of(input), input.facts));
   return page;
 }

@@ -12,9 +12,12 @@
 #include "core/geometry/geometry.hpp"
 #include "core/index.hpp"
 #include "harness/results/analysis/benchmark_finding.hpp"
+#include "harness/results/pages/benchmark_extremes.hpp"
 #include "harness/results/pages/page_parts.hpp"
+#include "harness/results/pages/run_links.hpp"
 #include "harness/results/tables/level_table.hpp"
 #include "harness/results/tables/ranking_table.hpp"
+#include "harness/results/tables/table_marks.hpp"
 #include "harness/runs/store/summary.hpp"
 #include "harness/study/catalog/chain.hpp"
 #include "harness/study/catalog/find_module.hpp"
@@ -43,6 +46,10 @@ std::int64_t observations(const std::vector<runs::SummaryRow>& rows, const std::
   return count;
 }
 
+std::string with_count(std::size_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 std::string run_text(const ReportInput& input, const study::BenchmarkSpec& spec) {
   std::set<std::string> worlds, sensors;
   for (const auto& scenario : input.scenarios) {
@@ -57,11 +64,12 @@ std::string run_text(const ReportInput& input, const study::BenchmarkSpec& spec)
           ? ""
           : fmt::format(" and {} {}", observations(input.rows, spec.baseline, subject.count_metric), subject.counted);
   return fmt::format(
-      "{} {}s on {} conditions: {} world{}, {} sensor{}, noise of {:.3g} cm. {} seeds make {} recordings with "
+      "{} {}s on {} conditions: {} world{}, {} sensor{}, noise of {:.3g} cm. {} {} {} recordings with "
       "{} scans{} in total; every {} gets the same recordings.",
       scenarios.front().pipelines.size(), subject.noun, scenarios.size(), worlds.size(), worlds.size() == 1 ? "" : "s",
-      sensors.size(), sensors.size() == 1 ? "" : "s", fmt::join(noise_levels(scenarios), " and "), seeds,
-      scenarios.size() * seeds, observations(input.rows, spec.baseline, "t_scan"), counted, subject.noun);
+      sensors.size(), sensors.size() == 1 ? "" : "s", fmt::join(noise_levels(scenarios), " and "),
+      with_count(seeds, "seed"), seeds == 1 ? "makes" : "make", scenarios.size() * seeds,
+      observations(input.rows, spec.baseline, "t_scan"), counted, subject.noun);
 }
 
 Table worlds_table(const ReportInput& input) {
@@ -217,10 +225,6 @@ std::string and_list(const std::vector<std::string>& names) {
   return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 
-std::string with_count(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 /// Which pipelines lead: the page's first sentence, and how far the first is from the best possible.
 std::string answer_text(const ReportInput& input, const study::BenchmarkSpec& spec, const BenchmarkFinding& finding) {
   const study::BenchmarkSubject& subject = spec.subject();
@@ -337,7 +341,7 @@ std::vector<std::pair<std::string, std::string>> numbered_figures(const study::B
 }
 
 Blocks ranking_section(const ReportInput& input, const study::BenchmarkSpec& spec) {
-  Blocks blocks{BlockGroup{"compact", {ranking_table(input.ranking, spec)}},
+  Blocks blocks{BlockGroup{"compact ranks", {ranking_table(input.ranking, spec)}}, Paragraph{kArrowKey, "caption"},
                 Paragraph{significance_text(input.ranking)}};
   add_blocks(blocks, level_blocks(input, spec));
   return blocks;
@@ -363,20 +367,28 @@ Blocks run_section(const ReportInput& input, const study::BenchmarkSpec& spec) {
 Document benchmark_document(const ReportInput& input) {
   const study::BenchmarkSpec& spec = input.benchmark.value();
   const BenchmarkFinding finding = find_leaders(input.scenarios, input.rows, spec, input.ranking);
-  Document page{input.title,
-                {Paragraph{{bold(answer_text(input, spec, finding)), split_text(input.ranking, spec, finding)}},
-                 Paragraph{spec.about}}};
-  add_blocks(page.blocks, status_blocks(input.cells));
+  const std::string& noun = spec.subject().noun;
+  Document page{.title = fmt::format("Benchmark of {}", with_count(input.ranking.size(), noun)),
+                .blocks = status_blocks(input.cells),
+                .lead = answer_text(input, spec, finding),
+                .stamp = stamp_of(input.facts, seeds_of(input.rows))};
+  if (const std::string split = split_text(input.ranking, spec, finding); !split.empty())
+    page.blocks.push_back(Paragraph{split});
+  if (!spec.about.empty()) page.blocks.push_back(Paragraph{spec.about});
+  const study::BenchmarkColumn& rank = spec.subject().rank_column();
   BulletList limits;
   for (const auto& limit : spec.subject().limits) limits.items.emplace_back(limit);
   add_blocks(page.blocks, section_blocks({{"ranking-section", "Ranking", ranking_section(input, spec)},
+                                          {"time-section", rank.name() + " against time", accuracy_blocks(input)},
                                           {"figures-section", "Figures", figure_section(input, spec)},
+                                          {"worst-section", "Where each does worst", worst_blocks(input)},
                                           {"run-section", "What was run", run_section(input, spec)},
                                           {"columns-section",
                                            "How the columns are defined",
                                            {Paragraph{spec.subject().method}, column_definitions(spec),
                                             BlockGroup{"prose plain", {modules_table(input, spec)}}}},
-                                          {"limits-section", "What it does not show", {limits}}},
+                                          {"limits-section", "What it does not show", {limits}},
+                                          {"files", "Files", file_blocks(input.run, input.cells)}},
                                          input.facts));
   return page;
 }

@@ -18,6 +18,7 @@
 #include "harness/io/files/base64.hpp"
 #include "harness/results/analysis/gates.hpp"
 #include "harness/results/document/table.hpp"
+#include "harness/results/pages/run_links.hpp"
 
 namespace scanbench::results {
 namespace {
@@ -36,6 +37,7 @@ std::string outcome_text(const std::vector<CellLine>& cells) {
   const auto all = std::ssize(cells);
   if (selected < all)
     return fmt::format("{} of {} cells selected, {} ok", selected, all, ok == selected ? "all" : std::to_string(ok));
+  if (ok == all && all == 1) return "the only cell is ok";
   return ok == all ? fmt::format("all {} cells ok", all) : fmt::format("{} of {} cells ok", ok, all);
 }
 
@@ -120,8 +122,8 @@ std::optional<Table> remarks(const std::vector<CellLine>& cells) {
   Table table{
       "remarks",
       "Remarks on cells that are ok",
-      "Numbers of scans (of recordings, for an aligner) whose status is not converged. max_iterations: the pose "
-      "is the last estimate. degenerate: the scans leave a motion open, and the pose along it is that of the "
+      "Numbers of scans (of recordings, for an aligner) whose status is not converged. max_iterations: not converged, "
+      "the pose is the last estimate. degenerate: the scans leave a motion open, and the pose along it is that of the "
       "guess. no_match: the pose is the guess. Where the remarks of a row differ in their details, the first is shown.",
       {"scenario", "pipeline", "remark"},
       {{"", "cells", false}},
@@ -146,19 +148,19 @@ std::optional<Table> remarks(const std::vector<CellLine>& cells) {
 
 Blocks status_blocks(const std::vector<CellLine>& cells) {
   Blocks blocks{Paragraph{outcome_text(cells), "status"}};
-  if (auto table = failures(cells)) blocks.push_back(std::move(*table));
+  if (auto table = failures(cells)) blocks.push_back(BlockGroup{"prose plain", {std::move(*table)}});
   return blocks;
 }
 
 Blocks remark_blocks(const std::vector<CellLine>& cells) {
   Blocks blocks;
-  if (auto table = remarks(cells)) blocks.push_back(std::move(*table));
+  if (auto table = remarks(cells)) blocks.push_back(BlockGroup{"prose plain", {std::move(*table)}});
   return blocks;
 }
 
 Picture run_picture(const std::filesystem::path& run, const FigureFile& figure, const std::string& number) {
-  Picture picture{.alt = figure.caption, .caption = figure.caption};
-  if (!number.empty()) picture.caption = {bold(number + "."), " " + figure.caption};
+  Picture picture{.alt = figure.caption, .caption = figure_caption(run, figure)};
+  if (!number.empty()) picture.caption.spans.insert(picture.caption.spans.begin(), {bold(number + "."), " "});
   if (figure.name.empty()) return picture;
   const fs::path svg = run / "figures" / (figure.name + ".svg");
   const bool is_svg = !fs::exists(svg) || fs::file_size(svg) <= kLargestSvg;
@@ -175,7 +177,8 @@ Definitions definitions_of(const std::set<std::string>& metrics) {
     const auto found = descriptions.find(metric);
     if (found == descriptions.end()) continue;
     const std::string unit = found->second.unit.empty() ? "" : " [" + found->second.unit + "]";
-    definitions.items.emplace_back(metric + unit, found->second.doc);
+    const std::string& label = found->second.label;
+    definitions.items.emplace_back((label == metric ? metric : label + ", " + metric) + unit, found->second.doc);
   }
   return definitions;
 }

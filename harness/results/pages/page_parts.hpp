@@ -22,7 +22,7 @@ Blocks remark_blocks(const std::vector<CellLine>& cells);
 /// "Figure 1", is before the caption; may be empty.
 Picture run_picture(const std::filesystem::path& run, const FigureFile& figure, const std::string& number = "");
 
-/// What these metrics mean, with their units; unknown names are left out.
+/// What these metrics mean, with their labels, names and units; unknown names are left out.
 Definitions definitions_of(const std::set<std::string>& metrics);
 
 }  // namespace scanbench::results

@@ -5,22 +5,28 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/registry.hpp"
+#include "harness/results/document/plain_text.hpp"
 #include "harness/results/figures/recording_note.hpp"
 #include "harness/results/pages/page_parts.hpp"
+#include "harness/results/pages/run_links.hpp"
 #include "harness/results/tables/ranking_parts.hpp"
+#include "harness/results/tables/results_table.hpp"
 #include "harness/results/tables/scenario_tables.hpp"
+#include "harness/results/tables/table_marks.hpp"
 #include "metrics/metric.hpp"
 
 namespace scanbench::results {
 namespace {
 
-constexpr std::size_t kPageWidth = 136;  // characters of a table that fit the page
+namespace fs = std::filesystem;
 
 /// "segments, efficiency have no values": the metric families of a scenario without any row; empty if all have, or
 /// none.
@@ -71,18 +77,53 @@ std::string input_text(const ReportInput& input, const study::Scenario& scenario
                      no_truth_text(input, scenario));
 }
 
-/// The most important values, with a link to each scenario.
+/// "In 12 scenarios sef has or shares the best result 7 times, iepf 5 times."
+std::string counted_answer(const ReportInput& input) {
+  constexpr std::size_t kMostNamed = 3;
+  std::vector<std::pair<std::string, std::size_t>> wins;  // in the order of the first win
+  for (const auto& scenario : input.scenarios) {
+    const auto& overview = input.results.at(scenario.name).overview;
+    if (!overview) continue;
+    for (const std::string& name : best_pipelines(*overview)) {
+      auto win = std::ranges::find(wins, name, &std::pair<std::string, std::size_t>::first);
+      if (win == wins.end()) win = wins.insert(win, {name, 0});
+      ++win->second;
+    }
+  }
+  if (wins.empty()) return fmt::format("In none of {} scenarios is a pipeline called best.", input.scenarios.size());
+  std::ranges::stable_sort(wins, std::ranges::greater(), &std::pair<std::string, std::size_t>::second);
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < std::min(wins.size(), kMostNamed); ++k)
+    parts.push_back(
+        fmt::format("{} {}", wins[k].first, wins[k].second == 1 ? "once" : fmt::format("{} times", wins[k].second)));
+  return fmt::format("In {} scenarios the best result is of, or shared by: {}{}.", input.scenarios.size(),
+                     fmt::join(parts, ", "),
+                     wins.size() > kMostNamed ? fmt::format(", and {} more pipelines", wins.size() - kMostNamed) : "");
+}
+
+/// What was found, in a sentence.
+std::string answer_of(const ReportInput& input) {
+  if (input.scenarios.size() != 1) return counted_answer(input);
+  const std::string& answer = input.results.at(input.scenarios.front().name).answer;
+  return answer.empty() ? "There are no values to compare." : answer;
+}
+
+/// The most important values, with a link to each scenario. The answer of an only scenario is the page's first
+/// sentence.
 Blocks overview_blocks(const ReportInput& input) {
   Blocks blocks;
   bool has_chart = false;
+  const bool only = input.scenarios.size() == 1;
   for (const auto& scenario : input.scenarios) {
     const ScenarioResults& results = input.results.at(scenario.name);
     if (!results.overview) continue;
-    blocks.push_back(
-        Paragraph{{link(scenario.name, "#" + scenario.name), results.answer.empty() ? "" : ": " + results.answer}});
+    if (!only)
+      blocks.push_back(
+          Paragraph{{link(scenario.name, "#" + scenario.name), results.answer.empty() ? "" : ": " + results.answer}});
     Table table = *results.overview;
     table.id = scenario.name + "-overview";
-    table.page_width = kPageWidth;
+    if (only) table.title = "At a glance";
+    link_pipelines(table, scenario.name, input.cells);
     BlockGroup glance{"glance", {std::move(table)}};
     if (const auto ranking = input.rankings.find(scenario.name); ranking != input.rankings.end()) {
       const std::string chart = accuracy_chart(ranking->second);
@@ -91,6 +132,7 @@ Blocks overview_blocks(const ReportInput& input) {
     }
     blocks.push_back(std::move(glance));
   }
+  if (!blocks.empty()) blocks.push_back(Markup{fmt::format("<p class=\"caption\">{}</p>\n", kArrowKey)});
   if (has_chart)  // only HTML has charts
     blocks.push_back(
         Markup{"<p class=\"caption\">In the charts, ● on the dashed line: no other pipeline is both as good "
@@ -113,13 +155,18 @@ Blocks chapter_of(const ReportInput& input, const study::Scenario& scenario) {
   std::vector<Table> tables = input.results.at(scenario.name).tables;
   for (auto& table : tables) {
     table.id = scenario.name + "-" + table.id;  // other scenarios have the same tables
-    table.page_width = kPageWidth;
+    link_pipelines(table, scenario.name, input.cells);
   }
   BlockGroup figures{.style = "figures", .blocks = {}, .id = scenario.name + "-figures"};
   for (const auto& figure : input.figures)
     if (figure.scenario == scenario.name) figures.blocks.push_back(run_picture(input.run, figure));
-  Blocks blocks{Heading{2, scenario.name, scenario.name}, Paragraph{scenario.about},
-                Paragraph{input_text(input, scenario), "faint"}, links_to(tables, scenario, !figures.blocks.empty())};
+  Blocks blocks{Heading{2, scenario.name, scenario.name}};
+  if (!scenario.about.empty()) blocks.push_back(Paragraph{scenario.about});
+  blocks.push_back(Paragraph{input_text(input, scenario), "faint"});
+  if (fs::exists(input.run / kScansPage))
+    blocks.push_back(Paragraph{{link("Play its scans", fmt::format("{}#{}", kScansPage, scenario.name)),
+                                " with the lines that each pipeline found."}});
+  blocks.push_back(links_to(tables, scenario, !figures.blocks.empty()));
   if (!figures.blocks.empty()) blocks.push_back(std::move(figures));
   for (auto& table : tables) blocks.push_back(std::move(table));
   return blocks;
@@ -138,12 +185,32 @@ Blocks meaning_of_metrics(const std::vector<runs::SummaryRow>& rows) {
 
 }  // namespace
 
+std::string report_title(const std::vector<study::Scenario>& scenarios) {
+  constexpr std::size_t kMostNamed = 2;
+  if (scenarios.empty()) return "A run without scenarios";
+  if (scenarios.size() == 1) {
+    const std::string title = words_of_name(scenarios.front().name);
+    const auto* recorded = std::get_if<study::RecordedInput>(&scenarios.front().input);
+    return recorded == nullptr ? title : fmt::format("{}: log {}", title, recorded->log.filename().string());
+  }
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min(scenarios.size(), kMostNamed); ++k)
+    names.push_back(words_of_name(scenarios[k].name));
+  if (scenarios.size() > kMostNamed) names.push_back(fmt::format("{} more", scenarios.size() - kMostNamed));
+  return fmt::format("{} scenarios: {}", scenarios.size(), fmt::join(names, ", "));
+}
+
 Document report_document(const ReportInput& input) {
   Blocks chapters;
   for (const auto& scenario : input.scenarios) add_blocks(chapters, chapter_of(input, scenario));
   add_blocks(chapters, meaning_of_metrics(input.rows));
   add_blocks(chapters, fact_blocks(input.facts));
-  Document page{input.title, status_blocks(input.cells)};
+  chapters.push_back(Heading{2, "Files", "files"});
+  add_blocks(chapters, file_blocks(input.run, input.cells));
+  Document page{.title = report_title(input.scenarios),
+                .blocks = status_blocks(input.cells),
+                .lead = answer_of(input),
+                .stamp = stamp_of(input.facts, seeds_of(input.rows))};
   page.blocks.push_back(contents_of(chapters));
   add_blocks(page.blocks, overview_blocks(input));
   add_blocks(page.blocks, remark_blocks(input.cells));

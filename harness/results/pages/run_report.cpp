@@ -18,6 +18,7 @@
 #include "harness/results/document/html_page.hpp"
 #include "harness/results/document/plain_text.hpp"
 #include "harness/results/figures/benchmark_figures.hpp"
+#include "harness/results/pages/benchmark_extremes.hpp"
 #include "harness/results/pages/benchmark_report.hpp"
 #include "harness/results/pages/report.hpp"
 #include "harness/results/tables/ranking_table.hpp"
@@ -105,7 +106,6 @@ std::map<std::string, MethodRanking> rankings_by_scenario(const runs::RunStore& 
 ReportInput load_report_input(const fs::path& run, const std::vector<study::Scenario>& scenarios) {
   ReportInput input;
   input.run = run;
-  input.title = "scanbench: " + fs::absolute(run).lexically_normal().filename().string();
   input.facts = runs::manifest_facts(run);
   input.scenarios = scenarios;
   if (fs::exists(run / runs::kSummaryFile)) input.rows = runs::load_summary(run / runs::kSummaryFile);
@@ -119,20 +119,24 @@ ReportInput load_report_input(const fs::path& run, const std::vector<study::Scen
       line.message = plain_line(record->outcome.message);
       line.wall_seconds = record->outcome.wall_seconds;
       line.peak_memory_bytes = record->outcome.peak_memory_bytes;
+      const std::string folder = "cells/" + runs::to_string(key) + "/";
+      if (fs::is_directory(run / folder)) line.folder = folder;  // a merged run may keep its cells in archives
     }
     input.cells.push_back(std::move(line));
   }
   input.figures = load_figure_index(run / "figures");
-  input.rankings = rankings_by_scenario(store, input);
   for (const auto& scenario : scenarios)
     if (const auto* recorded = std::get_if<study::RecordedInput>(&scenario.input))
       input.sources[scenario.name] = source_of(store, scenario, *recorded);
   input.benchmark = runs::load_benchmark(run, scenarios);
-  if (input.benchmark)
+  if (input.benchmark) {
     input.ranking = rank_pipelines(scenarios, input.rows, *input.benchmark);
-  else
+    input.worst = benchmark_worst_scans(input);
+  } else {
+    input.rankings = rankings_by_scenario(store, input);
     for (const auto& scenario : scenarios)
       input.results[scenario.name] = scenario_results(scenario, input.rows, input.cells);
+  }
   return input;
 }
 
@@ -164,10 +168,10 @@ Document closing_document(const ReportInput& input) {
 }
 
 void write_reports(const fs::path& run, const ReportInput& input) {
+  write_agreement(run, input);  // before the page, which links to it
   const Document page = input.benchmark ? benchmark_document(input) : report_document(input);
   io::write_file_atomically(run / kReportPage, to_html(page));
   io::write_file_atomically(run / kReportMarkdown, to_markdown(page));
-  write_agreement(run, input);
   runs::refresh_manifest(run);
 }
 

@@ -12,6 +12,8 @@
 #include "harness/io/files/json.hpp"
 #include "harness/results/document/document.hpp"
 #include "harness/results/document/html_page.hpp"
+#include "harness/results/document/plain_text.hpp"
+#include "harness/runs/store/manifest.hpp"
 
 namespace scanbench::results {
 namespace {
@@ -229,16 +231,19 @@ std::string player_page(const std::filesystem::path& run, const std::vector<stud
     throw ConfigError(run.string() +
                       ": there are no scans with lines to play: no recording with scans has a pipeline "
                       "that ended well");
-  return to_html(Document{
-      "scanbench: scans of " + std::filesystem::absolute(run).lexically_normal().filename().string(),
-      {Markup{std::string(kPlayerStyle)},
-       Paragraph{
-           fmt::format("The scans of the first seed and the lines of each pipeline. A page holds at most {} scans "
-                       "of a recording and about {} MiB in all.",
-                       limits.scans, limits.bytes >> 20),
-           "faint"},
-       Markup{std::string(kPlayerBody) + "\n<script type=\"application/json\" id=\"data\">" + script_data(recordings) +
-              "</script>\n" + std::string(kPlayerScript)}}});
+  const std::string what =
+      scenarios.size() == 1 ? words_of_name(scenarios.front().name) : fmt::format("{} scenarios", scenarios.size());
+  Document page{
+      .title = "Scans of " + what,
+      .blocks = {Markup{std::string(kPlayerStyle)},
+                 Paragraph{fmt::format("A page holds at most {} scans of a recording and about {} MiB in all.",
+                                       limits.scans, limits.bytes >> 20),
+                           "faint"},
+                 Markup{std::string(kPlayerBody) + "\n<script type=\"application/json\" id=\"data\">" +
+                        script_data(recordings) + "</script>\n" + std::string(kPlayerScript)}},
+      .lead = "The scans of the first seed, with the lines that each pipeline found in them.",
+      .stamp = stamp_of(runs::manifest_facts(run), {})};
+  return to_html(page);
 }
 
 }  // namespace scanbench::results

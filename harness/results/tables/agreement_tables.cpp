@@ -81,7 +81,7 @@ Table orderings_table(const std::string& scenario, const std::vector<const Compa
   if (seeds) table.rows.push_back({{"all, per seed: min / median / max"}, {}, false});
   for (const auto* column : columns) {
     if (sums[column].stated == 0) continue;
-    table.columns.push_back({"", column->metric.metric, false});
+    table.columns.push_back({"", column->metric.metric, false, column->metric.metric, words_of(column->metric)});
     for (std::size_t r = 0; r < rows.size(); ++r) table.rows[r].cells.push_back(counts[rows[r]][column].cell());
     table.rows[rows.size()].cells.push_back(sums[column].cell());
     if (seeds) table.rows[rows.size() + 1].cells.push_back({spread(orderings_per_seed(*column), 0), false, false});
@@ -107,7 +107,7 @@ Table best_table(const std::string& scenario, const std::vector<const ComparedCo
     const auto shared = best_counts(*column, Ties::shared);
     const auto alone = best_counts(*column, Ties::nobodys);
     for (std::size_t i = 0; i < shared.size(); ++i)
-      table.rows.push_back({{column->metric.metric, column->methods[shared[i].method].published},
+      table.rows.push_back({{words_of(column->metric), column->methods[shared[i].method].published},
                             {{std::to_string(shared[i].paper), false, true},
                              {std::to_string(shared[i].median), false, false},
                              {spread(shared[i].per_seed, 0), false, false},
@@ -128,7 +128,7 @@ Table correlation_table(const std::string& scenario, const std::vector<const Com
   for (const auto* column : columns) {
     const Correlation r = correlation(*column);
     if (r.cells < 3 || std::isnan(r.of_medians)) continue;
-    table.rows.push_back({{column->metric.metric},
+    table.rows.push_back({{words_of(column->metric)},
                           {{std::to_string(r.cells), false, false},
                            {fmt::format("{:.3f}", r.of_medians), false, false},
                            {spread(r.per_seed, 3), false, false}},
@@ -173,17 +173,22 @@ std::vector<Table> departure_tables(const std::string& scenario, const std::vect
     for (const auto& cell : column->cells)
       if (!std::isnan(cell.our_median())) largest = std::max(largest, std::abs(cell.our_median()));
     const Display display = display_for(column->metric.unit, largest);
-    const auto shown = [&](double value) { return value_text(value, display); };
+    // Where our values need another unit than the printed ones, each value has its own and the metric none.
+    const bool own_units = !column->printed_unit.empty() && column->printed_unit != display.unit;
+    const auto with_unit = [&](const std::string& text, const std::string& unit) {
+      return own_units && !text.empty() && text != "–" ? text + " " + unit : text;
+    };
+    const auto shown = [&](double value) { return with_unit(value_text(value, display), display.unit); };
     for (const auto& ordering : orderings(*column)) {
       ++stated;
       if (ordering.holds) continue;
       const ComparedCell& lower = column->at(ordering.subject, ordering.lower);
       const ComparedCell& upper = column->at(ordering.subject, ordering.upper);
       table.rows.push_back(
-          {{heading(column->metric.metric, display), column->subjects[ordering.subject],
+          {{heading(words_of(column->metric), own_units ? Display{} : display), column->subjects[ordering.subject],
             column->methods[ordering.lower].published + " < " + column->methods[ordering.upper].published},
-           {{lower.printed, false, true},
-            {upper.printed, false, true},
+           {{with_unit(lower.printed, column->printed_unit), false, true},
+            {with_unit(upper.printed, column->printed_unit), false, true},
             {shown(lower.our_median()), false, false},
             {shown(upper.our_median()), false, false},
             {fmt::format("{} of {}", ordering.seeds_holding, column->seeds), false, false}},

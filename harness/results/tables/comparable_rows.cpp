@@ -13,6 +13,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/results/analysis/gates.hpp"
+
 namespace scanbench::results {
 namespace {
 
@@ -120,10 +122,18 @@ void average_over_common_lines(ComparableRows& results) {
   }
   std::map<std::set<std::string>, std::vector<std::string>> metrics_of;
   for (const auto& [metric, missing] : left_out) metrics_of[missing].push_back(metric);
-  for (const auto& [missing, metrics] : metrics_of)
+  if (metrics_of.empty()) return;
+  const auto descriptions = metric_descriptions();
+  for (const auto& [missing, metrics] : metrics_of) {
+    std::vector<std::string> labels;
+    for (const std::string& metric : metrics) {
+      const auto known = descriptions.find(metric);
+      labels.push_back(known == descriptions.end() ? metric : known->second.label);
+    }
     results.line_notes.push_back(
         {metrics, fmt::format("mean of {}: over the lines on which every pipeline has a value, without {}",
-                              fmt::join(metrics, ", "), fmt::join(missing, ", "))});
+                              fmt::join(labels, ", "), fmt::join(missing, ", "))});
+  }
 }
 
 }  // namespace
@@ -142,9 +152,9 @@ std::string Coverage::text() const {
   }
   if (unconverged > 0)
     parts.push_back(all == 1 ? std::string("not converged")
-                             : fmt::format("not converged in {} of {}", unconverged, all));
+                             : fmt::format("not converged in {} of {} cells", unconverged, all));
   if (no_match_scans > 0) parts.push_back("no match on " + scans_text(no_match_scans));
-  if (unsettled_scans > 0) parts.push_back("not settled on " + scans_text(unsettled_scans));
+  if (unconverged_scans > 0) parts.push_back("not converged on " + scans_text(unconverged_scans));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
@@ -164,7 +174,7 @@ ComparableRows comparable_rows(const study::Scenario& scenario, const std::vecto
       ++coverage.ok;
       coverage.unconverged += unconverged(cell) ? 1 : 0;
       coverage.no_match_scans += scans_with("no_match", cell);
-      coverage.unsettled_scans += scans_with("max_iterations", cell);
+      coverage.unconverged_scans += scans_with("max_iterations", cell);
     }
     if (seen.insert(cell.seed).second) seeds.push_back(cell.seed);
   }

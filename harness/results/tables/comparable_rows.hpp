@@ -22,6 +22,7 @@ struct CellLine {
   double wall_seconds = 0.0;
   double peak_memory_bytes = 0.0;
   bool selected = true;  ///< false: the run was restricted to other cells, and this one does not exist
+  std::string folder{};  ///< of its files, relative to the run: "cells/room/iepf/1/"; empty: it has none of its own
 };
 
 /// Numbers of cells of one pipeline by status.
@@ -31,13 +32,13 @@ struct Coverage {
   std::map<std::string, std::size_t> others;  ///< cells by their status, without those that are ok
   std::size_t unconverged = 0;                ///< ok, but an aligner has not converged
   std::size_t no_match_scans = 0;             ///< of cells that are ok: a matcher or mapper has no match for them
-  std::size_t unsettled_scans = 0;            ///< the same, where its pose still moved
+  std::size_t unconverged_scans = 0;          ///< the same, where its pose still moved
 
   bool complete() const { return ok == all; }
   /// The status of most of the cells that are not ok; empty if all are.
   std::string status() const;
-  /// "2 of 6 ok, 4 crashed; not converged in 1 of 6; no match on 3 scans, not settled on 12"; empty if all cells are ok
-  /// and nothing of this happened. An open motion is an answer, and is not named.
+  /// "2 of 6 ok, 4 crashed; not converged in 1 of 6 cells; no match on 3 scans; not converged on 12 scans"; empty if
+  /// all cells are ok and nothing of this happened. An open motion is an answer, and is not named.
   std::string text() const;
 };
 

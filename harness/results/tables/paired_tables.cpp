@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/special_values.hpp"
+#include "harness/results/analysis/gates.hpp"
 #include "harness/results/analysis/statistics.hpp"
 #include "harness/results/tables/table_marks.hpp"
 
@@ -64,7 +65,7 @@ Pair compare(const BySeed& first, const BySeed& second) {
 Table pairs_by(const std::string& metric, const study::Scenario& scenario, const ComparableRows& results) {
   Table table{
       "paired_" + metric,
-      scenario.name + ": " + metric + ", seed by seed",
+      fmt::format("{}: {}, seed by seed", scenario.name, metric_descriptions().at(metric).label),
       fmt::format("Means over {} seeds with {}, paired: both pipelines on the same recordings. The ratio is a "
                   "geometric mean.",
                   results.seeds.size(),

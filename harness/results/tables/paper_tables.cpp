@@ -95,10 +95,10 @@ Table lines_table(const std::string& scenario, const Columns& columns, const Fin
   for (const auto& subject : subjects) table.rows.push_back({{subject}, {}, false});
   for (const ComparedColumn* column : columns) {
     const Display display = display_of(*column);
-    const std::string group = heading(column->metric.metric, display);
     for (const auto& [pipeline, published] : column->methods) {
-      if (!pipeline.empty()) table.columns.push_back({group, pipeline, false});
-      if (!published.empty()) table.columns.push_back({group, pipeline.empty() ? published : "paper", true});
+      if (!pipeline.empty()) table.columns.push_back(column_below(column->metric, display, pipeline));
+      if (!published.empty())
+        table.columns.push_back(column_below(column->metric, display, pipeline.empty() ? published : "paper", true));
     }
     for (std::size_t r = 0; r < subjects.size(); ++r) {
       auto& cells = table.rows[r].cells;
@@ -144,17 +144,24 @@ Table methods_table(const std::string& scenario, const Columns& columns) {
   for (const auto& method : first.methods) table.rows.push_back({{row_head(method)}, {}, false});
   for (const ComparedColumn* column : columns) {
     const Display display = display_of(*column);
-    const std::string group = heading(column->metric.metric, display);
+    // Where today's times need another unit than the printed ones, each value has its own and the head none.
+    const bool own_units =
+        column->metric.timing && !column->printed_unit.empty() && column->printed_unit != display.unit;
+    const Display shown = own_units ? Display{} : display;
+    const auto with_unit = [&](std::string text, const std::string& unit) {
+      return own_units && !text.empty() && text != "–" ? text + " " + unit : text;
+    };
     const bool computed = !column->metric.doc.empty();
-    if (computed) table.columns.push_back({group, "ours", false});
-    table.columns.push_back({group, "paper", true});
+    if (computed) table.columns.push_back(column_below(column->metric, shown, "ours"));
+    table.columns.push_back(column_below(column->metric, shown, "paper", true));
     for (std::size_t m = 0; m < column->methods.size(); ++m) {
       const ComparedCell& cell = column->at(0, m);
-      if (computed) table.rows[m].cells.push_back(our_cell(cell, display));
-      std::string printed = cell.printed;
-      if (column->metric.timing && column->printed_unit != display.unit && !printed.empty())
-        printed += " " + column->printed_unit;
-      table.rows[m].cells.push_back({printed, false, true});
+      if (computed) {
+        TableCell ours = our_cell(cell, display);
+        ours.text = with_unit(std::move(ours.text), display.unit);
+        table.rows[m].cells.push_back(std::move(ours));
+      }
+      table.rows[m].cells.push_back({with_unit(cell.printed, column->printed_unit), false, true});
     }
   }
   return table;
@@ -183,7 +190,7 @@ std::optional<Table> ratio_table(const std::string& scenario, const Columns& col
         sum += value(column->at(0, m));
         ++count;
       }
-      table.columns.push_back({column->metric.metric, published ? "paper" : "ours", published});
+      table.columns.push_back(column_below(column->metric, {}, published ? "paper" : "ours", published));
       for (std::size_t m = 0; m < column->methods.size(); ++m) {
         const double ratio = value(column->at(0, m)) * count / sum;
         table.rows[m].cells.push_back({std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : "–", false, published});

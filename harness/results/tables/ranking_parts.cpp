@@ -55,9 +55,9 @@ Table method_table(const MethodRanking& ranking) {
               "",
               "",
               {"pipeline"},
-              {{"", heading(ranking.quality.metric, quality)},
+              {metric_column(ranking.quality, quality),
                {"", "beats the next"},
-               {"", heading("time a scan", kMicroseconds)},
+               {"", heading("time a scan", kMicroseconds), false, "", heading("time a scan", kMicroseconds) + " ↓"},
                {"", "front"}},
               {}};
   for (const auto& method : ranking.methods) {
@@ -107,8 +107,9 @@ std::string ranking_sentence(const MethodRanking& ranking) {
   const RankedMethod& best = methods.front();
   const Display display = quality_unit(ranking);
   const std::string unit = display.unit.empty() ? "" : " " + display.unit;
-  std::string text = fmt::format("{} has the best {} of {} pipelines in {}, {}{}", best.pipeline,
-                                 ranking.quality.metric, complete, where, value_text(best.quality.mean, display), unit);
+  std::string text =
+      fmt::format("{} has the best {} of {} pipelines in {}, {}{}", best.pipeline, words_of(ranking.quality), complete,
+                  where, value_text(best.quality.mean, display), unit);
   if (std::isfinite(best.beats_next.mean)) {
     const std::string& next = methods[1].pipeline;
     if (best.beats_next.low > 0.5)
@@ -144,7 +145,7 @@ std::string budget_sentence(const MethodRanking& ranking) {
 
 std::string accuracy_chart(const MethodRanking& ranking) {
   const Display quality = quality_unit(ranking);
-  ScatterChart chart{"CPU time of one scan [µs]", heading(ranking.quality.metric, quality), {}};
+  ScatterChart chart{"CPU time of one scan [µs]", heading(words_of(ranking.quality), quality), {}};
   for (const auto& method : ranking.methods)
     chart.points.push_back(
         {1e6 * method.seconds, quality.scale * method.quality.mean, method.pipeline, method.on_front});

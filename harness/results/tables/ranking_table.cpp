@@ -79,6 +79,14 @@ std::vector<bool> errs_little_enough(const std::vector<RankedPipeline>& ranking,
   return enough;
 }
 
+/// The head of a benchmark's column; pages show which values are better.
+TableColumn ranked_column(const study::BenchmarkColumn& column, const study::BenchmarkSpec& spec) {
+  const std::string head = column.metric == "t_ratio" ? "time / " + spec.baseline : column.head;
+  metrics::MetricDescription metric = column.description();
+  metric.label = head;
+  return {"", head, false, metric.metric, page_heading(metric, {"", column.scale})};
+}
+
 void mark_columns(Table& table, const std::vector<RankedPipeline>& ranking, const study::BenchmarkSubject& subject) {
   const std::vector<bool> enough = answers_enough(ranking, subject);
   const std::vector<bool> accurate = errs_little_enough(ranking, subject);
@@ -104,8 +112,7 @@ void mark_columns(Table& table, const std::vector<RankedPipeline>& ranking, cons
 Table ranking_table(const std::vector<RankedPipeline>& ranking, const study::BenchmarkSpec& spec) {
   const study::BenchmarkSubject& subject = spec.subject();
   Table table{"ranking", "", "", {"", subject.noun}, {}, {}};
-  for (const auto& column : subject.columns)
-    table.columns.push_back({"", column.metric == "t_ratio" ? "time / " + spec.baseline : column.head, false});
+  for (const auto& column : subject.columns) table.columns.push_back(ranked_column(column, spec));
   table.columns.push_back({"", next_head(subject.rank_column()), false});
   table.columns.push_back({"", "best in", false});
   int rank = 0;

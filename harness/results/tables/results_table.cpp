@@ -171,15 +171,19 @@ class TableBuilder {
     return !(gate_->direction == Direction::higher_is_better ? value <= 0.0 : value > kMostMissed);
   }
 
+  /// One unit for all values of a metric, which its head states: that of most of them, so that a single bad pipeline
+  /// does not turn millimetres into 0.00270 m.
   Display display_of(const MetricDescription& metric) const {
+    std::vector<double> sizes;
     double largest = 0.0;
     bool whole = true;
     for (const auto& row : results_.rows) {
       if (row.metric != metric.metric || !std::isfinite(row.value)) continue;
-      largest = std::max(largest, std::fabs(row.value));
+      sizes.push_back(std::fabs(row.value));
+      largest = std::max(largest, sizes.back());
       whole = whole && row.value == std::floor(row.value);
     }
-    Display display = display_for(metric.unit, largest);
+    Display display = display_for(metric.unit, sizes.empty() ? 0.0 : median(sizes));
     if (whole && scenario_.seeds.size() == 1 && display.scale == 1.0 && largest >= 1.0)
       display.decimals = 0;  // a count
     return display;
@@ -196,9 +200,10 @@ class TableBuilder {
     return subjects;
   }
 
+  std::string note(const std::string& pipeline) const { return results_.coverage.at(pipeline).text(); }
+
   std::string label(const std::string& pipeline) const {
-    const std::string text = results_.coverage.at(pipeline).text();
-    return text.empty() ? pipeline : pipeline + " (" + text + ")";
+    return note(pipeline).empty() ? pipeline : pipeline + " (" + note(pipeline) + ")";
   }
 
   // Rows: subjects. Columns: per metric, the pipelines.
@@ -210,7 +215,7 @@ class TableBuilder {
       const Display display = display_of(metric);
       const std::size_t first = table.columns.size();
       for (const auto& pipeline : results_.pipelines)
-        table.columns.push_back({heading(metric.metric, display), label(pipeline), false});
+        table.columns.push_back(column_below(metric, display, label(pipeline)));
       for (std::size_t r = 0; r < subjects.size(); ++r) {
         auto& cells = table.rows[r].cells;
         std::vector<Value> values;
@@ -229,11 +234,11 @@ class TableBuilder {
   // Rows: pipelines. Columns: metrics.
   Table by_pipeline(const Family& family) {
     Table table{family.name, scenario_.name + ": " + family.name, caption(family), {"pipeline"}, {}, {}};
-    for (const auto& pipeline : results_.pipelines) table.rows.push_back({{label(pipeline)}, {}, false});
+    for (const auto& pipeline : results_.pipelines) table.rows.push_back({{pipeline}, {}, false, note(pipeline)});
     for (const auto& metric : family.metrics) {
       if (!reported(metric.metric)) continue;
       const Display display = display_of(metric);
-      table.columns.push_back({"", heading(metric.metric, display), false});
+      table.columns.push_back(metric_column(metric, display));
       std::vector<Value> values;
       const std::string subject = reported(metric.metric, {"all"}) ? "all" : "mean";  // of all walls
       for (std::size_t r = 0; r < table.rows.size(); ++r) {
@@ -299,7 +304,7 @@ class TableBuilder {
     if (gate_ != nullptr) parts.back() += "; of pipelines that find what is judged";
     if (std::ranges::any_of(family.metrics, [&](const auto& m) { return gated(m) && reported(m.metric); }))
       parts.back() += fmt::format("; of errors and costs among pipelines within {} of the best {}", kCompletenessMargin,
-                                  gate_->metric);
+                                  words_of(*gate_));
     if (gate_ != nullptr) parts.back() += "; values of the others are grey";
     const bool incomplete =
         std::ranges::any_of(results_.coverage, [](const auto& of_pipeline) { return !of_pipeline.second.complete(); });
@@ -368,11 +373,29 @@ namespace {
 std::vector<const Table::Row*> best_of(const Table& table, std::size_t column,
                                        const std::vector<const Table::Row*>& rows) {
   std::vector<const Table::Row*> best;
-  const std::string& head = table.columns[column].head;
-  if (judges_nothing(std::string_view(head).substr(0, head.find(" [")))) return best;
+  if (judges_nothing(table.columns[column].metric)) return best;
   for (const Table::Row* row : rows)
     if (row->cells[column].best) best.push_back(row);
   return best;
+}
+
+std::vector<const Table::Row*> rows_of(const Table& table) {
+  std::vector<const Table::Row*> rows;
+  for (const auto& row : table.rows) rows.push_back(&row);
+  return rows;
+}
+
+/// The first column with a best value that judges; the number of columns if there is none.
+std::size_t deciding_column(const Table& table) {
+  const auto rows = rows_of(table);
+  std::size_t c = 0;
+  while (c < table.columns.size() && best_of(table, c, rows).empty()) ++c;
+  return c;
+}
+
+/// A value without its interval or range: "0.80" of "0.80 ± 0.03".
+std::string mean_of(const std::string& text) {
+  return text.substr(0, text.find(' '));
 }
 
 /// "a (0.98), b (0.98)"
@@ -380,38 +403,60 @@ std::string named(const std::vector<const Table::Row*>& rows, std::size_t column
   std::vector<std::string> names;
   names.reserve(rows.size());
   for (const Table::Row* row : rows)
-    names.push_back(fmt::format("{} ({})", row->heads.front(), row->cells[column].text));
+    names.push_back(fmt::format("{} ({})", row->heads.front(), mean_of(row->cells[column].text)));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// "; best relations_position [m]: b (1.21)" if headings, or the independent measurements of a log, prefer other
+/// The words of a metric in a sentence, without what is better: "RPE, position [cm]".
+std::string sentence_words(const TableColumn& column) {
+  for (const std::string_view better : {" ↑", " ↓", " ≈"})
+    if (const std::size_t at = column.words.find(better); at != std::string::npos) return column.words.substr(0, at);
+  return column.words;
+}
+
+/// "; best relations error, position [m]: b (1.21)" if headings, or the independent measurements of a log, prefer other
 /// pipelines than positions do.
 std::string other_best(const Table& table, std::size_t column, const std::vector<const Table::Row*>& best,
                        const std::vector<const Table::Row*>& rows) {
   std::string text;
   for (std::size_t c = column + 1; c < table.columns.size(); ++c) {
-    const std::string& head = table.columns[c].head;
-    if (!head.starts_with("rpe_heading") && !head.starts_with("relations_position")) continue;
+    const std::string& metric = table.columns[c].metric;
+    if (metric != "rpe_heading" && metric != "relations_position") continue;
     const auto others = best_of(table, c, rows);
-    if (!others.empty() && others != best) text += fmt::format("; best {}: {}", head, named(others, c));
+    if (!others.empty() && others != best)
+      text += fmt::format("; best {}: {}", sentence_words(table.columns[c]), named(others, c));
   }
   return text;
+}
+
+/// "mine found: segments per scan 12.3; total time 0.05 ms.": the values of the only pipeline.
+std::string found_by(const Table::Row& row, const Table& table) {
+  std::vector<std::string> values;
+  for (std::size_t c = 0; c < row.cells.size(); ++c) {
+    if (row.cells[c].text.empty()) continue;
+    // A unit in the head belongs to the value here.
+    std::string words = sentence_words(table.columns[c]), unit;
+    if (const std::size_t at = words.find(" ["); at != std::string::npos) {
+      unit = " " + words.substr(at + 2, words.size() - at - 3);
+      words.erase(at);
+    }
+    values.push_back(fmt::format("{} {}{}", words, row.cells[c].text, unit));
+  }
+  const std::string note = row.note.empty() ? "" : " (" + row.note + ")";
+  return values.empty() ? "" : fmt::format("{}{} found: {}.", row.heads.front(), note, fmt::join(values, "; "));
 }
 
 }  // namespace
 
 std::string overview_sentence(const Table& overview) {
-  if (overview.rows.size() < 2) return "";
-  std::vector<const Table::Row*> rows;
-  for (const auto& row : overview.rows) rows.push_back(&row);
-  std::size_t c = 0;
-  std::vector<const Table::Row*> best;
-  for (; c < overview.columns.size(); ++c)
-    if (best = best_of(overview, c, rows); !best.empty()) break;
+  if (overview.rows.empty()) return "";
+  if (overview.rows.size() == 1) return found_by(overview.rows.front(), overview);
+  const std::vector<const Table::Row*> rows = rows_of(overview);
+  const std::size_t c = deciding_column(overview);
+  const auto best = c < overview.columns.size() ? best_of(overview, c, rows) : std::vector<const Table::Row*>();
   if (best.empty()) {
-    const bool any_judges = std::ranges::any_of(overview.columns, [](const auto& column) {
-      return !judges_nothing(std::string_view(column.head).substr(0, column.head.find(" [")));
-    });
+    const bool any_judges =
+        std::ranges::any_of(overview.columns, [](const auto& column) { return !judges_nothing(column.metric); });
     return any_judges
                ? "No pipeline is called best: none of these values has a best one that every pipeline is eligible for."
                : "No pipeline is called best: neither the distances of points from their lines nor the number of lines "
@@ -419,24 +464,33 @@ std::string overview_sentence(const Table& overview) {
                  "with.";
   }
   if (best.size() <= kMostNamed)
-    return fmt::format("Best {} of {} pipelines: {}{}.", overview.columns[c].head, overview.rows.size(), named(best, c),
-                       other_best(overview, c, best, rows));
-  const auto value_shared = [](const std::vector<const Table::Row*>& rows_of, std::size_t column) {
-    const std::string& value = rows_of.front()->cells[column].text;
-    const bool one = std::ranges::all_of(rows_of, [&](const auto* row) { return row->cells[column].text == value; });
+    return fmt::format("Best {} of {} pipelines: {}{}.", sentence_words(overview.columns[c]), overview.rows.size(),
+                       named(best, c), other_best(overview, c, best, rows));
+  const auto value_shared = [](const std::vector<const Table::Row*>& of_rows, std::size_t column) {
+    const std::string value = mean_of(of_rows.front()->cells[column].text);
+    const auto reads_so = [&](const auto* row) { return mean_of(row->cells[column].text) == value; };
+    const bool one = std::ranges::all_of(of_rows, reads_so);
     return one ? ", " + value : "";
   };
   std::string text = fmt::format("{} of {} pipelines share the best {}{}", best.size(), overview.rows.size(),
-                                 overview.columns[c].head, value_shared(best, c));
+                                 sentence_words(overview.columns[c]), value_shared(best, c));
   for (std::size_t next = c + 1; next < overview.columns.size(); ++next) {
     const auto also = best_of(overview, next, best);
     if (also.empty()) continue;
-    const std::string& metric = overview.columns[next].head;
+    const std::string metric = sentence_words(overview.columns[next]);
     return text + (also.size() <= kMostNamed ? fmt::format("; of these, best {}: {}.", metric, named(also, next))
                                              : fmt::format("; {} of these share the best {}{}.", also.size(), metric,
                                                            value_shared(also, next)));
   }
   return text + ".";
+}
+
+std::vector<std::string> best_pipelines(const Table& overview) {
+  std::vector<std::string> names;
+  const std::size_t c = deciding_column(overview);
+  if (c == overview.columns.size()) return names;
+  for (const Table::Row* row : best_of(overview, c, rows_of(overview))) names.push_back(row->heads.front());
+  return names;
 }
 
 std::string odometry_sentence(const ComparableRows& results) {
@@ -458,7 +512,7 @@ std::string odometry_sentence(const ComparableRows& results) {
     if (error > of_odometry) worse.push_back(fmt::format("{} ({:.3g} cm)", pipeline, 100 * error));
   }
   if (compared == 0) return "";
-  const std::string beside = fmt::format("the odometry (rpe_position {:.3g} cm)", 100 * odometry);
+  const std::string beside = fmt::format("the odometry (RPE, position: {:.3g} cm)", 100 * odometry);
   if (worse.empty() && without > 0)
     return fmt::format("{} of {} pipelines err less between consecutive scans than {}; {} without a value.", compared,
                        compared + without, beside, without);

@@ -61,6 +61,34 @@ std::string heading(const std::string& metric, const Display& display) {
   return display.unit.empty() ? metric : metric + " [" + display.unit + "]";
 }
 
+const std::string& words_of(const metrics::MetricDescription& metric) {
+  return metric.label.empty() ? metric.metric : metric.label;
+}
+
+std::string page_heading(const metrics::MetricDescription& metric, const Display& display) {
+  const std::string text = heading(words_of(metric), display);
+  switch (metric.direction) {
+    case metrics::Direction::higher_is_better:
+      return text + " ↑";
+    case metrics::Direction::lower_is_better:
+      return text + " ↓";
+    case metrics::Direction::target:
+      return fmt::format("{} ≈ {:.4g}", text, metric.target * display.scale);
+    case metrics::Direction::neither:
+      break;
+  }
+  return text;
+}
+
+TableColumn metric_column(const metrics::MetricDescription& metric, const Display& display) {
+  return {"", heading(metric.metric, display), false, metric.metric, page_heading(metric, display)};
+}
+
+TableColumn column_below(const metrics::MetricDescription& metric, const Display& display, const std::string& head,
+                         bool published) {
+  return {heading(metric.metric, display), head, published, metric.metric, page_heading(metric, display)};
+}
+
 std::string seeds_text(const std::vector<double>& seeds, ValueRange range, const Display& display) {
   constexpr double kLopsided = 0.1;  // of the half width
   const MeanInterval interval = seed_interval(seeds, range);

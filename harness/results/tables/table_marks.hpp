@@ -28,8 +28,27 @@ std::string value_text(double value, const Display& display);
 /// "± 0.12" with two significant digits, or with the decimals of `display`; empty if the half width is undefined.
 std::string spread_text(double half_width, const Display& display);
 
+/// The label of a metric, or its id if it has none.
+const std::string& words_of(const metrics::MetricDescription& metric);
+
 /// "name [unit]".
 std::string heading(const std::string& metric, const Display& display);
+
+/// The head of a metric's column on a page: its label, the unit and which values are better: "offset error [cm] ↓",
+/// "F1 ↑", "NEES ≈ 2".
+std::string page_heading(const metrics::MetricDescription& metric, const Display& display);
+
+/// A column of a metric, with its head for a terminal and for pages.
+TableColumn metric_column(const metrics::MetricDescription& metric, const Display& display);
+
+/// A column below the head of a metric: one of several pipelines, or of ours and a paper's.
+TableColumn column_below(const metrics::MetricDescription& metric, const Display& display, const std::string& head,
+                         bool published = false);
+
+/// What the arrows in heads mean, in a sentence.
+inline constexpr const char* kArrowKey =
+    "↑ more is better, ↓ less is better, ≈ best near that value. The pointer on a head shows the name of its metric in "
+    "files.";
 
 /// A line that a pipeline misses in a larger share of the scans is not found: its other values are not compared.
 constexpr double kMostMissed = 0.5;

@@ -35,10 +35,13 @@ BenchmarkSubject extractors() {
             "mean square error of the offset at the true line's midpoint over its Cramér–Rao bound; 1 is the best that "
             "the readings allow; lines with 20 returns or more",
             1.0},
-           {"efficiency_angle", "angle / bound", 1, 2, true, target, "the same for the angle", 1.0},
+           {"efficiency_angle", "angle / bound", 1, 2, true, target,
+            "mean square error of the angle over its Cramér–Rao bound; 1 is the best that the readings allow; lines "
+            "with 20 returns or more",
+            1.0},
            {"t_scan", "time [µs]", 1, 2, true, lower_is_better, "median CPU time per scan"},
            {"t_ratio", "time ratio", 1, 2, true, lower_is_better,
-            "that time over the baseline's in the same condition and seed"}},
+            "CPU time over that of the baseline in the same condition and seed"}},
       .required = {{"segments", ""}, {"efficiency", "matches"}, {"timing", ""}},
       .fair = {"f1", 0.05,
                "* marks the best value; of errors, times and other costs among extractors within 5 points of the best "
@@ -83,7 +86,9 @@ BenchmarkSubject matchers() {
            {"pose_efficiency_position", "position / bound", 1, 2, true, lower_is_better,
             "mean square error of the position over its Cramér–Rao bound, walls unknown; 1 is the best that the "
             "readings of both scans allow"},
-           {"pose_efficiency_heading", "heading / bound", 1, 2, true, lower_is_better, "the same for the heading"},
+           {"pose_efficiency_heading", "heading / bound", 1, 2, true, lower_is_better,
+            "mean square error of the heading over its Cramér–Rao bound, walls unknown; 1 is the best that the "
+            "readings of both scans allow"},
            {"pose_error_position", "position [mm]", 1000, 2, true, lower_is_better,
             "root mean square error of the matched position"},
            {"pose_error_position_max", "largest [mm]", 1000, 1, false, lower_is_better,
@@ -97,10 +102,11 @@ BenchmarkSubject matchers() {
             "is open"},
            {"ate_position", "ATE [cm]", 100, 2, true, lower_is_better,
             "root mean square distance of the chained positions from the true ones, after planar alignment"},
-           {"ate_heading", "ATE [°]", 1, 2, true, lower_is_better, "the same for the headings"},
+           {"ate_heading", "ATE [°]", 1, 2, true, lower_is_better,
+            "root mean square difference of the chained headings from the true ones, after planar alignment"},
            {"t_match", "time [µs]", 1, 1, true, lower_is_better, "median CPU time of a match, lines not included"},
            {"t_ratio", "time ratio", 1, 2, true, lower_is_better,
-            "that time over the baseline's in the same condition and seed"}},
+            "CPU time over that of the baseline in the same condition and seed"}},
       .required = {{"pose_efficiency", "errors"}, {"trajectory", ""}, {"timing", ""}},
       .fair = {"pose_unmatched", 0.05,
                "* marks the best value, among matchers whose share of unmatched pairs is within 5 points of the "
@@ -155,7 +161,7 @@ BenchmarkSubject aligners() {
                   {"t_align", "time [ms]", 1e-3, 1, true, lower_is_better,
                    "CPU time of an alignment, lines not included"},
                   {"t_ratio", "time ratio", 1, 2, true, lower_is_better,
-                   "that time over the baseline's in the same condition and seed"}},
+                   "CPU time over that of the baseline in the same condition and seed"}},
       .required = {{"alignment", ""}, {"timing", ""}},
       .fair = {"placed", 0.05,
                "* marks the best value; of errors and times among aligners within 5 points of the largest share of "

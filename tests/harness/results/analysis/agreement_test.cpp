@@ -230,6 +230,11 @@ TEST(PaperTables, ShowTimesAsRatiosToTheFirstFamily) {
   ASSERT_EQ(tables.size(), 2U);
   EXPECT_EQ(tables[1].rows[2].cells[0].text, "2.50");  // 0.005 over the mean of 0.001 and 0.003
   EXPECT_EQ(tables[1].rows[2].cells[1].text, "2.00");  // 100 over the mean of 60 and 40
+  // Ours need another unit than the paper's: every value has its own, and the head has none.
+  EXPECT_EQ(tables[0].columns[0].group, "t");
+  EXPECT_EQ(tables[0].columns[1].group, "t");
+  EXPECT_EQ(tables[0].rows[0].cells[0].text, "1.00 µs");
+  EXPECT_EQ(tables[0].rows[0].cells[1].text, "60 ms");
 }
 
 TEST(DepartureTables, ListWhatDoesNotHoldAndNothingElse) {

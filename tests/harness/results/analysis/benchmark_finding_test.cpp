@@ -76,7 +76,7 @@ TEST(BenchmarkFinding, AFactorThatOnlyWidensALeadChangesNothing) {
 }
 
 TEST(SharedBest, FromSixSeedsOnTheIntervalDecides) {
-  const metrics::MetricDescription f1{"f1", "", metrics::Direction::higher_is_better, 0.0, ""};
+  const metrics::MetricDescription f1{"f1", "F1", "", metrics::Direction::higher_is_better, 0.0, ""};
   // Behind by 0.1 but for one seed, ahead by 0.01 there. Of six, Student's interval ends at 0.082 - 2.571 * 0.018 > 0.
   EXPECT_THAT(shared_best({std::vector(6, 0.9), {0.8, 0.8, 0.8, 0.8, 0.8, 0.91}}, f1), ::testing::ElementsAre(0));
   EXPECT_THAT(shared_best({std::vector(5, 0.9), {0.8, 0.8, 0.8, 0.8, 0.91}}, f1), ::testing::ElementsAre(0, 1));

@@ -259,7 +259,6 @@ TEST(Benchmark, LevelsOfTheRunReadBack) {
 
 TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
   ReportInput input;
-  input.title = "scanbench: small";
   input.scenarios = two_scenarios();
   input.rows = made_up_rows();
   input.cells = {{"x", "a", 1, "ok", "", 0, 0}, {"x", "b", 1, "timeout", "after 3 s", 0, 0}};
@@ -278,6 +277,15 @@ TEST(Benchmark, PageSaysWhatWasRunAndWhatItDoesNotShow) {
   }
 }
 
+TEST(Benchmark, EveryColumnHasADefinitionThatStandsAlone) {
+  for (const char* slot : {"extract", "match", "align"})
+    for (const auto& column : study::benchmark_subject(slot).columns) {
+      EXPECT_FALSE(column.definition.empty()) << column.head;
+      EXPECT_FALSE(column.definition.starts_with("the same") || column.definition.starts_with("that "))
+          << column.head << ": " << column.definition;
+    }
+}
+
 TEST(Benchmark, PageShowsAllNumbersOfScansOfAWorld) {
   std::string longer = kScene;
   longer.replace(longer.find("scans: 4"), 8, "scans: 6");
@@ -290,14 +298,13 @@ TEST(Benchmark, PageShowsAllNumbersOfScansOfAWorld) {
 
 TEST(Benchmark, PageBeginsWithTheFirstInRankAndNamesMissingCells) {
   ReportInput input;
-  input.title = "small";
   input.scenarios = two_scenarios();
   input.rows = made_up_rows();
   std::erase_if(input.rows,
                 [](const runs::SummaryRow& r) { return r.pipeline == "b" && r.scenario == "y" && r.seed == 2; });
   EXPECT_THAT(to_html(page_of(input, kSpec)), HasSubstr("a has the best F1 on them, 80.00 %"));
   std::erase_if(input.rows, [](const runs::SummaryRow& r) { return r.scenario == "y" && r.seed == 2; });
-  EXPECT_THAT(to_html(page_of(input, kSpec)), HasSubstr("<p><b>No extractor has a result in every cell"));
+  EXPECT_THAT(to_html(page_of(input, kSpec)), HasSubstr("<p class=\"lead\">No extractor has a result in every cell"));
 }
 
 std::string matching_scene(const std::string& metrics) {
@@ -333,7 +340,6 @@ TEST(Benchmark, RanksMatchersByTheLowestErrorOverBound) {
   EXPECT_TRUE(table.rows[0].cells[0].best);
   EXPECT_TRUE(table.rows[1].cells[0].best);  // 2 of both in the first seed: not separated
   ReportInput input;
-  input.title = "small";
   input.scenarios = scenarios;
   input.rows = rows;
   const std::string page = to_html(page_of(input, spec));

@@ -57,9 +57,10 @@ TEST(Document, IsWrittenForATerminalWithoutMarks) {
 
 TEST(Document, IsWrittenAsHtmlBlockByBlock) {
   const std::string page = to_html(everything());
-  EXPECT_THAT(page, AllOf(HasSubstr("<title>A &lt;title&gt;</title>"), HasSubstr("<h2 id=\"part\">Part</h2>"),
-                          HasSubstr("<p class=\"faint\"><b>Good.</b> a &amp; b, <code>x --y</code> "
-                                    "<a href=\"there.html\" title=\"a hint\">there</a></p>")));
+  EXPECT_THAT(page,
+              AllOf(HasSubstr("<title>A &lt;title&gt; – scanbench</title>"), HasSubstr("<h2 id=\"part\">Part</h2>"),
+                    HasSubstr("<p class=\"faint\"><b>Good.</b> a &amp; b, <code>x --y</code> "
+                              "<a href=\"there.html\" title=\"a hint\">there</a></p>")));
   EXPECT_THAT(page, AllOf(HasSubstr("<ul>\n<li>one</li>\n<li>two</li>\n</ul>"),
                           HasSubstr("<dt>f1</dt><dd>the &lt;mean&gt;</dd>"), HasSubstr("<table>")));
   EXPECT_THAT(page, AllOf(HasSubstr("src=\"map.png\"><figcaption>The map.</figcaption></figure>"),
@@ -75,6 +76,35 @@ TEST(Document, LetsNoTextBecomeMarkup) {
   EXPECT_THAT(to_html(blocks), AllOf(Not(HasSubstr("<script>")), Not(HasSubstr("\x1b"))));
   EXPECT_THAT(to_markdown(blocks), AllOf(Not(HasSubstr("<script>")), Not(HasSubstr("\x1b")), HasSubstr("x\\](http")));
   EXPECT_THAT(to_terminal({"", blocks}, true), Not(HasSubstr("\x1b")));
+}
+
+TEST(Document, BeginsWithItsTitleAnAnswerAndWhenItWasMade) {
+  const Document page{.title = "Room",
+                      .blocks = {Paragraph{"text"}},
+                      .lead = "a is <best>.",
+                      .lead_style = "verdict",
+                      .stamp = "2026 · seed 1"};
+  EXPECT_THAT(to_html(page),
+              HasSubstr("<header>\n<h1>Room</h1>\n<p class=\"lead verdict\">a is &lt;best&gt;.</p>\n"
+                        "<p class=\"stamp\">2026 · seed 1</p>\n</header>\n<main>\n<p>text</p>\n</main>"));
+  EXPECT_EQ(to_markdown(page), "# Room\n\na is &lt;best&gt;.\n\n2026 · seed 1\n\ntext\n");
+}
+
+TEST(Stamp, HasDateVersionAndSeeds) {
+  const std::vector<std::pair<std::string, std::string>> facts{
+      {"version", "0.1.0, commit 0123456789abcdef0123-dirty-77"}, {"started", "2026-11-24T10:12:33Z"}};
+  const std::string made = "2026-11-24 10:12 UTC · scanbench 0.1.0, commit 0123456789ab with changes";
+  EXPECT_EQ(stamp_of(facts, {}), made);
+  EXPECT_EQ(stamp_of(facts, {4}), made + " · seed 4");
+  EXPECT_EQ(stamp_of(facts, {3, 1, 2}), made + " · seeds 1 to 3");
+  EXPECT_EQ(stamp_of({}, {1, 3, 9}), "seeds 1, 3, 9");
+  EXPECT_EQ(stamp_of({}, {1, 3, 5, 7, 9, 11}), "6 seeds, 1 to 11");
+}
+
+// CommonMark: an unbalanced bracket, a blank or a parenthesis would end the text or the address of a picture.
+TEST(Markdown, EscapesTheAlternativeTextAndTheAddressOfAPicture) {
+  const Blocks blocks{Picture{.alt = "scans [1] of a | b](c", .caption = "It.", .address = "a (1).png"}};
+  EXPECT_EQ(to_markdown(blocks), "![scans \\[1\\] of a \\| b\\](c](a%20%281%29.png)\n\nIt.\n");
 }
 
 TEST(Sections, WithoutBlocksAreLeftOutAndHaveNoLink) {

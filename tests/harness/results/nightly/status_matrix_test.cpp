@@ -50,7 +50,7 @@ TEST(StatusMatrix, HasATablePerGroupOfScenariosWithTheSamePipelines) {
   EXPECT_EQ(count_of(html, "<table>"), 1U);
   EXPECT_EQ(count_of(html, "class=\"chips\""), 1U);  // maze has its own pipelines
   EXPECT_EQ(count_of(html, "▼ 1 worse"), 2U);        // b in room and hall
-  EXPECT_EQ(count_of(html, "class=\"worse "), 2U);
+  EXPECT_EQ(count_of(html, "<td class=\"worse"), 2U);
   EXPECT_EQ(count_of(html, "= same<"), 2U);
   EXPECT_EQ(count_of(html, "✗ 1 cell failed"), 1U);
   EXPECT_THAT(html, HasSubstr("f1 -0.097"));  // 0.8 -> 0.7 + the mean of 1e-3 .. 5e-3

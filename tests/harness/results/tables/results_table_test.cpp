@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "harness/results/document/html_page.hpp"
+#include "harness/results/document/html_table.hpp"
 #include "harness/results/tables/comparable_rows.hpp"
 #include "harness/results/tables/table_marks.hpp"
 #include "tests/support/runs.hpp"
@@ -72,21 +73,21 @@ std::vector<bool> marked(const std::vector<double>& values, const MetricDescript
 }
 
 TEST(MarkBest, MarksTheValuesNearestToATargetOnEitherSide) {
-  const MetricDescription nees{"nees", "", Direction::target, 0.1, "", false, 2.0};
+  const MetricDescription nees{"nees", "NEES", "", Direction::target, 0.1, "", false, 2.0};
   EXPECT_THAT(marked({0.5, 2.25, 1.75, 3.0}, nees), ElementsAre(false, true, true, false));
   EXPECT_THAT(marked({0.0, 9.0}, nees), ElementsAre(true, false));
 }
 
 TEST(MarkBest, MarksValuesThatReadTheSameAlike) {
-  const MetricDescription lower{"x", "", Direction::lower_is_better, 0, ""};
+  const MetricDescription lower{"x", "x", "", Direction::lower_is_better, 0, ""};
   EXPECT_THAT(marked({12.602, 12.601, 14}, lower), ElementsAre(true, true, false));
   EXPECT_THAT(marked({12.602, 12.601, 14}, lower, {true, false, true}), ElementsAre(true, false, false));
   EXPECT_THAT(marked({12.602, 12.601}, lower), ElementsAre(false, false));
 }
 
 TEST(MarkBest, MarksNothingWithoutADirectionACompetitorOrADifference) {
-  const MetricDescription lower{"x", "", Direction::lower_is_better, 0, ""};
-  const MetricDescription neither{"x", "", Direction::neither, 0, ""};
+  const MetricDescription lower{"x", "x", "", Direction::lower_is_better, 0, ""};
+  const MetricDescription neither{"x", "x", "", Direction::neither, 0, ""};
   const double nan = std::nan("");
   EXPECT_THAT(marked({1, 2}, neither), ElementsAre(false, false));
   EXPECT_THAT(marked({1, nan}, lower), ElementsAre(false, false));
@@ -97,7 +98,7 @@ TEST(MarkBest, MarksNothingWithoutADirectionACompetitorOrADifference) {
 }
 
 TEST(MarkBest, SharesTheMarkAmongValuesThatTheSeedsDoNotTellApart) {
-  const MetricDescription lower{"x", "", Direction::lower_is_better, 0, ""};
+  const MetricDescription lower{"x", "x", "", Direction::lower_is_better, 0, ""};
   std::vector<TableCell> cells{{"a"}, {"b"}, {"c"}, {"d"}};
   std::vector<TableCell*> pointers;
   for (auto& c : cells) pointers.push_back(&c);
@@ -115,11 +116,11 @@ TEST(MarkBest, SharesTheMarkAmongValuesThatTheSeedsDoNotTellApart) {
   EXPECT_TRUE(cells[3].not_eligible);
   EXPECT_FALSE(cells[2].not_eligible);
   Table table{"t", "", "", {"pipeline"}, {{"", "x", false}}, {{{"d"}, {cells[3]}, false}}};
-  EXPECT_THAT(to_html(table), HasSubstr("<td class=\"not-eligible "));
+  EXPECT_THAT(to_html(table), HasSubstr("<td class=\"not-eligible"));
 }
 
 TEST(MarkBest, OfFewSeedsNeedsEverySeedToAgree) {
-  const MetricDescription higher{"x", "", Direction::higher_is_better, 0, ""};
+  const MetricDescription higher{"x", "x", "", Direction::higher_is_better, 0, ""};
   std::vector<TableCell> cells{{"a"}, {"b"}, {"c"}};
   std::vector<TableCell*> pointers;
   for (auto& c : cells) pointers.push_back(&c);
@@ -187,7 +188,7 @@ TEST(ResultTables, GiveAMapThatMissesWallsNoMarkForBeingSmall) {
   }
   EXPECT_TRUE(at(tables[1], "coarse", "t_scan").best);
   EXPECT_FALSE(at(tables[1], "small", "t_scan").best);
-  EXPECT_THAT(tables[1].caption, HasSubstr("within 0.05 of the best covered_5cm"));
+  EXPECT_THAT(tables[1].caption, HasSubstr("within 0.05 of the best walls covered within 5 cm"));
 }
 
 TEST(ResultTables, SayHowManyCellsAPipelineFinishedAndMarkNoneThatDidNotFinishAll) {
@@ -202,7 +203,7 @@ TEST(ResultTables, SayHowManyCellsAPipelineFinishedAndMarkNoneThatDidNotFinishAl
   EXPECT_THAT(results.seeds, ElementsAre(1, 2));
   const auto tables = result_tables(restricted(scenario, results), results);
   ASSERT_EQ(tables.size(), 1U);
-  EXPECT_THAT(tables[0].rows[1].heads.front(), HasSubstr("2 of 3 ok, 1 crashed"));
+  EXPECT_THAT(tables[0].rows[1].note, HasSubstr("2 of 3 ok, 1 crashed"));
   EXPECT_FALSE(at(tables[0], "fragile", "f1").best);
   EXPECT_TRUE(at(tables[0], "good", "f1").best);
   EXPECT_THAT(at(tables[0], "good", "f1").text,
@@ -252,7 +253,7 @@ TEST(ComparableRows, AverageOverTheLinesOnWhichEveryPipelineHasAValue) {
     }
   }
   ASSERT_EQ(results.line_notes.size(), 1U);
-  EXPECT_THAT(results.line_notes[0].text, AllOf(HasSubstr("n_lines"), HasSubstr("without wall 3")));
+  EXPECT_THAT(results.line_notes[0].text, AllOf(HasSubstr("lines per wall"), HasSubstr("without wall 3")));
 }
 
 TEST(ComparableRows, LeaveOutPipelinesThatWereNotSelected) {
@@ -270,15 +271,15 @@ TEST(ResultTables, SayWhichAlignersHaveNotConverged) {
   const study::Scenario scenario = scenario_of({"a", "b"}, {"segments"});
   const std::vector<CellLine> cells{cell("a", 1, "ok", "align: 1 max_iterations"), cell("b", 1, "ok")};
   const ComparableRows results = comparable_rows(scenario, {row("a", "f1", 0.5), row("b", "f1", 0.4)}, cells);
-  EXPECT_EQ(result_tables(scenario, results).at(0).rows[0].heads.front(), "a (not converged)");
-  EXPECT_EQ(result_tables(scenario, results).at(0).rows[1].heads.front(), "b");
+  EXPECT_EQ(result_tables(scenario, results).at(0).rows[0].note, "not converged");
+  EXPECT_EQ(result_tables(scenario, results).at(0).rows[1].note, "");
   for (const auto& text : {to_html(status_blocks(cells)), to_markdown(status_blocks(cells))})
     EXPECT_THAT(text, HasSubstr("all 2 cells ok"));
   for (const auto& text : {to_html(remark_blocks(cells)), to_markdown(remark_blocks(cells))})
     EXPECT_THAT(text, HasSubstr("align: 1 max_iterations"));
 }
 
-TEST(ResultTables, SayOnHowManyScansAMatcherOrMapperHasNoMatchOrHasNotSettled) {
+TEST(ResultTables, SayOnHowManyScansAMatcherOrMapperHasNoMatchOrHasNotConverged) {
   const study::Scenario scenario = scenario_of({"a", "b", "c"}, {"segments"});
   const std::vector<CellLine> cells{
       cell("a", 1, "ok", "match: 24 max_iterations, 57 degenerate; map: 3 no_match (first in frame 0: no lines)"),
@@ -286,9 +287,9 @@ TEST(ResultTables, SayOnHowManyScansAMatcherOrMapperHasNoMatchOrHasNotSettled) {
   const ComparableRows results =
       comparable_rows(scenario, {row("a", "f1", 0.5), row("b", "f1", 0.4), row("c", "f1", 0.3)}, cells);
   const std::vector<Table> tables = result_tables(scenario, results);
-  EXPECT_EQ(tables.at(0).rows[0].heads.front(), "a (no match on 3 scans; not settled on 24 scans)");
-  EXPECT_EQ(tables.at(0).rows[1].heads.front(), "b (no match on 1 scan)");
-  EXPECT_EQ(tables.at(0).rows[2].heads.front(), "c") << "an open motion is an answer";
+  EXPECT_EQ(tables.at(0).rows[0].note, "no match on 3 scans; not converged on 24 scans");
+  EXPECT_EQ(tables.at(0).rows[1].note, "no match on 1 scan");
+  EXPECT_EQ(tables.at(0).rows[2].note, "") << "an open motion is an answer";
 }
 
 TEST(ResultTables, GiveRemarksThatDifferInTheirNumbersOneRow) {
@@ -369,6 +370,38 @@ TEST(Overview, MarksNoDistanceAndNoTimeUnlessAMetricShowsWhichPipelineIsRight) {
   EXPECT_TRUE(at(*with, "b", "t_total").best);
 }
 
+TEST(Overview, OfOnePipelineSaysWhatItFound) {
+  const study::Scenario scenario = scenario_of({"mine"}, {"siadat1997"});
+  const std::vector<runs::SummaryRow> rows{row("mine", "s_mean", 12.5), row("mine", "d_mean", 0.0042),
+                                           row("mine", "t_total", 3)};
+  const auto table = overview_table(scenario, comparable_rows(scenario, rows, {cell("mine", 1, "ok")}));
+  ASSERT_TRUE(table);
+  EXPECT_EQ(overview_sentence(*table),
+            "mine found: segments per scan 12.5; point distance, by segment 0.420 cm; total time 3 ms.");
+}
+
+// Placed scans are wrong by millimetres; a pipeline that places none is wrong by metres.
+TEST(ResultTables, ShowAllValuesOfAMetricInTheUnitOfMostOfThem) {
+  const study::Scenario scenario = scenario_of({"a", "b", "c"}, {"alignment"});
+  const auto tables = result_tables(
+      scenario, comparable_rows(scenario, {row("a", "position_error", 0.0027), row("b", "position_error", 0.0038),
+                                           row("c", "position_error", 2.5)}));
+  EXPECT_EQ(at(tables.at(0), "a", "position_error [cm]").text, "0.270");
+  EXPECT_EQ(at(tables.at(0), "c", "position_error [cm]").text, "250");
+}
+
+TEST(PageHeads, HaveTheLabelTheUnitAndWhichValuesAreBetter) {
+  const study::Scenario scenario = scenario_of({"a"}, {"segments", "efficiency"});
+  const auto tables =
+      result_tables(scenario, comparable_rows(scenario, {row("a", "f1", 0.9), row("a", "sigma_offset", 0.004),
+                                                         row("a", "n_true", 7), row("a", "nees", 2.5)}));
+  ASSERT_EQ(tables.size(), 2U);
+  std::vector<std::string> heads;
+  for (const auto& table : tables)
+    for (const auto& column : table.columns) heads.push_back(page_head(column));
+  EXPECT_THAT(heads, ElementsAre("F1 ↑", "offset error [cm] ↓", "true lines", "NEES ≈ 2"));
+}
+
 TEST(Overview, CountsThePipelinesThatShareTheBestValueRatherThanNameThemAll) {
   const std::vector<std::string> names{"a", "b", "c", "d", "e"};
   const study::Scenario scenario = scenario_of(names, {"map_truth"});
@@ -382,7 +415,9 @@ TEST(Overview, CountsThePipelinesThatShareTheBestValueRatherThanNameThemAll) {
   const auto table = overview_table(scenario, comparable_rows(scenario, rows, cells));
   ASSERT_TRUE(table);
   EXPECT_EQ(overview_sentence(*table),
-            "4 of 5 pipelines share the best covered_5cm, 1.00; of these, best lines_per_wall: a (1.00).");
+            "4 of 5 pipelines share the best walls covered within 5 cm, 1.00; of these, best map lines per wall: a "
+            "(1.00).");
+  EXPECT_THAT(best_pipelines(*table), ElementsAre("a", "b", "c", "d"));
 }
 
 TEST(OdometrySentence, NamesThePipelinesThatAreNoBetter) {
@@ -399,12 +434,13 @@ TEST(OdometrySentence, NamesThePipelinesThatAreNoBetter) {
     return odometry_sentence(comparable_rows(scenario, rows, cells));
   };
   EXPECT_EQ(sentence(0.06, 0.121),
-            "No better between consecutive scans than the odometry (rpe_position 7.29 cm): b (12.1 cm).");
+            "No better between consecutive scans than the odometry (RPE, position: 7.29 cm): b (12.1 cm).");
   EXPECT_EQ(sentence(0.06, 0.07),
-            "Every pipeline errs less between consecutive scans than the odometry (rpe_position 7.29 cm).");
-  EXPECT_EQ(sentence(0.06, std::nan("")),
-            "1 of 2 pipelines err less between consecutive scans than the odometry (rpe_position 7.29 cm); 1 without a "
-            "value.");
+            "Every pipeline errs less between consecutive scans than the odometry (RPE, position: 7.29 cm).");
+  EXPECT_EQ(
+      sentence(0.06, std::nan("")),
+      "1 of 2 pipelines err less between consecutive scans than the odometry (RPE, position: 7.29 cm); 1 without a "
+      "value.");
   EXPECT_EQ(odometry_sentence(comparable_rows(scenario, {}, {})), "");
 }
 
@@ -416,12 +452,13 @@ TEST(Overview, NamesWhatHeadingsAndIndependentRelationsOfALogPrefer) {
   const auto sentence = [&] {
     return overview_sentence(*overview_table(scenario, comparable_rows(scenario, rows, cells)));
   };
-  EXPECT_EQ(sentence(), "Best rpe_position [cm] of 2 pipelines: a (3.80); best relations_position [m]: b (1.21).");
+  EXPECT_EQ(sentence(),
+            "Best RPE, position [cm] of 2 pipelines: a (3.80); best relations error, position [m]: b (1.21).");
   rows.back().value = 1.5;
-  EXPECT_EQ(sentence(), "Best rpe_position [cm] of 2 pipelines: a (3.80).");
+  EXPECT_EQ(sentence(), "Best RPE, position [cm] of 2 pipelines: a (3.80).");
   rows.push_back(row("a", "rpe_heading", 0.9));
   rows.push_back(row("b", "rpe_heading", 0.7));
-  EXPECT_EQ(sentence(), "Best rpe_position [cm] of 2 pipelines: a (3.80); best rpe_heading [deg]: b (0.700).");
+  EXPECT_EQ(sentence(), "Best RPE, position [cm] of 2 pipelines: a (3.80); best RPE, heading [deg]: b (0.700).");
 }
 
 }  // namespace
