@@ -136,7 +136,7 @@ std::vector<std::string> sandbox_command(const ForeignSource& source, const Fore
                                 "--dev",
                                 "/dev"};
   const auto add = [&](std::initializer_list<std::string> more) { argv.insert(argv.end(), more); };
-  std::vector<std::string> made{"/dev"};
+  std::vector<std::string> made{"/dev", "/proc"};
   const auto hide = [&](const std::string& folder) {
     add({"--tmpfs", folder});
     made.push_back(folder);
@@ -149,7 +149,8 @@ std::vector<std::string> sandbox_command(const ForeignSource& source, const Fore
     const std::string folder = fs::absolute(setting.writable_folder).lexically_normal().string();
     add({"--bind", folder, folder, "--chdir", folder});
   }
-  // Memory that a program writes into a file system of its own would not count as its memory.
+  // Memory that a program writes into a file system of its own would not count as its memory. /proc has files that root
+  // may write without any capability, like kernel.core_pattern: bubblewrap leaves those of /proc/sys writable.
   for (const std::string& folder : made) add({"--remount-ro", folder});
   add({"--"});
   argv.insert(argv.end(), source.program.begin(), source.program.end());
