@@ -94,7 +94,6 @@ std::string fault_of(const LineFeature& line, int beams) {
     return "is not finite";
   if (line.line.rho < 0 || !(line.line.alpha > -kPi && line.line.alpha <= kPi))
     return fmt::format("has rho {} m and alpha {} rad; allowed: >= 0 and > -pi .. pi", line.line.rho, line.line.alpha);
-  if (line.segment.a == line.segment.b) return "has no length";
   for (const Vec2& end : {line.segment.a, line.segment.b})
     if (const double off = std::fabs(line.line.signed_distance(end)); off > kOffLine_m * std::max(1.0, end.norm()))
       return fmt::format("has an end point {:.4g} m off the line of its rho and alpha", off);
