@@ -63,7 +63,9 @@ class FullDisk : public testing::Test {
       const Trial tried = trial(kilobytes, prepare, command, again, result);
       codes.push_back(tried.first);
       EXPECT_THAT(tried.first, testing::AnyOf("0\n", "2\n", "3\n", "4\n")) << tried.errors;
-      if (tried.first != "0\n") EXPECT_THAT(tried.errors, HasSubstr("No space left on device"));
+      if (tried.first != "0\n") {
+        EXPECT_THAT(tried.errors, HasSubstr("No space left on device"));
+      }
       EXPECT_EQ(tried.second, "0\n") << read(folder_ / "kept.log");
       EXPECT_THAT(differences(results(folder_ / "kept/result"), expected), IsEmpty());
       if (HasFailure()) return;

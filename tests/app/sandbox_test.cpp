@@ -147,8 +147,11 @@ class SandboxEscapes : public testing::TestWithParam<std::string> {
 TEST_P(SandboxEscapes, AreRefused) {
   const auto said = tried("closed", {"--sandbox"});
   const bool limited = manifest("closed").dump().find("pids.max") != std::string::npos || getuid() != 0;
-  for (const auto& [way, message] : said)
-    if (way != "storm" || limited) EXPECT_THAT(message, HasSubstr("refused: ")) << way;
+  for (const auto& [way, message] : said) {
+    if (way != "storm" || limited) {
+      EXPECT_THAT(message, HasSubstr("refused: ")) << way;
+    }
+  }
   EXPECT_FALSE(fs::exists(folder_ / "outside"));
   const auto sandbox = manifest("closed").at("sandbox").at("programs");
   EXPECT_GE(sandbox.size(), 8u);
@@ -167,7 +170,7 @@ TEST_P(SandboxEscapes, AreOpenWithoutIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Users, SandboxEscapes, testing::Values("this_user", "nobody"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& user) { return user.param; });
 
 }  // namespace
 }  // namespace scanbench::app_test
