@@ -69,11 +69,20 @@ void note_isolation(Manifest& manifest, const std::vector<ForeignSlot>& slots) {
   const study::SharedLimits shared = study::shared_limits();
   manifest.sandbox["cells"] = {{"one limit of memory for all processes", shared.memory},
                                {"one limit of the number of processes", shared.processes}};
+}
+
+void note_modules(Manifest& manifest, const std::vector<ForeignSlot>& slots) {
+  manifest.foreign_modules =
+      texts_of(slots, [](const ForeignSlot& s) { return s.text() + ": " + s.source->module.info.summary; });
   manifest.without_sandbox =
       texts_of(slots, [](const ForeignSlot& s) { return s.is_program() && s.sandbox ? "" : s.text(); });
 }
 
 }  // namespace
+
+void note_foreign_modules(Manifest& manifest, const std::vector<study::Scenario>& scenarios) {
+  note_modules(manifest, foreign_slots(scenarios));
+}
 
 Manifest start_run(const RunTarget& target, const RunStart& start) {
   const fs::path& run = target.path();
@@ -82,8 +91,7 @@ Manifest start_run(const RunTarget& target, const RunStart& start) {
   for (const auto& scenario : start.scenarios) manifest.scenarios.push_back(scenario.name);
   const std::vector<ForeignSlot> slots = foreign_slots(start.scenarios);
   if (!start.cells.empty()) note_isolation(manifest, slots);
-  manifest.foreign_modules =
-      texts_of(slots, [](const ForeignSlot& s) { return s.text() + ": " + s.source->module.info.summary; });
+  note_modules(manifest, slots);
   write_manifest(run, manifest);  // with it the folder is ours
   write_suite_rules(run, start.rules);
   write_run_scenarios(run, start.scenarios, start.effective_yaml);

@@ -88,6 +88,9 @@ TEST(SweepVerbs, AProgramThatFillsTheFoldersOfCellsDoesNotEndTheShard) {
   EXPECT_EQ(shard.code, 0) << shard.err;
   const auto merged = run({"merge", "sweep", "--out", "merged", "--cells", "files"}, {}, folder.path());
   EXPECT_EQ(merged.code, 0) << merged.err;
+  EXPECT_EQ(nlohmann::json::parse(read(folder / "merged/manifest.json")).at("without_sandbox"),
+            nlohmann::json({"extract m of python3 sparse.py, version 1"}));
+  EXPECT_THAT(read(folder / "merged/report.html"), HasSubstr("not in the sandbox: extract m of python3 sparse.py"));
   EXPECT_EQ(names_in(folder / "merged/cells/room/sparse/1"), names_in(folder / "merged/cells/room/iepf/1"));
 }
 
