@@ -35,6 +35,7 @@ class Mutator {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
       if (entry.is_regular_file()) files.push_back(entry.path());
+    if (files.empty()) return "nothing is left";
     std::ranges::sort(files);
     const fs::path file = files.at(below(files.size()));
     const std::string name = file.lexically_relative(folder).string();
@@ -43,7 +44,7 @@ class Mutator {
         return replace_by_something_else(file) + " " + name;
       case 1: {
         const fs::path other = files.at(below(files.size()));
-        fs::copy_file(other, file, fs::copy_options::overwrite_existing);
+        if (other != file) fs::copy_file(other, file, fs::copy_options::overwrite_existing);
         return "copied " + other.lexically_relative(folder).string() + " to " + name;
       }
       default:
