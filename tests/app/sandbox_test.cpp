@@ -94,9 +94,10 @@ class SandboxEscapes : public testing::TestWithParam<std::string> {
   fs::path scenario() const {
     const std::string source = places::source_dir().string();
     std::string pipelines;
+    folder_.write("module/data", "that the module reads");
     for (const std::string way : kWays)
       pipelines += "  - {name: " + way + ", extract: {program: [python3, '" + source + "/tests/plugins/escapes.py', " +
-                   way + "], files: ['" + source + "/clients/scanbench.py']}}\n";
+                   way + "], files: ['" + source + "/clients/scanbench.py', module/data]}}\n";
     return folder_.write(
         "room.yaml", room_with("  - {name: iepf, extract: {module: iepf, params: {threshold_m: 0.10}}}\n", pipelines));
   }
@@ -105,8 +106,12 @@ class SandboxEscapes : public testing::TestWithParam<std::string> {
     const fs::path out = folder_ / run;
     const fs::path service = folder_ / "service";
     fs::remove(service);
-    const Listener local(service.string(), true), abstract("service", false), tcp;
-    fs::permissions(service, fs::perms::all);
+    // The sandbox shows the folder of the module, which is beside this one.
+    const fs::path shown = folder_ / "module/service";
+    fs::create_directories(shown.parent_path());
+    fs::remove(shown);
+    const Listener local(service.string(), true), beside(shown.string(), true), abstract("service", false), tcp;
+    for (const fs::path& socket : {service, shown}) fs::permissions(socket, fs::perms::all);
     Args args{"python3",
               "-c",
               "import os, pty, sys; sys.exit(os.waitstatus_to_exitcode(pty.spawn(sys.argv[1:])))",
@@ -122,6 +127,7 @@ class SandboxEscapes : public testing::TestWithParam<std::string> {
                                   {{"ESCAPE_RUN", out},
                                    {"ESCAPE_FILE", folder_ / "outside"},
                                    {"ESCAPE_SOCKET", service},
+                                   {"ESCAPE_SHOWN_SOCKET", shown},
                                    {"ESCAPE_PORT", std::to_string(tcp.port())},
                                    {"ESCAPE_PROCESS", std::to_string(victim_->pid())}},
                                   folder_.path())

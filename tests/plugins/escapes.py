@@ -1,7 +1,7 @@
 """A program that tries one way out of the sandbox: escapes.py WAY. Its answer is an error that says "refused" or "ESCAPED".
 
 What it tries to reach is in the environment, because the sandbox shows a program the files among its arguments:
-ESCAPE_RUN, ESCAPE_FILE, ESCAPE_SOCKET, ESCAPE_PORT and ESCAPE_PROCESS, which is a process of the same user.
+ESCAPE_RUN, ESCAPE_FILE, ESCAPE_SOCKET, ESCAPE_SHOWN_SOCKET, ESCAPE_PORT and ESCAPE_PROCESS, which is a process of the same user.
 """
 import ctypes
 import os
@@ -69,8 +69,9 @@ def links():
 
 
 def sockets():
-    path, name = os.environ["ESCAPE_SOCKET"], "\0" + os.path.basename(os.environ["ESCAPE_SOCKET"])
-    return ", ".join(attempt(socket.socket(socket.AF_UNIX).connect, address) for address in (path, name))
+    paths = [os.environ["ESCAPE_SOCKET"], os.environ["ESCAPE_SHOWN_SOCKET"]]
+    addresses = paths + ["\0" + os.path.basename(paths[0])]
+    return ", ".join(attempt(socket.socket(socket.AF_UNIX).connect, address) for address in addresses)
 
 
 def network():
