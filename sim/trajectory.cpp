@@ -86,7 +86,7 @@ void check_body(const std::string& who, const Vec2& p, const std::string& body, 
   for (const MovingBody& body : world.moving)
     consider((p - body.position(pose.stamp_s)).norm() - body.radius_m, "moving body", body.label);
   throw ConfigError(who + " is outside any free space: the nearest surface, " + name + ", is " + metres_text(nearest) +
-                    " m away, and the sensor's range is " + metres_text(range_max_m) + " m");
+                    " m away, and the sensor's range is " + number_text(range_max_m) + " m");
 }
 
 void check_pose(const World& world, const SegmentGrid& grid, const Trajectory& trajectory, std::size_t frame,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -282,6 +283,17 @@ void add_submit(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& opti
   verb.runs([options] { return submit(*options); });
 }
 
+/// Says how many cells of a shard are missing, and why the first one is. Returns their number.
+std::size_t say_missing(const runs::ShardResult& result, int number) {
+  const auto missing = std::ranges::count(result.cells, false, &runs::CellResult::done);
+  if (missing == 0) return 0;
+  const runs::CellResult& first = *std::ranges::find(result.cells, false, &runs::CellResult::done);
+  say(fmt::format("scanbench: {} of {} of shard {} missing; run it again; {}: {}\n", missing,
+                  counted(result.planned, "cell"), number, runs::to_string(first.key),
+                  results::plain_line(first.record.outcome.message)));
+  return static_cast<std::size_t>(missing);
+}
+
 }  // namespace
 
 int run_shard_of(const fs::path& sweep, const std::string& shard, int jobs, bool quiet) {
@@ -301,11 +313,7 @@ int run_shard_of(const fs::path& sweep, const std::string& shard, int jobs, bool
   for (const auto& line : faults.repeated()) progress.note(line);
   progress.finish();
   if (quiet) say(failed_text(result.cells));
-  std::size_t missing = 0;
-  for (const auto& cell : result.cells) missing += !cell.done;
-  if (missing > 0)
-    say(fmt::format("scanbench: {} of {} of shard {} missing; run it again\n", missing, counted(result.planned, "cell"),
-                    number));
+  const std::size_t missing = say_missing(result, number);
   if (!quiet && result.earlier == result.planned)
     fmt::print("shard {}: {}, committed already\n", number, counted(result.planned, "cell"));
   if (!quiet && !result.committed.empty())

@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 
+#include <cstdlib>
 #include <string>
 
 #include "core/error.hpp"
@@ -25,6 +26,8 @@ void find(void* library, const char* name, Function& function) {
 }  // namespace
 
 OsMesa::OsMesa(const char* library) {
+  // Another rasterizer draws other bytes. Mesa reads the variable when the first context is made.
+  ::unsetenv("GALLIUM_DRIVER");
   // Never closed: Mesa registers exit handlers, which must still exist at the end of the process.
   void* handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) throw ConfigError("PNG figures need OSMesa: install libosmesa6 (" + last_error() + ")");

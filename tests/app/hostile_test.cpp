@@ -222,6 +222,21 @@ TEST_F(Plugins, ThatAreProgramsAndMisbehaveSpoilOnlyTheirOwnCells) {
   expect_good_one_untouched();
 }
 
+TEST_F(Plugins, ThatStartProcessesShareTheMemoryOfTheirCell) {
+  if (std::system("python3 -c pass >/dev/null 2>&1") != 0) GTEST_SKIP() << "there is no python3";
+  if (kSanitized) GTEST_SKIP() << "a sanitizer needs address space without a limit";
+  const auto file =
+      scenario("  - {name: many, extract: {program: [python3, '" +
+                   (places::source_dir() / "tests/plugins/hostile.py").string() + "', memory_of_many]}}\n",
+               "limits: {seconds: 60, memory_mib: 256}\n");
+  ASSERT_EQ(run({"run", file, "--out", folder_ / "a", "--quiet", "--no-figures"}).code, 3);
+  EXPECT_EQ(end_of("good").status, "ok");
+  const auto manifest = nlohmann::json::parse(read(folder_ / "a/manifest.json"));
+  if (!manifest.at("sandbox").at("cells").at("one limit of memory for all processes"))
+    GTEST_SKIP() << "control groups are not allowed here";
+  EXPECT_THAT(end_of("many").message, testing::AnyOf(HasSubstr("a process was killed"), HasSubstr("memory ran out")));
+}
+
 TEST_F(Plugins, ThatAreProgramsAndCannotDescribeThemselvesAreRefusedBeforeTheRun) {
   const auto refusal = [&](const std::string& program) {
     const auto outcome = run(

@@ -99,6 +99,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
+  pid_t pid() const { return pid_; }
   void interrupt(int signal = SIGINT) const { kill(pid_, signal); }
 
   /// Waits until the condition holds. False: the program ended before, or a minute passed.

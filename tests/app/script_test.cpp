@@ -102,6 +102,80 @@ TEST_F(Script, RefusesAPresetThatDoesNotExist) {
   EXPECT_THAT(outcome.err, HasSubstr("SCANBENCH_PRESET is 'fast'; CMakePresets.json has: dev release"));
 }
 
+TEST_F(Script, TakesAPresetForANameAndNotForAPattern) {
+  for (const std::string pattern : {"r.*", "rel[e]ase", "release\", \"x"}) {
+    const auto outcome = call({"list"}, pattern);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("SCANBENCH_PRESET is '" + pattern + "'"));
+  }
+}
+
+TEST_F(Script, NoticesAPackageThatWasRemovedAndLeavesOneOnHoldAlone) {
+  folder_.write("cmake/packages.txt", "cmake\nninja-build\n");
+  program("bin/ninja", "");
+  program("bin/sudo", "exec \"$@\"");
+  program("bin/apt-get", "echo \"$*\" >>calls");
+  program("bin/dpkg-query", "echo 'hold ok installed cmake'; echo 'install ok installed ninja-build'");
+  EXPECT_EQ(call({"list"}).err, "");
+  program("bin/dpkg-query", "echo 'hold ok installed cmake'; echo 'deinstall ok config-files ninja-build'");
+  EXPECT_THAT(call({"list"}).err, HasSubstr("installing packages: ninja-build\n"));
+  EXPECT_THAT(read(folder_ / "calls"), HasSubstr("install -y --no-install-recommends ninja-build\n"));
+}
+
+TEST_F(Script, BuildsWithAsManyJobsAsTheMemoryAllows) {
+  const std::string script = read(folder_ / "scanbench");
+  const auto jobs = [&](const std::string& machine_kib, const std::string& container) {
+    std::string text = script.substr(script.find("jobs_for_memory() {"));
+    text = text.substr(0, text.find("\n}\n") + 3);
+    text.replace(text.find("/proc/meminfo"), 13, "meminfo");
+    text.replace(text.find("/sys/fs/cgroup"), 14, "groups");
+    folder_.write("meminfo", "MemTotal: 99999999 kB\nMemAvailable: " + machine_kib + " kB\n");
+    folder_.write("groups/memory.max", container + "\n");
+    folder_.write("jobs", "nproc() { echo 64; }\n" + text + "jobs_for_memory\n");
+    return Child({"/bin/bash", "jobs"}, {}, folder_.path()).wait().out;
+  };
+  EXPECT_EQ(jobs("1600000", "max"), "1") << "a machine with 2 GB, of which one compiler takes 1.2";
+  EXPECT_EQ(jobs("600000", "max"), "1");
+  EXPECT_EQ(jobs("8000000", "max"), "6");
+  EXPECT_EQ(jobs("500000000", "max"), "64");
+  EXPECT_EQ(jobs("500000000", "4294967296"), "3") << "a container with 4 GiB";
+}
+
+TEST_F(Script, SaysThatItCannotBuildWhereItCannotWrite) {
+  fs::rename(folder_ / "build", folder_ / "elsewhere");
+  folder_.write("build", "a file");  // refused to root, too
+  program("bin/ninja", "");
+  const auto outcome = call({"list"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("cannot write to " + (folder_ / "build").string()), Not(HasSubstr("line "))));
+}
+
+TEST_F(Script, NamesAFullDisk) {
+  program("bin/df", "echo Avail; case $* in *target*) echo /full ;; *) echo 12 ;; esac");
+  program("bin/ninja", "echo 'a.o: No space left on device'; exit 1");
+  EXPECT_THAT(call({"list"}).err, HasSubstr("the disk is full: /full"));
+  folder_.write("cmake/packages.txt", "cmake\n");
+  program("bin/dpkg-query", "exit 1");
+  program("bin/sudo", "exec \"$@\"");
+  program("bin/apt-get", "exit 100");
+  EXPECT_THAT(call({"list"}).err,
+              AllOf(HasSubstr("could not be installed: cmake"), HasSubstr("the disk is full: /full")));
+}
+
+TEST_F(Script, AnInterruptWhileItWaitsForAnotherBuildEndsIt) {
+  program("bin/ninja", "");
+  const std::string lock = (folder_ / "build/lock").string();
+  const Child other({"/bin/bash", "-c", "exec 9>" + lock + "; flock 9; touch held; sleep 20"}, {}, folder_.path());
+  ASSERT_TRUE(other.wait_until([&] { return fs::exists(folder_ / "held"); }));
+  const auto outcome =
+      Child({"/usr/bin/env", "timeout", "-s", "INT", "1", "/bin/bash", (folder_ / "scanbench").string(), "list"}, {},
+            folder_.path())
+          .wait();
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("waiting for it"), HasSubstr("interrupted")));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("the program")));
+}
+
 TEST_F(Script, WaitsForAnotherBuildInTheSameTree) {
   program("bin/ninja", "");
   const std::string lock = (folder_ / "build/lock").string();

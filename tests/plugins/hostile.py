@@ -54,6 +54,21 @@ def memory(scan):
         everything.append(bytearray(64 << 20))
 
 
+def memory_of_many(scan):
+    """Twenty processes, each of which has less than a cell may have."""
+    children = []
+    for i in range(20):
+        child = os.fork()
+        if child == 0:
+            block = b"x" * (100 << 20)
+            time.sleep(2)
+            os._exit(0)
+        children.append(child)
+    if any(os.waitpid(child, 0)[1] != 0 for child in children):
+        raise RuntimeError("a process was killed")
+    raise RuntimeError("two gigabytes")
+
+
 def fork_storm(scan):
     for i in range(STORM):
         try:

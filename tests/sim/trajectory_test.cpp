@@ -328,6 +328,10 @@ TEST(CheckClear, RefusesSensorsOnWallsOrWhereNothingCanBeSeen) {
       }),
       HasSubstr(
           "outside any free space: the nearest surface, wall 'w8', is 10 m away, and the sensor's range is 9.5 m"));
+  EXPECT_THAT(complaint([&] {
+                check_clear(world, driven({{-10, 4, 0}}), 1e-6);
+              }),
+              HasSubstr("the sensor's range is 0.000001 m"));
   const double nan = std::nan("");
   Trajectory wild;
   wild.poses = {{0.0, Pose2(Vec2(nan, 0.0), 0.0)}};

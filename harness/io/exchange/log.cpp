@@ -22,7 +22,7 @@ namespace {
 struct Format {
   std::string_view name;
   std::vector<std::string_view> options;
-  Recording (*parse)(std::string_view, const LogOptions&, const SensorModel&);
+  Recording (*parse)(LogLines&, const LogOptions&, const SensorModel&);
   void (*check)(const LogOptions&);
   std::string_view summary;
   std::vector<std::string_view> notes;
@@ -78,21 +78,14 @@ std::uint64_t byte_limit(double max_bytes) {
   return static_cast<std::uint64_t>(std::clamp(max_bytes, 0.0, 1e18));
 }
 
-struct LogSize {
-  std::uint64_t bytes = 0;    ///< unpacked
-  std::uint64_t numbers = 0;  ///< upper bound: the separators of words
-};
-
 /// Reads the log once without keeping it, so that a log that needs too much memory is refused before it takes any.
-LogSize measure_log(const std::filesystem::path& path, double max_bytes) {
+void check_size(const std::filesystem::path& path, double max_bytes) {
   constexpr std::size_t kMaxLineBytes = std::size_t{16} << 20;  // a scan of a million beams
-  LogSize size;
+  std::uint64_t numbers = 0;                                    // upper bound: the separators of words
   std::size_t line_bytes = 0;
-  const auto needed = [&] { return static_cast<double>(size.bytes) + 8.0 * static_cast<double>(size.numbers); };
   for_each_text_block(path, byte_limit(max_bytes), kAllowedLog, [&](std::string_view block) {
-    size.bytes += block.size();
     const auto is_separator = [](char c) { return c == ' ' || c == ',' || c == '\n' || c == '\t'; };
-    size.numbers += static_cast<std::uint64_t>(std::ranges::count_if(block, is_separator));
+    numbers += static_cast<std::uint64_t>(std::ranges::count_if(block, is_separator));
     // A block is smaller than the longest allowed line, so checking its last line break suffices.
     const std::size_t last_break = block.rfind('\n');
     line_bytes = last_break == std::string_view::npos ? line_bytes + block.size() : block.size() - last_break - 1;
@@ -100,13 +93,10 @@ LogSize measure_log(const std::filesystem::path& path, double max_bytes) {
       throw ConfigError(fmt::format("{}: a line longer than {}; allowed: {}", path.string(),
                                     size_text(static_cast<double>(kMaxLineBytes)), kAllowedLog));
   });
-  if (needed() > max_bytes)
+  if (const double needed = 8.0 * static_cast<double>(numbers); needed > max_bytes)
     throw ConfigError(
-        fmt::format("{}: needs about {} (text {} + {} numbers x 8 B); allowed: {}; take fewer scans, or raise "
-                    "limits.memory_mib",
-                    path.string(), size_text(needed()), size_text(static_cast<double>(size.bytes)), size.numbers,
-                    size_text(max_bytes)));
-  return size;
+        fmt::format("{}: needs about {} ({} numbers x 8 B); allowed: {}; take fewer scans, or raise limits.memory_mib",
+                    path.string(), size_text(needed), numbers, size_text(max_bytes)));
 }
 
 }  // namespace
@@ -138,8 +128,7 @@ LogFormatText log_format_text(std::string_view format) {
   return {std::string(f.summary), {f.notes.begin(), f.notes.end()}};
 }
 
-Recording parse_dpslam(std::string_view text, const LogOptions& options, const SensorModel& sensor) {
-  LogLines lines(text);
+Recording parse_dpslam(LogLines& lines, const LogOptions& options, const SensorModel& sensor) {
   LogBuilder builder(options);
   std::vector<std::string_view> words;
   std::optional<Pose2> odometry;
@@ -182,22 +171,31 @@ Recording parse_dpslam(std::string_view text, const LogOptions& options, const S
   return builder.finish(sensor, false);
 }
 
-Recording parse_log(std::string_view text, const std::string& file, std::string_view format, const ParamSet& params,
-                    const SensorModel& sensor) {
+namespace {
+
+Recording parse_lines(LogLines& lines, const std::string& file, std::string_view format, const ParamSet& params,
+                      const SensorModel& sensor) {
   const Format& f = format_of(format);
   const auto options = make_params<LogOptions>(resolve(log_param_specs(format), params));
   f.check(options);
-  return in_file(file, {}, [&] { return f.parse(text, options, sensor); });
+  return in_file(file, {}, [&] { return f.parse(lines, options, sensor); });
+}
+
+}  // namespace
+
+Recording parse_log(std::string_view text, const std::string& file, std::string_view format, const ParamSet& params,
+                    const SensorModel& sensor) {
+  LogLines lines(text);
+  return parse_lines(lines, file, format, params, sensor);
 }
 
 Recording read_log(const std::filesystem::path& path, std::string_view format, const ParamSet& params,
                    const SensorModel& sensor, double max_bytes) {
   format_of(format);
-  const LogSize size = measure_log(path, max_bytes);
-  std::string text;
-  text.reserve(size.bytes);
-  for_each_text_block(path, byte_limit(max_bytes), kAllowedLog, [&](std::string_view block) { text += block; });
-  return parse_log(text, path.string(), format, params, sensor);
+  check_size(path, max_bytes);
+  TextBlocks blocks(path, byte_limit(max_bytes), kAllowedLog);
+  LogLines lines(blocks);
+  return parse_lines(lines, path.string(), format, params, sensor);
 }
 
 }  // namespace scanbench::io

@@ -10,11 +10,24 @@
 #include <utility>
 
 #include "core/number_text.hpp"
-#include "harness/io/files/text_file.hpp"
 
 namespace scanbench::io {
 
+/// Reads on until `rest_` has a line break or the file ends.
+void LogLines::read_line() {
+  std::size_t searched = 0;
+  while (blocks_ != nullptr && rest_.find('\n', searched) == std::string_view::npos) {
+    searched = rest_.size();
+    const std::string_view block = blocks_->next();
+    if (block.empty()) blocks_ = nullptr;
+    held_.erase(0, held_.size() - rest_.size());
+    held_ += block;
+    rest_ = held_;
+  }
+}
+
 bool LogLines::next() {
+  read_line();
   if (rest_.empty()) return false;
   ends_open_ = rest_.find('\n') == std::string_view::npos;
   line_ = take_line(rest_);

@@ -10,6 +10,7 @@
 #include "core/params.hpp"
 #include "core/recording.hpp"
 #include "harness/io/files/placed_error.hpp"
+#include "harness/io/files/text_file.hpp"
 
 namespace scanbench::io {
 
@@ -86,10 +87,14 @@ struct LogOptions {
   }
 };
 
-/// The lines of a log, one at a time, with their numbers for messages.
+/// The lines of a log, one at a time, with their numbers for messages. A line is valid until the next one is read.
 class LogLines {
  public:
   explicit LogLines(std::string_view text) : rest_(text) {}
+  /// Of a file, of which no more than a line and a block are held. `blocks` must remain.
+  explicit LogLines(TextBlocks& blocks) : blocks_(&blocks) {}
+  LogLines(const LogLines&) = delete;
+  LogLines& operator=(const LogLines&) = delete;
 
   /// False at the end.
   bool next();
@@ -107,6 +112,10 @@ class LogLines {
   double number_of(std::string_view word, std::string_view what) const;
 
  private:
+  void read_line();
+
+  TextBlocks* blocks_ = nullptr;
+  std::string held_;  ///< of a file: what was read and is not yet used
   std::string_view rest_;
   std::string_view line_;
   int number_ = 0;

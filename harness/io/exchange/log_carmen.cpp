@@ -20,7 +20,7 @@ namespace {
 
 class CarmenReader {
  public:
-  CarmenReader(std::string_view text, const LogOptions& options) : options_(options), lines_(text), builder_(options) {}
+  CarmenReader(LogLines& lines, const LogOptions& options) : options_(options), lines_(lines), builder_(options) {}
 
   Recording read(const SensorModel& sensor) {
     while (!builder_.full() && lines_.next()) {
@@ -153,7 +153,7 @@ class CarmenReader {
   }
 
   const LogOptions& options_;
-  LogLines lines_;
+  LogLines& lines_;
   LogBuilder builder_;
   std::vector<std::string_view> words_;
   std::string_view message_;  // the message whose scans are read: the first one that occurs
@@ -165,8 +165,8 @@ class CarmenReader {
 
 }  // namespace
 
-Recording parse_carmen(std::string_view text, const LogOptions& options, const SensorModel& sensor) {
-  return CarmenReader(text, options).read(sensor);
+Recording parse_carmen(LogLines& lines, const LogOptions& options, const SensorModel& sensor) {
+  return CarmenReader(lines, options).read(sensor);
 }
 
 }  // namespace scanbench::io

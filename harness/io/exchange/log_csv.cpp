@@ -110,10 +110,9 @@ void check_csv_options(const LogOptions& options) {
                      "step_deg is 0; allowed: the angle between two beams in deg, not 0 (or span_deg, or beams: 1)");
 }
 
-Recording parse_csv_scans(std::string_view text, const LogOptions& options, const SensorModel& sensor) {
+Recording parse_csv_scans(LogLines& lines, const LogOptions& options, const SensorModel& sensor) {
   const Layout layout = parse_columns(options.columns);
   const std::size_t others = layout.columns.size() - 1;
-  LogLines lines(text);
   LogBuilder builder(options);
   std::vector<std::string_view> fields;
   while (!builder.full() && lines.next()) {

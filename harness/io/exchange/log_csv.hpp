@@ -1,8 +1,6 @@
 // Reader of logs with one scan per row of numbers.
 #pragma once
 
-#include <string_view>
-
 #include "harness/io/exchange/log_builder.hpp"
 
 namespace scanbench::io {
@@ -11,6 +9,6 @@ namespace scanbench::io {
 void check_csv_options(const LogOptions& options);
 
 /// Throws PlacedError for a row that does not fit the columns, ParamError for `columns` (log.hpp).
-Recording parse_csv_scans(std::string_view text, const LogOptions& options, const SensorModel& sensor);
+Recording parse_csv_scans(LogLines& lines, const LogOptions& options, const SensorModel& sensor);
 
 }  // namespace scanbench::io

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 #include <zlib.h>
-#include <algorithm>
 
 #include <algorithm>
 #include <array>
@@ -42,46 +41,61 @@ bool is_blank(char c) {
 
 }  // namespace
 
-void for_each_text_block(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed,
-                         const std::function<void(std::string_view)>& use) {
-  const std::string name = path.string();
-  const InputFile input(path);
-  input.require_at_most(max_bytes);
-  const int descriptor = input.duplicate();
-  const std::unique_ptr<gzFile_s, CloseGz> file(gzdopen(descriptor, "rb"));
-  if (file == nullptr) {
-    ::close(descriptor);
-    throw ConfigError(name + ": cannot be opened: out of memory");
-  }
-  gzbuffer(file.get(), 256 * 1024);
+struct TextBlocks::Reader {
+  explicit Reader(const std::filesystem::path& path) : input(path) {}
 
-  std::vector<char> block(1 << 20);
+  InputFile input;
+  std::unique_ptr<gzFile_s, CloseGz> file;
+  std::vector<char> block = std::vector<char>(1 << 20);
   std::uint64_t bytes = 0;
   TextPlace place;
-  while (true) {
-    const int n = gzread(file.get(), block.data(), static_cast<unsigned>(block.size()));
-    int code = Z_OK;
-    const char* message = gzerror(file.get(), &code);
-    // zlib returns the data of a gzip file that ends early, with the code Z_BUF_ERROR.
-    if (n < 0 || code == Z_BUF_ERROR)
-      throw ConfigError(fmt::format("{}: {} after {} unpacked bytes; allowed: a whole gzip file", name,
-                                    code == Z_BUF_ERROR ? "the gzip data ends early"
-                                    : code == Z_ERRNO   ? std::strerror(errno)
-                                                        : message,
-                                    bytes + static_cast<std::uint64_t>(std::max(n, 0))));
-    if (n == 0) return;
-    const std::string_view text(block.data(), static_cast<std::size_t>(n));
-    if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
-      place.advance(text.substr(0, nul));
-      throw ConfigError(fmt::format("{}:{}:{}: a byte 0; allowed: {}", name, place.line, place.column, allowed));
-    }
-    place.advance(text);
-    bytes += text.size();
-    if (bytes > max_bytes)
-      throw ConfigError(fmt::format("{}: larger than {}{}", name, size_text(static_cast<double>(max_bytes)),
-                                    bytes > input.size() ? " when unpacked" : ""));
-    use(text);
+};
+
+TextBlocks::TextBlocks(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed)
+    : max_bytes_(max_bytes), allowed_(allowed), reader_(std::make_unique<Reader>(path)) {
+  reader_->input.require_at_most(max_bytes);
+  const int descriptor = reader_->input.duplicate();
+  reader_->file.reset(gzdopen(descriptor, "rb"));
+  if (reader_->file == nullptr) {
+    ::close(descriptor);
+    throw ConfigError(path.string() + ": cannot be opened: out of memory");
   }
+  gzbuffer(reader_->file.get(), 256 * 1024);
+}
+
+TextBlocks::~TextBlocks() = default;
+
+std::string_view TextBlocks::next() {
+  Reader& reader = *reader_;
+  const std::string name = reader.input.path().string();
+  const int n = gzread(reader.file.get(), reader.block.data(), static_cast<unsigned>(reader.block.size()));
+  int code = Z_OK;
+  const char* message = gzerror(reader.file.get(), &code);
+  // zlib returns the data of a gzip file that ends early, with the code Z_BUF_ERROR.
+  if (n < 0 || code == Z_BUF_ERROR)
+    throw ConfigError(fmt::format("{}: {} after {} unpacked bytes; allowed: a whole gzip file", name,
+                                  code == Z_BUF_ERROR ? "the gzip data ends early"
+                                  : code == Z_ERRNO   ? std::strerror(errno)
+                                                      : message,
+                                  reader.bytes + static_cast<std::uint64_t>(std::max(n, 0))));
+  const std::string_view text(reader.block.data(), static_cast<std::size_t>(n));
+  if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
+    reader.place.advance(text.substr(0, nul));
+    throw ConfigError(
+        fmt::format("{}:{}:{}: a byte 0; allowed: {}", name, reader.place.line, reader.place.column, allowed_));
+  }
+  reader.place.advance(text);
+  reader.bytes += text.size();
+  if (reader.bytes > max_bytes_)
+    throw ConfigError(fmt::format("{}: larger than {}{}", name, size_text(static_cast<double>(max_bytes_)),
+                                  reader.bytes > reader.input.size() ? " when unpacked" : ""));
+  return text;
+}
+
+void for_each_text_block(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed,
+                         const std::function<void(std::string_view)>& use) {
+  TextBlocks blocks(path, max_bytes, allowed);
+  for (std::string_view text = blocks.next(); !text.empty(); text = blocks.next()) use(text);
 }
 
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,10 +17,28 @@ namespace scanbench::io {
 /// Size limit of a world file or a line set.
 inline constexpr std::size_t kMaxWorldBytes = std::size_t{64} << 20;
 
-/// Calls `use` with the bytes of a regular file, block by block, unpacked if they are gzip (recognized by the file's
-/// first bytes, not by its name). Throws ConfigError for a missing, unreadable, damaged or truncated file, for a path
-/// that is no regular file, for more than max_bytes (packed or unpacked), and for a zero byte. Messages begin with the
+/// The bytes of a regular file, block by block, unpacked if they are gzip (recognized by the file's first bytes, not by
+/// its name). Both functions throw ConfigError: for a missing, unreadable, damaged or truncated file, for a path that
+/// is not a regular file, for more than max_bytes (packed or unpacked), and for a zero byte. Messages begin with the
 /// file's name; that of the zero byte ends with `allowed`, the kind of file that is expected.
+class TextBlocks {
+ public:
+  TextBlocks(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed);
+  ~TextBlocks();
+  TextBlocks(const TextBlocks&) = delete;
+  TextBlocks& operator=(const TextBlocks&) = delete;
+
+  /// The next block, at most 1 MiB, valid until the next call; empty at the end.
+  std::string_view next();
+
+ private:
+  struct Reader;
+  std::uint64_t max_bytes_;
+  std::string allowed_;
+  std::unique_ptr<Reader> reader_;
+};
+
+/// Calls `use` with each of these blocks.
 void for_each_text_block(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed,
                          const std::function<void(std::string_view)>& use);
 

@@ -93,6 +93,13 @@ std::string last_line(const fs::path& log) {
   return last;
 }
 
+/// Writes a finished file to the disk before it gets its name.
+void flush(const fs::path& file) {
+  const io::FileDescriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!descriptor.is_open() || ::fsync(descriptor.number()) != 0)
+    throw ConfigError(file.string() + ": cannot write: " + std::generic_category().message(errno));
+}
+
 }  // namespace
 
 fs::path find_ffmpeg() {
@@ -142,9 +149,11 @@ void FfmpegPipe::add(std::span<const std::uint8_t> rgb) {
 void FfmpegPipe::finish() {
   frames_.close();
   if (!child_.reap().is_success() || !fs::exists(staged_)) fail();
+  flush(staged_);
   std::error_code error;
   fs::rename(staged_, target_, error);
   if (error) throw ConfigError(target_.string() + ": cannot write: " + error.message());
+  io::flush_folder(fs::absolute(target_).parent_path());
 }
 
 void FfmpegPipe::fail() {

@@ -2,9 +2,13 @@
 #include "harness/runs/execute/cell_work.hpp"
 
 #include <filesystem>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include "harness/io/files/atomic_file.hpp"
+#include "harness/io/files/folder.hpp"
+#include "harness/io/files/system_error.hpp"
 #include "harness/runs/execute/pipeline.hpp"
 #include "harness/runs/execute/score.hpp"
 #include "harness/runs/store/cell_files.hpp"
@@ -23,6 +27,15 @@ PipelineRun run_in_own_folder(const std::filesystem::path& folder, const std::fi
                       {.sandbox = scenario.limits.sandbox, .writable_folder = own.path(), .hidden_folder = root});
 }
 
+/// Whatever a library, or a program outside of the sandbox, has put into the cell's folder is not taken for a result.
+void clear_folder(const std::filesystem::path& folder) {
+  for (const std::string& name : io::names_in(folder)) {
+    std::error_code error;
+    std::filesystem::remove_all(folder / name, error);
+    if (error) throw io::SystemError("cannot remove " + (folder / name).string() + ": " + error.message());
+  }
+}
+
 }  // namespace
 
 CellOutput make_cell(const std::filesystem::path& folder, const std::filesystem::path& root,
@@ -31,6 +44,7 @@ CellOutput make_cell(const std::filesystem::path& folder, const std::filesystem:
   Journal journal(trace);
   const bool traced = !trace.nothing();
   const PipelineRun run = run_in_own_folder(folder, root, scenario, pipeline, recording, traced ? &journal : nullptr);
+  clear_folder(folder);
   write_result(folder, pipeline, run.result);
   if (traced) io::write_staged_file(folder / kTraceFile, journal.csv());
   Scores scores = score_cell(scenario.metrics, recording, folder);

@@ -67,6 +67,7 @@ Listener written_into(Journal& journal) {
 }
 
 constexpr double kFarthest_m = 1e6;  // larger than every scanner's range and every building
+constexpr double kOffLine_m = 1e-3;  // of an end point from its line, at 1 m; far more than rounding to float32
 
 bool is_near(const Vec2& p) {
   return p.cwiseAbs().maxCoeff() < kFarthest_m;
@@ -93,6 +94,9 @@ std::string fault_of(const LineFeature& line, int beams) {
     return "is not finite";
   if (line.line.rho < 0 || !(line.line.alpha > -kPi && line.line.alpha <= kPi))
     return fmt::format("has rho {} m and alpha {} rad; allowed: >= 0 and > -pi .. pi", line.line.rho, line.line.alpha);
+  for (const Vec2& end : {line.segment.a, line.segment.b})
+    if (const double off = std::fabs(line.line.signed_distance(end)); off > kOffLine_m * std::max(1.0, end.norm()))
+      return fmt::format("has an end point {:.4g} m off the line of its rho and alpha", off);
   if (line.covariance)
     if (const std::string fault = covariance_fault(*line.covariance); !fault.empty()) return "has " + fault;
   if (line.points < 0) return "has " + std::to_string(line.points) + " points";

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include "harness/io/files/atomic_file.hpp"
 #include "harness/io/files/folder.hpp"
 #include "harness/io/files/folder_name.hpp"
+#include "harness/io/files/size_text.hpp"
 #include "harness/io/files/system_error.hpp"
 #include "harness/io/files/tar.hpp"
 
@@ -26,9 +28,15 @@ namespace {
 
 }  // namespace
 
-FolderFiles read_folder(const fs::path& folder) {
+FolderFiles read_folder(const fs::path& folder, std::uint64_t most) {
+  const std::vector<std::string> names = io::names_in(folder);
+  std::uint64_t bytes = 0;
+  for (const auto& name : names) bytes += io::InputFile(folder / name).size();
+  if (bytes > most)
+    throw ConfigError("the files of " + folder.generic_string() + " have " + io::size_text(static_cast<double>(bytes)) +
+                      "; allowed in an archive: " + io::size_text(static_cast<double>(most)));
   FolderFiles files;
-  for (const auto& name : io::names_in(folder)) files.emplace(name, io::read_file(folder / name));
+  for (const auto& name : names) files.emplace(name, io::read_file(folder / name));
   return files;
 }
 

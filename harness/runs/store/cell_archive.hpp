@@ -13,9 +13,14 @@
 
 namespace scanbench::runs {
 
+/// Bytes of a cell or a recording in an archive: they are held in memory, several times.
+inline constexpr std::uint64_t kLargestFolder = std::uint64_t{2} << 30;
+
 /// The bytes of a folder's files, by name.
 using FolderFiles = std::map<std::string, std::string>;
-FolderFiles read_folder(const std::filesystem::path& folder);
+/// Throws ConfigError for a folder with something else than files, and, before anything is read, for one whose files
+/// have more than `most` bytes together.
+FolderFiles read_folder(const std::filesystem::path& folder, std::uint64_t most = kLargestFolder);
 
 /// The bytes of an archive that hold one folder.
 struct ArchivePart {

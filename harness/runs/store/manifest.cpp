@@ -142,6 +142,8 @@ void write_manifest(const fs::path& run, const Manifest& manifest) {
             {"end", manifest.end},
             {"scenarios", manifest.scenarios},
             {"isolation", manifest.isolation},
+            {"sandbox", manifest.sandbox},
+            {"without_sandbox", manifest.without_sandbox},
             {"foreign_modules", manifest.foreign_modules},
             {"cells", cells}};
   if (manifest.state != "running") {
@@ -163,6 +165,8 @@ Manifest load_manifest(const fs::path& run) {
                       {},
                       {},
                       json.value("isolation", std::vector<std::string>{}),
+                      json.value("sandbox", decltype(Manifest::sandbox){}),
+                      json.value("without_sandbox", std::vector<std::string>{}),
                       json.value("foreign_modules", std::vector<std::string>{})};
     for (const auto& scenario : manifest.scenarios) io::check_name("scenario", scenario);
     for (const auto& cell : json.at("cells")) {
@@ -232,14 +236,21 @@ Provenance load_provenance(const fs::path& run) try {
 std::vector<std::pair<std::string, std::string>> manifest_facts(const fs::path& run) try {
   const Json json = manifest_json(run);
   const Provenance made_by = load_provenance(run);
-  return {{"command", made_by.command},
-          {"version", json.value("version", std::string()) + ", commit " + made_by.commit},
-          {"started", made_by.start},
-          {"ended", json.value("end", std::string())},
-          {"compiler", made_by.compiler},
-          {"libraries", made_by.libraries},
-          {"processor", made_by.processor},
-          {"files", "effective.yaml holds every parameter; artefacts.sha256 the SHA-256 of every file"}};
+  std::vector<std::pair<std::string, std::string>> facts{
+      {"command", made_by.command},
+      {"version", json.value("version", std::string()) + ", commit " + made_by.commit},
+      {"started", made_by.start},
+      {"ended", json.value("end", std::string())},
+      {"compiler", made_by.compiler},
+      {"libraries", made_by.libraries},
+      {"processor", made_by.processor},
+      {"files", "effective.yaml holds every parameter; artefacts.sha256 the SHA-256 of every file"}};
+  std::string modules;
+  for (const auto& module : json.value("without_sandbox", std::vector<std::string>{}))
+    modules += (modules.empty() ? "" : "; ") + module;
+  if (!modules.empty())
+    facts.emplace_back("sandbox", "these modules ran with the rights of the user, not in the sandbox: " + modules);
+  return facts;
 } catch (const Json::exception& e) {
   refuse_json(run / kManifestFile, e);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,11 @@ struct Manifest {
   io::FileHashes verified{};
   /// What keeps cells from each other and from the machine: limits and sandboxes that were active.
   std::vector<std::string> isolation{};
+  /// What is active and what is not, for "programs", "libraries" and the "cells" of both: {"no network", true}. Only of
+  /// those that the run has.
+  std::map<std::string, std::map<std::string, bool>> sandbox{};
+  /// Foreign modules that had the rights of the user, as in `foreign_modules` up to the version.
+  std::vector<std::string> without_sandbox{};
   /// What programs and libraries that are not part of scanbench say of their modules, with versions.
   std::vector<std::string> foreign_modules{};
 };

@@ -25,6 +25,9 @@ struct RunStart {
 /// write_run_scenarios() does. Throws ConfigError.
 Manifest start_run(const RunTarget& target, const RunStart& start);
 
+/// Sets `foreign_modules` and `without_sandbox`, of a run whose cells were made elsewhere.
+void note_foreign_modules(Manifest& manifest, const std::vector<study::Scenario>& scenarios);
+
 /// Writes the manifest with this state and the list of all files, and puts the run in its place. With `reports_follow`
 /// the state in the file stays "running", until set_run_state().
 void end_run(RunTarget& target, Manifest& manifest, const std::string& state, bool reports_follow = false);

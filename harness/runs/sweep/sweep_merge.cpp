@@ -189,6 +189,7 @@ class Merge {
       io::make_folders((run / file).parent_path());
       io::write_file_atomically(run / file, io::read_file(plan_.folder / file));
     }
+    note_foreign_modules(manifest, load_run_scenarios(run, plan_.scenarios));
     return manifest;
   }
 

@@ -9,15 +9,18 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "harness/io/process/child.hpp"
+#include "harness/study/foreign/control_group.hpp"
 
 namespace scanbench::study {
 namespace {
+
+constexpr double kMemoryOfDescription = 4096.0 * (1 << 20);  // bytes; no cell sets a limit there
 
 /// Lowers a limit, never raises it.
 void lower(__rlimit_resource_t resource, double value) {
@@ -43,32 +46,17 @@ int tasks_of_user() {
   return tasks;
 }
 
-/// Of the controller `pids`, version 1; systems with version 2 let only their manager make groups.
-std::string group_of(pid_t pid) {
-  return "/sys/fs/cgroup/pids/scanbench-" + std::to_string(pid);
-}
-
 bool write_text(const std::string& path, const std::string& text) {
   std::ofstream file(path);
   file << text << std::flush;
   return file.good();
 }
 
-/// Enters a control group with a limit of processes; false if the system does not allow it.
-bool enter_group() {
-  const std::string group = group_of(::getpid());
-  if (::mkdir(group.c_str(), 0755) != 0 && errno != EEXIST) return false;
-  return write_text(group + "/pids.max", std::to_string(kMostProcesses)) &&
-         write_text(group + "/cgroup.procs", std::to_string(::getpid()));
-}
-
-/// Tries it in a child process, because a process cannot return to the network.
-bool can_leave_network() {
-  try {
-    return io::start_child({}, [] { return leave_network() ? 0 : 1; }).reap().is_success();
-  } catch (const std::system_error&) {
-    return false;
-  }
+/// Bytes that the processes of a cell may use together: what one of them could map alone.
+double memory_of_all() {
+  rlimit current{};
+  ::getrlimit(RLIMIT_AS, &current);
+  return current.rlim_cur == RLIM_INFINITY ? kMemoryOfDescription : static_cast<double>(current.rlim_cur);
 }
 
 }  // namespace
@@ -83,15 +71,27 @@ bool leave_network() {
   return write_text("/proc/self/uid_map", user + " " + user + " 1");
 }
 
+bool can_leave_network() {
+  try {
+    return io::start_child({}, [] { return leave_network() ? 0 : 1; }).reap().is_success();
+  } catch (const std::system_error&) {
+    return false;
+  }
+}
+
+SharedLimits shared_limits() {
+  const GroupFolders& folders = group_folders();
+  return {!folders.memory.empty(), !folders.processes.empty()};
+}
+
 void remove_confinement(pid_t pid) {
-  ::rmdir(group_of(pid).c_str());
+  remove_groups(group_folders(), pid);
 }
 
 std::vector<std::string> active_confinement(bool programs_in_sandbox, bool libraries_in_sandbox) {
   std::vector<std::string> names{"RLIMIT_CORE", "RLIMIT_FSIZE", "PR_SET_NO_NEW_PRIVS"};
-  const bool grouped = ::getuid() == 0 && ::access("/sys/fs/cgroup/pids", W_OK) == 0;
   if (::getuid() != 0) names.emplace_back("RLIMIT_NPROC");
-  if (grouped) names.emplace_back("cgroup pids.max");
+  for (std::string& name : group_limits(group_folders())) names.push_back(std::move(name));
   if (programs_in_sandbox) names.emplace_back("bubblewrap (programs)");
   if (libraries_in_sandbox && can_leave_network()) names.emplace_back("network namespace (libraries)");
   return names;
@@ -102,7 +102,7 @@ void confine() {
   lower(RLIMIT_CORE, 0);
   lower(RLIMIT_FSIZE, kLargestFile);
   lower(RLIMIT_NPROC, tasks_of_user() + kMostProcesses);
-  if (::getuid() == 0) enter_group();
+  enter_groups(group_folders(), memory_of_all(), kMostProcesses);
 }
 
 }  // namespace scanbench::study

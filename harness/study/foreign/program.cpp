@@ -16,6 +16,7 @@
 
 #include "core/number_text.hpp"
 #include "harness/io/files/json.hpp"
+#include "harness/io/process/descendants.hpp"
 #include "harness/io/process/output_tail.hpp"
 #include "harness/study/foreign/confine.hpp"
 #include "harness/study/foreign/fault.hpp"
@@ -80,6 +81,7 @@ Program::Program(const ForeignSource& source, const ForeignSetting& setting, Pro
     : text_(source.text()),
       in_sandbox_(setting.sandbox),
       is_captured_(output == ProgramOutput::captured),
+      memory_kills_(io::out_of_memory_kills()),
       ahead_(kAhead) {
   start(setting.sandbox ? sandbox_command(source, setting) : source.program);
   // In a sandbox the program is out of sight: the duration of the calls counts.
@@ -121,10 +123,16 @@ Program::~Program() {
   if (is_captured_) remove_confinement(child_.pid());
 }
 
-/// How the program ended, in words.
-std::string Program::ending() {
-  if (!child_.wait(kPatience, {&output_})) return "closed its socket without answering";
-  return "ended " + io::to_text(child_.reap()) + " without answering";
+/// How the program ended without answering.
+ForeignFault Program::ending() {
+  constexpr int kKilledInSandbox = 128 + SIGKILL;  // as bubblewrap reports it
+  if (!child_.wait(kPatience, {&output_}))
+    return ForeignFault("closed its socket without answering", ForeignFault::Kind::ended);
+  const io::ProcessEnd& end = child_.reap();
+  const bool killed = end.signal == SIGKILL || (in_sandbox_ && end.exit_code == kKilledInSandbox);
+  if (killed && io::out_of_memory_kills() > memory_kills_)
+    return ForeignFault("was killed by the system, because memory ran out", ForeignFault::Kind::memory);
+  return ForeignFault("ended " + io::to_text(end) + " without answering", ForeignFault::Kind::ended);
 }
 
 void Program::wait_for(short events) {
@@ -137,7 +145,7 @@ void Program::wait_for(short events) {
     if (fds[2].revents != 0) output_.drain();
     if (fds[0].revents != 0) return;
     // Another process that it has started may keep the socket open, so that its end does not close it.
-    if (fds[1].revents != 0) throw ForeignFault(ending(), ForeignFault::Kind::ended);
+    if (fds[1].revents != 0) throw ending();
   }
 }
 
@@ -160,7 +168,7 @@ void Program::send_all(const std::string& header, std::span<const std::span<cons
       wait_for(POLLOUT);
       continue;
     }
-    if (sent < 0) throw ForeignFault(ending(), ForeignFault::Kind::ended);
+    if (sent < 0) throw ending();
     while (next < pieces.size() && static_cast<std::size_t>(sent) >= pieces[next].iov_len)
       sent -= static_cast<ssize_t>(pieces[next++].iov_len);
     if (sent == 0) continue;
@@ -177,7 +185,7 @@ std::size_t Program::receive_some(char* to, std::size_t most) {
     if (n < 0 && (errno == EAGAIN || errno == EINTR))
       wait_for(POLLIN);
     else
-      throw ForeignFault(ending(), ForeignFault::Kind::ended);
+      throw ending();
   }
 }
 

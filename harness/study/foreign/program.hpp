@@ -12,6 +12,7 @@
 #include "harness/io/process/child.hpp"
 #include "harness/io/process/deadline.hpp"
 #include "harness/io/process/pipe.hpp"
+#include "harness/study/foreign/fault.hpp"
 #include "harness/study/foreign/frame.hpp"
 #include "harness/study/foreign/source.hpp"
 
@@ -47,11 +48,12 @@ class Program {
   std::size_t receive_some(char* to, std::size_t most);
   void account_cpu();
   void wait_for(short events);
-  std::string ending();
+  ForeignFault ending();
 
   std::string text_;
   bool in_sandbox_ = false;
   bool is_captured_ = false;
+  double memory_kills_ = 0.0;  ///< of the system, before the program was started
   io::FileDescriptor socket_;
   io::PipeReader output_;  ///< of no pipe if the output is inherited
   io::Child child_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <initializer_list>
 #include <sstream>
 #include <system_error>
@@ -117,6 +118,23 @@ std::vector<fs::path> shown_of(const ForeignSource& source, const std::vector<fs
   return shown.paths();
 }
 
+/// Files of sockets at which services listen, where this user can reach them and the sandbox shows them. Unknown are
+/// those that were opened by a relative path.
+std::vector<fs::path> services(const std::vector<fs::path>& hidden, const std::vector<fs::path>& shown) {
+  constexpr const char* kListens = " 00010000 ";
+  std::vector<fs::path> sockets;
+  std::ifstream table("/proc/net/unix");
+  for (std::string line; std::getline(table, line);) {
+    const std::size_t slash = line.find('/');  // no column before the path has one
+    if (slash == std::string::npos || line.find(kListens) == std::string::npos) continue;
+    const fs::path path = line.substr(slash);
+    std::error_code error;
+    if (fs::is_socket(path, error) && (!is_within_any(path, hidden) || is_within_any(path, shown)))
+      sockets.push_back(path);
+  }
+  return sockets;
+}
+
 }  // namespace
 
 std::vector<std::string> sandbox_command(const ForeignSource& source, const ForeignSetting& setting) {
@@ -136,20 +154,24 @@ std::vector<std::string> sandbox_command(const ForeignSource& source, const Fore
                                 "--dev",
                                 "/dev"};
   const auto add = [&](std::initializer_list<std::string> more) { argv.insert(argv.end(), more); };
-  std::vector<std::string> made{"/dev"};
+  std::vector<std::string> made{"/dev", "/proc"};
   const auto hide = [&](const std::string& folder) {
     add({"--tmpfs", folder});
     made.push_back(folder);
   };
   const std::vector<fs::path> hidden = hidden_folders();
   for (const fs::path& folder : hidden) hide(folder.string());
-  for (const fs::path& path : shown_of(source, hidden)) add({"--ro-bind", path.string(), path.string()});
+  const std::vector<fs::path> shown = shown_of(source, hidden);
+  for (const fs::path& path : shown) add({"--ro-bind", path.string(), path.string()});
+  // A file system that is read-only does not keep a program from connecting to a socket in it.
+  for (const fs::path& path : services(hidden, shown)) add({"--ro-bind", "/dev/null", path.string()});
   if (!setting.hidden_folder.empty()) hide(fs::absolute(setting.hidden_folder).lexically_normal().string());
   if (!setting.writable_folder.empty()) {
     const std::string folder = fs::absolute(setting.writable_folder).lexically_normal().string();
     add({"--bind", folder, folder, "--chdir", folder});
   }
-  // Memory that a program writes into a file system of its own would not count as its memory.
+  // Memory that a program writes into a file system of its own would not count as its memory. /proc has files that root
+  // may write without any capability, like kernel.core_pattern: bubblewrap leaves those of /proc/sys writable.
   for (const std::string& folder : made) add({"--remount-ro", folder});
   add({"--"});
   argv.insert(argv.end(), source.program.begin(), source.program.end());

@@ -24,6 +24,13 @@ void plan_room(const Folder& folder) {
   ASSERT_THAT(planned.out, HasSubstr("sweep: 2 cells in 2 shards"));
 }
 
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
 TEST(SweepVerbs, ShardsThatRunAtOnceMergeToTheRun) {
   const Folder folder;
   plan_room(folder);
@@ -59,6 +66,32 @@ TEST(SweepVerbs, StatusAndMergeNameTheMissingShards) {
   EXPECT_EQ(merged.code, 4);
   EXPECT_THAT(merged.err, HasSubstr("run these shards again: 1\n"));
   EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(SweepVerbs, AProgramThatFillsTheFoldersOfCellsDoesNotEndTheShard) {
+  if (std::system("python3 -c pass >/dev/null 2>&1") != 0) GTEST_SKIP() << "there is no python3";
+  const Folder folder;
+  // Sixty files of a gigabyte without blocks, in each folder that is being written.
+  folder.write("sparse.py", "import os, sys\nsys.path.insert(0, '" + (places::source_dir() / "clients").string() +
+                                "')\nimport scanbench\nclass M:\n    kind, name, version = 'extract', 'm', '1'\n"
+                                "    def __init__(self, params): pass\n    def extract(self, scan):\n"
+                                "        for at, _, _ in os.walk('" +
+                                (folder / "sweep/shards").string() +
+                                "'):\n"
+                                "            for i in range(60 if '/.files' in at else 0):\n"
+                                "                open(f'{at}/{i}.csv', 'w').truncate((1 << 30) - 1)\n"
+                                "        return []\nscanbench.serve(M)\n");
+  folder.write("room.yaml",
+               room_with("metrics:", "  - {name: sparse, extract: {program: [python3, sparse.py]}}\nmetrics:"));
+  ASSERT_EQ(run({"plan", "room.yaml", "--out", "sweep", "--shards", "1"}, {}, folder.path()).code, 0);
+  const auto shard = run({"run", "--plan", "sweep", "--shard", "1", "-q", "--jobs", "1"}, {}, folder.path());
+  EXPECT_EQ(shard.code, 0) << shard.err;
+  const auto merged = run({"merge", "sweep", "--out", "merged", "--cells", "files"}, {}, folder.path());
+  EXPECT_EQ(merged.code, 0) << merged.err;
+  EXPECT_EQ(nlohmann::json::parse(read(folder / "merged/manifest.json")).at("without_sandbox"),
+            nlohmann::json({"extract m of python3 sparse.py, version 1"}));
+  EXPECT_THAT(read(folder / "merged/report.html"), HasSubstr("not in the sandbox: extract m of python3 sparse.py"));
+  EXPECT_EQ(names_in(folder / "merged/cells/room/sparse/1"), names_in(folder / "merged/cells/room/iepf/1"));
 }
 
 TEST(SweepVerbs, RefusalsSayWhatIsAllowed) {

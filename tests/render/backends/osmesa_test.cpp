@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "core/error.hpp"
 
 namespace scanbench::render {
@@ -21,6 +23,12 @@ TEST(OsMesa, NamesThePackageToInstallIfTheLibraryIsMissing) {
 TEST(OsMesa, NamesTheFunctionThatALibraryLacks) {
   EXPECT_THAT([] { OsMesa("libc.so.6"); },
               Throws<ConfigError>(Property(&ConfigError::what, HasSubstr("OSMesaCreateContextExt"))));
+}
+
+TEST(OsMesa, DrawsWithTheDefaultRasterizerWhateverTheEnvironmentSays) {
+  ::setenv("GALLIUM_DRIVER", "softpipe", 1);
+  const OsMesa gl;
+  EXPECT_EQ(std::getenv("GALLIUM_DRIVER"), nullptr);
 }
 
 TEST(OsMesa, OfTheSystemHasAllFunctions) {

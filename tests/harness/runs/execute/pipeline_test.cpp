@@ -49,7 +49,7 @@ class FaultyLine final : public LineExtractor {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     ScanLines result;
     result.labels.assign(static_cast<std::size_t>(scan.beams()), -1);
-    LineFeature line{.segment = {{0, 0}, {1, 0}}, .line = {}, .covariance = {}};
+    LineFeature line{.segment = {{0, 0}, {1, 0}}, .line = {0.0, kPi / 2}, .covariance = {}};
     line.first_beam = 0;
     line.last_beam = scan.beams() - 1;
     switch (params_.fault) {
@@ -95,6 +95,12 @@ class FaultyLine final : public LineExtractor {
       case 14:
         line.line.rho = -1.0;
         break;
+      case 15:
+        line.line.rho += 5.0;  // its segment is 5 m away
+        break;
+      case 16:
+        line.line.rho += 1e-5;  // as a module with numbers of four bytes rounds
+        break;
       default:
         break;
     }
@@ -109,10 +115,10 @@ SCANBENCH_REGISTER(LineExtractor, FaultyLine,
                    {.name = "test_faulty_line", .summary = "of the tests", .reference = "none"});
 
 TEST(Pipeline, RefusesALineThatBreaksTheContract) {
-  for (const std::int64_t fault : {0, 1, 2, 3, 4, 5, 6, 7, 8, 10, 11, 12, 13, 14}) {
+  for (const std::int64_t fault : {0, 1, 2, 3, 4, 5, 6, 7, 8, 10, 11, 12, 13, 14, 15, 16}) {
     SCOPED_TRACE(fault);
     const study::PipelineSpec pipeline = fixtures::extract_with("p", "test_faulty_line", {{"fault", fault}});
-    if (fault == 0) {
+    if (fault == 0 || fault == 16) {
       EXPECT_NO_THROW(run_pipeline(pipeline, recording().observed));
     } else {
       EXPECT_THROW(run_pipeline(pipeline, recording().observed), InvalidResult);

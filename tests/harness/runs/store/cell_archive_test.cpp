@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include <sys/resource.h>
@@ -35,6 +37,18 @@ TEST(CellArchive, FoldersAreReadBackByTheirPart) {
   EXPECT_TRUE(reader.is_whole(first));
   EXPECT_THAT(support::config_refusal([&] { reader.files(first, "cells/room/iepf/2"); }),
               HasSubstr("is called cells/room/iepf/1"));
+}
+
+TEST(CellArchive, AFolderOfMoreBytesThanAllowedIsNotRead) {
+  const support::TemporaryFolder folder;
+  for (const std::string name : {"a.csv", "b.csv"})
+    std::filesystem::resize_file(folder.write(name, ""), std::uint64_t{200} << 30);  // it has no blocks on the disk
+  EXPECT_THAT(support::config_refusal([&] { read_folder(folder.path()); }),
+              HasSubstr("have 400 GiB; allowed in an archive: 2 GiB"));
+  std::filesystem::resize_file(folder.path() / "a.csv", 3);
+  std::filesystem::resize_file(folder.path() / "b.csv", 4);
+  EXPECT_EQ(read_folder(folder.path(), 7).size(), 2u);
+  EXPECT_THROW(read_folder(folder.path(), 6), ConfigError);
 }
 
 TEST(CellArchive, AFolderThatDoesNotFitTheDiskLeavesTheArchiveAsItWas) {
