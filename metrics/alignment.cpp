@@ -93,27 +93,35 @@ class AlignmentErrors : public MetricFamily {
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
     return {
-        {"position_error", "m", lower_is_better, 0.005, "mean position error of the scans"},
-        {"position_error_max", "m", lower_is_better, 0.01, "largest position error of a scan"},
-        {"heading_error", "deg", lower_is_better, 0.1, "mean absolute heading error of the scans"},
-        {"heading_error_max", "deg", lower_is_better, 0.2, "largest absolute heading error of a scan"},
-        share({"placed", "", higher_is_better, 0.02, "share of the scans within within_m and within_deg"}),
-        share({"all_placed", "", higher_is_better, 0.0, "1 if every scan is within within_m and within_deg, else 0"}),
-        {"start_position_error", "m", neither, 0.0, "position_error of the given poses, before any alignment"},
-        {"start_heading_error", "deg", neither, 0.0, "heading_error of the given poses"},
-        {"error_ratio", "", lower_is_better, 0.02,
+        {"position_error", "position error", "m", lower_is_better, 0.005, "mean position error of the scans"},
+        {"position_error_max", "largest position error", "m", lower_is_better, 0.01,
+         "largest position error of a scan"},
+        {"heading_error", "heading error", "deg", lower_is_better, 0.1, "mean absolute heading error of the scans"},
+        {"heading_error_max", "largest heading error", "deg", lower_is_better, 0.2,
+         "largest absolute heading error of a scan"},
+        share({"placed", "scans placed", "", higher_is_better, 0.02,
+               "share of the scans within within_m and within_deg"}),
+        share({"all_placed", "all scans placed", "", higher_is_better, 0.0,
+               "1 if every scan is within within_m and within_deg, else 0"}),
+        {"start_position_error", "position error at the start", "m", neither, 0.0,
+         "position_error of the given poses, before any alignment"},
+        {"start_heading_error", "heading error at the start", "deg", neither, 0.0, "heading_error of the given poses"},
+        {"error_ratio", "position error / at the start", "", lower_is_better, 0.02,
          "position_error / start_position_error; above 1 the alignment made the poses worse"},
-        {"alignment_efficiency", "", lower_is_better, 0.05,
+        {"alignment_efficiency", "alignment MSE / bound", "", lower_is_better, 0.05,
          "geometric mean of alignment_efficiency_position and alignment_efficiency_heading"},
-        {"alignment_efficiency_position", "", lower_is_better, 0.05,
+        {"alignment_efficiency_position", "alignment MSE / bound, position", "", lower_is_better, 0.05,
          "mean squared position error of the scans that the data determine over its mean Cramer-Rao bound, walls "
          "unknown; 1 is the best"},
-        {"alignment_efficiency_heading", "", lower_is_better, 0.05,
+        {"alignment_efficiency_heading", "alignment MSE / bound, heading", "", lower_is_better, 0.05,
          "mean squared heading error of the scans that the data determine over its mean Cramer-Rao bound, walls "
          "unknown; 1 is the best"},
-        {"alignment_bound_position", "m", neither, 0.0, "root of the mean bound of the position"},
-        {"alignment_bound_heading", "deg", neither, 0.0, "root of the mean bound of the heading"},
-        share({"alignment_determined", "", neither, 0.0, "share of the scans that the data determine to max_sigma_m"})};
+        {"alignment_bound_position", "alignment bound, position", "m", neither, 0.0,
+         "root of the mean bound of the position"},
+        {"alignment_bound_heading", "alignment bound, heading", "deg", neither, 0.0,
+         "root of the mean bound of the heading"},
+        share({"alignment_determined", "scans determined", "", neither, 0.0,
+               "share of the scans that the data determine to max_sigma_m"})};
   }
 
   bool applies(const MetricInput& input) const override {

@@ -58,16 +58,17 @@ class Borges2000 : public MetricFamily {
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
     return {
-        {"n_lines", "", lower_is_better, 0.05,
+        {"n_lines", "lines per wall", "", lower_is_better, 0.05,
          "lines that a wall is broken into, mean over the scans in which it has one; subject: the wall, or mean over "
          "walls"},
-        share({"eta", "", higher_is_better, 0.02,
+        share({"eta", "valid lines", "", higher_is_better, 0.02,
                "share of valid lines among a wall's lines, mean over the scans in which it has a line"}),
-        {"eps_rho", "m", lower_is_better, 0.005, "mean absolute error in rho of a wall's valid lines"},
-        {"eps_alpha", "deg", lower_is_better, 0.2, "mean absolute error in alpha of a wall's valid lines"},
-        share({"missed", "", lower_is_better, 0.02,
+        {"eps_rho", "rho error", "m", lower_is_better, 0.005, "mean absolute error in rho of a wall's valid lines"},
+        {"eps_alpha", "alpha error", "deg", lower_is_better, 0.2,
+         "mean absolute error in alpha of a wall's valid lines"},
+        share({"missed", "walls missed", "", lower_is_better, 0.02,
                "share of the scans with enough points on a wall in which it has no line"}),
-        {"spurious", "", lower_is_better, 0.0, "lines without a support point on a wall"}};
+        {"spurious", "spurious lines", "", lower_is_better, 0.0, "lines without a support point on a wall"}};
   }
 
   bool applies(const MetricInput& input) const override { return has_beam_truth(input); }

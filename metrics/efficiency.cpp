@@ -85,14 +85,14 @@ class Efficiency : public MetricFamily {
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
     return {
-        {"efficiency_offset", "", target, 0.05,
+        {"efficiency_offset", "MSE / bound, offset", "", target, 0.05,
          "mean squared error of the offset at the true line's midpoint over its mean Cramer-Rao bound; 1 is the best",
          false, 1.0},
-        {"efficiency_angle", "", target, 0.05,
+        {"efficiency_angle", "MSE / bound, angle", "", target, 0.05,
          "mean squared error of the angle over its mean Cramer-Rao bound; 1 is the best", false, 1.0},
-        {"bound_offset", "m", neither, 0.0, "root of the mean bound of the offset"},
-        {"bound_angle", "deg", neither, 0.0, "root of the mean bound of the angle"},
-        {"nees", "", target, 0.1,
+        {"bound_offset", "bound, offset", "m", neither, 0.0, "root of the mean bound of the offset"},
+        {"bound_angle", "bound, angle", "deg", neither, 0.0, "root of the mean bound of the angle"},
+        {"nees", "NEES", "", target, 0.1,
          "mean of e' C^-1 e over lines with a covariance C; honest covariances give 2, overconfident ones more; "
          "ci: the band that contains it with probability 95 % if they are honest",
          false, 2.0}};

@@ -31,13 +31,14 @@ class MapGrowth : public MetricFamily {
 
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
-    return {{"grown_lines", "", neither, 0.0, "lines of the map after the last scan"},
-            {"grown_end_points", "", neither, 0.0, "their end points, two a line"},
-            {"t_map", "ms", lower_is_better, 0.0, "median CPU time of the mapper per scan", true},
-            {"t_map_growth", "", lower_is_better, 0.0,
-             "median CPU time of the mapper per scan in the second half of the scans over that in the first half: 1 if "
-             "it does not grow",
-             true}};
+    return {
+        {"grown_lines", "map lines at the end", "", neither, 0.0, "lines of the map after the last scan"},
+        {"grown_end_points", "map end points at the end", "", neither, 0.0, "their end points, two a line"},
+        {"t_map", "mapping time per scan", "ms", lower_is_better, 0.0, "median CPU time of the mapper per scan", true},
+        {"t_map_growth", "growth of mapping time", "", lower_is_better, 0.0,
+         "median CPU time of the mapper per scan in the second half of the scans over that in the first half: 1 if "
+         "it does not grow",
+         true}};
   }
 
   bool applies(const MetricInput& input) const override {

@@ -33,19 +33,23 @@ class MapPoints : public MetricFamily {
     using enum Direction;
     // A small map is not better: one that merges different walls or misses some is smaller than the right one, and the
     // right number of lines is not known without truth (lines_per_wall of map_truth compares with it).
-    return {
-        {"D_S", "m", neither, 0.0005, "mean distance of inlying scan points to the nearest line of any scan"},
-        {"D_M", "m", lower_is_better, 0.0005, "mean distance of inlying scan points to the nearest line of the map"},
-        share({"inliers", "", neither, 0.005,
-               "share of the scan points that D_S and D_M average: those near a line of the scans"}),
-        {"compression", "", neither, 0.5, "numbers in the scan points (2 each) per number in the map (4 per line)"},
-        {"compression_bytes", "", neither, 0.5,
-         "bytes of the ranges and poses as recorded per byte of the map's end points"},
-        {"scan_points", "", neither, 0.0, "valid scan points"},
-        {"scan_lines", "", neither, 0.0, "lines of all scans"},
-        {"clusters1", "", neither, 0.0, "clusters of the first phase that contain the largest part of some line"},
-        {"clusters2", "", neither, 0.0, "clusters of the second phase that contain the largest part of some line"},
-        {"map_lines", "", neither, 0.5, "lines of the map"}};
+    return {{"D_S", "distance to scan lines", "m", neither, 0.0005,
+             "mean distance of inlying scan points to the nearest line of any scan"},
+            {"D_M", "distance to map lines", "m", lower_is_better, 0.0005,
+             "mean distance of inlying scan points to the nearest line of the map"},
+            share({"inliers", "inlying points", "", neither, 0.005,
+                   "share of the scan points that D_S and D_M average: those near a line of the scans"}),
+            {"compression", "compression", "", neither, 0.5,
+             "numbers in the scan points (2 each) per number in the map (4 per line)"},
+            {"compression_bytes", "compression in bytes", "", neither, 0.5,
+             "bytes of the ranges and poses as recorded per byte of the map's end points"},
+            {"scan_points", "scan points", "", neither, 0.0, "valid scan points"},
+            {"scan_lines", "scan lines", "", neither, 0.0, "lines of all scans"},
+            {"clusters1", "clusters, phase 1", "", neither, 0.0,
+             "clusters of the first phase that contain the largest part of some line"},
+            {"clusters2", "clusters, phase 2", "", neither, 0.0,
+             "clusters of the second phase that contain the largest part of some line"},
+            {"map_lines", "map lines", "", neither, 0.5, "lines of the map"}};
   }
 
   bool applies(const MetricInput& input) const override {

@@ -77,25 +77,28 @@ class MapTruth : public MetricFamily {
     using enum Direction;
     // map_offset and map_angle have no direction: they are means over the lines of the map, and a map that misses the
     // difficult walls has smaller errors than a complete one.
-    return {share({"covered_5cm", "", higher_is_better, 0.005,
+    return {share({"covered_5cm", "walls covered within 5 cm", "", higher_is_better, 0.005,
                    "share of the visible wall length within 5 cm of a map line of its direction"}),
-            share({"covered_10cm", "", higher_is_better, 0.005,
+            share({"covered_10cm", "walls covered within 10 cm", "", higher_is_better, 0.005,
                    "share of the visible wall length within 10 cm of a map line of its direction"}),
-            share({"true_share_5cm", "", higher_is_better, 0.005, "share of the map's length within 5 cm of a wall"}),
-            share({"true_share_10cm", "", higher_is_better, 0.005, "share of the map's length within 10 cm of a wall"}),
-            {"lines_per_wall", "", target, 0.02,
+            share({"true_share_5cm", "map within 5 cm of walls", "", higher_is_better, 0.005,
+                   "share of the map's length within 5 cm of a wall"}),
+            share({"true_share_10cm", "map within 10 cm of walls", "", higher_is_better, 0.005,
+                   "share of the map's length within 10 cm of a wall"}),
+            {"lines_per_wall", "map lines per wall", "", target, 0.02,
              "map lines that represent a visible wall, per visible wall; 1 is the best", false, 1.0},
-            {"duplicates", "", lower_is_better, 0.0,
+            {"duplicates", "duplicate lines", "", lower_is_better, 0.0,
              "map lines that repeat longer lines of the same wall over more than half of their length"},
-            {"fragments", "", lower_is_better, 0.0, "lines of a wall in excess of one for each visible part of it"},
-            {"over_merged", "", lower_is_better, 0.0,
+            {"fragments", "fragments", "", lower_is_better, 0.0,
+             "lines of a wall in excess of one for each visible part of it"},
+            {"over_merged", "over-merged lines", "", lower_is_better, 0.0,
              "map lines with members, a fifth or more each, from two parallel walls on different lines"},
-            {"unassigned", "", lower_is_better, 0.0, "map lines that represent no wall"},
-            {"map_offset", "m", neither, 0.001,
+            {"unassigned", "lines on no wall", "", lower_is_better, 0.0, "map lines that represent no wall"},
+            {"map_offset", "map offset error", "m", neither, 0.001,
              "distance of map lines' midpoints from their wall's line, mean weighted by the lines' lengths"},
-            {"map_angle", "deg", neither, 0.05,
+            {"map_angle", "map angle error", "deg", neither, 0.05,
              "angle between map lines and their walls, mean weighted by the lines' lengths"},
-            {"visible_m", "m", neither, 0.0, "visible length of all walls"}};
+            {"visible_m", "visible wall length", "m", neither, 0.0, "visible length of all walls"}};
   }
 
   bool applies(const MetricInput& input) const override { return input.result.has_map && knows_walls(input); }

@@ -33,7 +33,8 @@ enum class Direction { lower_is_better, higher_is_better, target, neither };
 /// What a metric means, for tables, docs and `compare`.
 struct MetricDescription {
   std::string metric;
-  std::string unit;
+  std::string label;  ///< short words for heads of tables and axes of figures, without the unit
+  std::string unit;   ///< of its values, in files too; pages may scale it
   Direction direction = Direction::neither;
   double tolerance = 0.0;  ///< absolute change, in the metric's unit, that `compare` accepts
   std::string doc;

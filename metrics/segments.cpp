@@ -43,28 +43,30 @@ class Segments : public MetricFamily {
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
     return {
-        share({"precision", "", higher_is_better, 0.005, "true / (true + false + split)"}),
-        share({"recall", "", higher_is_better, 0.005, "true / (true + missed)"}),
-        share({"f1", "", higher_is_better, 0.005, "harmonic mean of precision and recall"}),
-        share({"precision_strict", "", higher_is_better, 0.005,
+        share({"precision", "precision", "", higher_is_better, 0.005, "true / (true + false + split)"}),
+        share({"recall", "recall", "", higher_is_better, 0.005, "true / (true + missed)"}),
+        share({"f1", "F1", "", higher_is_better, 0.005, "harmonic mean of precision and recall"}),
+        share({"precision_strict", "strict precision", "", higher_is_better, 0.005,
                "true / (true + false + split), where right lines on walls too small to be true lines count as false"}),
-        share({"f1_strict", "", higher_is_better, 0.005, "harmonic mean of precision_strict and recall"}),
-        share({"split", "", lower_is_better, 0.005,
+        share({"f1_strict", "strict F1", "", higher_is_better, 0.005, "harmonic mean of precision_strict and recall"}),
+        share({"split", "split share", "", lower_is_better, 0.005,
                "share of lines that repeat a true line: split / (true + false + split)"}),
-        share({"merged", "", lower_is_better, 0.005,
+        share({"merged", "merged share", "", lower_is_better, 0.005,
                "share of lines that cover more than half of two true lines of different walls"}),
-        {"sigma_offset", "m", lower_is_better, 0.001,
+        {"sigma_offset", "offset error", "m", lower_is_better, 0.001,
          "root mean square distance of the midpoints of matched lines from their true lines"},
-        {"sigma_angle", "deg", lower_is_better, 0.05,
+        {"sigma_angle", "angle error", "deg", lower_is_better, 0.05,
          "root mean square angle between matched lines and their true lines"},
-        share({"overlap", "", higher_is_better, 0.005,
+        share({"overlap", "overlap", "", higher_is_better, 0.005,
                "intersection over union of the extents, mean over matched lines"}),
-        {"n_true", "", neither, 0.0, "found lines matched with a true line"},
-        {"n_false", "", neither, 0.0, "found lines that match no wall"},
-        {"n_small", "", neither, 0.0, "right lines on walls too small to be true lines: neither true nor false"},
-        {"n_missed", "", neither, 0.0, "true lines without a match"},
-        {"n_split", "", neither, 0.0, "further found lines of a matched true line"},
-        {"n_merged", "", neither, 0.0, "found lines that cover more than half of two true lines of different walls"}};
+        {"n_true", "true lines", "", neither, 0.0, "found lines matched with a true line"},
+        {"n_false", "false lines", "", neither, 0.0, "found lines that match no wall"},
+        {"n_small", "lines on small walls", "", neither, 0.0,
+         "right lines on walls too small to be true lines: neither true nor false"},
+        {"n_missed", "missed lines", "", neither, 0.0, "true lines without a match"},
+        {"n_split", "split lines", "", neither, 0.0, "further found lines of a matched true line"},
+        {"n_merged", "merged lines", "", neither, 0.0,
+         "found lines that cover more than half of two true lines of different walls"}};
   }
 
   bool applies(const MetricInput& input) const override { return has_beam_truth(input); }

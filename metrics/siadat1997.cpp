@@ -79,23 +79,28 @@ class Siadat1997 : public MetricFamily {
     using enum Direction;
     // Fewer segments are not better: an extractor that finds one line per scan has the fewest and the smallest polygon.
     return {
-        {"s_min", "", neither, 0.5, "fewest segments of a scan; single points count"},
-        {"s_mean", "", neither, 0.5, "segments per scan"},
-        {"s_max", "", neither, 0.5, "most segments of a scan"},
-        {"d_mean", "m", lower_is_better, 0.001,
+        {"s_min", "fewest segments of a scan", "", neither, 0.5, "fewest segments of a scan; single points count"},
+        {"s_mean", "segments per scan", "", neither, 0.5, "segments per scan"},
+        {"s_max", "most segments of a scan", "", neither, 0.5, "most segments of a scan"},
+        {"d_mean", "point distance, by segment", "m", lower_is_better, 0.001,
          "mean distance of points from their segment's line, averaged over a segment, a scan's segments, the scans"},
-        {"d_max", "m", lower_is_better, 0.002,
+        {"d_max", "largest point distance, by segment", "m", lower_is_better, 0.002,
          "largest distance of a point from its segment's line, averaged over a scan's segments, the scans"},
-        {"d_mean_pts", "m", lower_is_better, 0.001,
+        {"d_mean_pts", "point distance, by point", "m", lower_is_better, 0.001,
          "mean distance of points from their segment's line, averaged over all points of a scan, the scans"},
-        {"d_max_scan", "m", lower_is_better, 0.005, "largest distance in a scan, mean over the scans"},
-        {"t_pre", "ms", lower_is_better, 0.0, "CPU time per scan before segmentation", true},
-        {"t_seg", "ms", lower_is_better, 0.0, "CPU time per scan of segmentation, searches included", true},
-        {"t_post", "ms", lower_is_better, 0.0, "CPU time per scan of all that follows: fits, merges, selection", true},
-        {"t_total", "ms", lower_is_better, 0.0,
+        {"d_max_scan", "largest point distance, by scan", "m", lower_is_better, 0.005,
+         "largest distance in a scan, mean over the scans"},
+        {"t_pre", "time before segmentation", "ms", lower_is_better, 0.0, "CPU time per scan before segmentation",
+         true},
+        {"t_seg", "segmentation time", "ms", lower_is_better, 0.0,
+         "CPU time per scan of segmentation, searches included", true},
+        {"t_post", "time after segmentation", "ms", lower_is_better, 0.0,
+         "CPU time per scan of all that follows: fits, merges, selection", true},
+        {"t_total", "total time", "ms", lower_is_better, 0.0,
          "CPU time per scan before segmentation, of it and after it: t_pre + t_seg + t_post", true},
-        {"polygon_bytes", "B", neither, 0.0, "size of a scan's polygon, 48 bytes per segment"},
-        {"compression", "", neither, 0.0, "size of the scans' ranges, 32 bits per beam, over that of their polygons"}};
+        {"polygon_bytes", "polygon size", "B", neither, 0.0, "size of a scan's polygon, 48 bytes per segment"},
+        {"compression", "compression of polygons", "", neither, 0.0,
+         "size of the scans' ranges, 32 bits per beam, over that of their polygons"}};
   }
 
   bool applies(const MetricInput& input) const override {

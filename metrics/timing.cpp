@@ -41,9 +41,12 @@ class Timing : public MetricFamily {
   explicit Timing(const Params&) {}
 
   std::vector<MetricDescription> describe() const override {
-    return {{"t_scan", "us", Direction::lower_is_better, 0.0, "median CPU time of extraction per scan", true},
-            {"t_match", "us", Direction::lower_is_better, 0.0, "median CPU time of matching per scan", true},
-            {"t_align", "us", Direction::lower_is_better, 0.0, "CPU time of the alignment of all scans", true}};
+    return {{"t_scan", "time per scan", "us", Direction::lower_is_better, 0.0, "median CPU time of extraction per scan",
+             true},
+            {"t_match", "time per match", "us", Direction::lower_is_better, 0.0, "median CPU time of matching per scan",
+             true},
+            {"t_align", "alignment time", "us", Direction::lower_is_better, 0.0,
+             "CPU time of the alignment of all scans", true}};
   }
 
   bool applies(const MetricInput& input) const override {

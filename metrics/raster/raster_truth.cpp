@@ -42,19 +42,20 @@ class RasterTruth : public MetricFamily {
 
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
-    return {share({"raster_precision", "", higher_is_better, 0.005,
+    return {share({"raster_precision", "raster precision", "", higher_is_better, 0.005,
                    "share of the pixels of found lines within tolerance_m of a pixel of a wall"}),
-            share({"raster_recall", "", higher_is_better, 0.005,
+            share({"raster_recall", "raster recall", "", higher_is_better, 0.005,
                    "share of the pixels of visible walls within tolerance_m of a pixel of a found line"}),
-            share({"raster_f1", "", higher_is_better, 0.005, "harmonic mean of raster_precision and raster_recall"}),
-            {"raster_chamfer", "m", lower_is_better, 0.002,
+            share({"raster_f1", "raster F1", "", higher_is_better, 0.005,
+                   "harmonic mean of raster_precision and raster_recall"}),
+            {"raster_chamfer", "chamfer distance", "m", lower_is_better, 0.002,
              "mean distance from found pixels to walls and mean distance from visible pixels to found ones, averaged"},
-            {"raster_hausdorff95", "m", lower_is_better, 0.01,
+            {"raster_hausdorff95", "Hausdorff distance, 95 %", "m", lower_is_better, 0.01,
              "distance within which 95 % of the found pixels have a pixel of a wall, and 95 % of the visible pixels of "
              "walls a found one"},
-            {"raster_hausdorff", "m", lower_is_better, 0.02,
+            {"raster_hausdorff", "Hausdorff distance", "m", lower_is_better, 0.02,
              "largest distance from a found pixel to a wall, or from a visible pixel of a wall to a found one"},
-            {"raster_pixels", "", neither, 0.0, "pixels of the visible parts of the walls"}};
+            {"raster_pixels", "wall pixels", "", neither, 0.0, "pixels of the visible parts of the walls"}};
   }
 
   /// Loading the library takes longer than most cells.

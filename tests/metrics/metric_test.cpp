@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <regex>
+#include <string>
 
 #include "core/registry.hpp"
 #include "core/special_values.hpp"
@@ -14,7 +16,7 @@ namespace scanbench::metrics {
 namespace {
 
 MetricDescription with(Direction direction, double target = 0.0) {
-  return {.metric = "m", .unit = "", .direction = direction, .doc = "", .target = target};
+  return {.metric = "m", .label = "m", .unit = "", .direction = direction, .doc = "", .target = target};
 }
 
 TEST(Better, FollowsTheDirection) {
@@ -68,6 +70,19 @@ TEST(Direction, IsNotLowerForWhatAMethodThatFindsLessHasLessOf) {
   EXPECT_TRUE(better(described(map_truth, "lines_per_wall"), 1.0, 0.5));
   EXPECT_FALSE(better(described(map_truth, "map_offset"), 0.0, 0.01));
   EXPECT_FALSE(better(described(siadat1997, "s_mean"), 1, 4));
+}
+
+// A head or an axis has room for a few words, and a reader must know which metric it is.
+TEST(Label, OfEveryMetricIsShortUniqueAndInWords) {
+  std::map<std::string, std::string> metric_of_label;
+  for (const auto& [name, entry] : Registry<MetricFamily>::all())
+    for (const MetricDescription& d : entry.make({})->describe()) {
+      EXPECT_FALSE(d.label.empty()) << d.metric;
+      EXPECT_LE(d.label.size(), 36u) << d.metric;
+      EXPECT_EQ(d.label.find_first_of("_[]"), std::string::npos) << d.metric << ": " << d.label;
+      EXPECT_EQ(metric_of_label.emplace(d.label, d.metric).first->second, d.metric) << d.label;
+    }
+  EXPECT_GT(metric_of_label.size(), 100u);
 }
 
 TEST(Direction, HasATargetOnlyWhereItIsTarget) {

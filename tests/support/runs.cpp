@@ -202,9 +202,10 @@ class TestMetrics final : public metrics::MetricFamily {
   explicit TestMetrics(const Params& params) : params_(params) {}
   std::vector<metrics::MetricDescription> describe() const override {
     using metrics::Direction;
-    return {{"test_unlabelled", "beams", Direction::lower_is_better, 1.0, "beams without a line", false},
-            {"test_lines", "", Direction::neither, 0.0, "lines", false},
-            {"test_undefined", "m", Direction::lower_is_better, 0.0, "never defined", false}};
+    return {{"test_unlabelled", "unlabelled beams", "beams", Direction::lower_is_better, 1.0, "beams without a line",
+             false},
+            {"test_lines", "lines", "", Direction::neither, 0.0, "lines", false},
+            {"test_undefined", "undefined value", "m", Direction::lower_is_better, 0.0, "never defined", false}};
   }
   bool applies(const metrics::MetricInput& input) const override { return input.truth != nullptr; }
   std::vector<metrics::MetricRow> evaluate(const metrics::MetricInput& input) const override {
