@@ -200,7 +200,7 @@ class MainDirections : public Figure {
     }
     panel.items.emplace_back(std::move(rays));
     panel.items.emplace_back(Points{.points = {pose.translation()}, .color = kPathColor, .size_pt = kPlaceSizePt});
-    panel.title = fmt::format("scan {}: {} deg", frame, text.empty() ? "no" : text);
+    panel.title = text.empty() ? fmt::format("scan {}: no direction", frame) : fmt::format("scan {}: {}°", frame, text);
     set_view(ends_of(map), ends_of(true_walls(input.recording, {})), panel);
     return panel;
   }
@@ -213,7 +213,7 @@ class MainDirections : public Figure {
 
   static NamedScene over_time(const FigureInput& input, const NamedResult& shown, const History& history) {
     Scene scene{.width_in = kDoubleColumnIn, .title = input.title + ": main directions over time"};
-    Panel panel{.x = {.label = "scan"}, .y = {.label = "direction [deg]"}, .equal_aspect = false};
+    Panel panel{.x = {.label = "scan"}, .y = {.label = "direction [°]"}, .equal_aspect = false};
     Points strongest{.color = kBlue, .size_pt = 1.6}, others{.color = kVermillion, .size_pt = 1.6};
     for (const auto& [frame, angles] : history.directions)
       for (std::size_t k = 0; k < angles.size(); ++k)
