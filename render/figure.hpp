@@ -78,8 +78,8 @@ inline constexpr std::string_view kScanTime = "scan_time";
 /// The metrics of one pipeline over all seeds of a run, with its parameters.
 struct MeasuredPipeline {
   std::string pipeline;
-  std::map<std::string, ParamSet> slots;               ///< "merge mean_shift" and the like, with all parameters
-  std::map<std::string, std::string> units;            ///< of parameters, "merge.sigma_m" and the like
+  std::map<std::string, ParamSet> slots;     ///< "merge mean_shift" and the like, with all parameters
+  std::map<std::string, std::string> units;  ///< of parameters, "merge.sigma_m" and the like
   /// A finite value per seed: of the subject "all", else "mean", else the mean over the subjects.
   std::map<std::string, std::vector<double>> metrics;
   /// The same with a value for every seed of the scenario in its order: NaN where it is undefined or the cell failed.

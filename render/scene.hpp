@@ -106,8 +106,8 @@ using Item = std::variant<Lines, Polyline, Points, Polygon, Ellipse, Text, Arrow
 
 struct Axis {
   std::string label{};  ///< "position error", or with a unit that does not change: "x [m]"
-  /// Of the data: "m", "us", "deg". The numbers may be written in another one (layout/shown_unit.hpp), which then follows
-  /// the label: "position error [mm]".
+  /// Of the data: "m", "us", "deg". The numbers may be written in another one (layout/shown_unit.hpp), which then
+  /// follows the label: "position error [mm]".
   std::string unit{};
   std::optional<std::pair<double, double>> range{};     ///< absent: from the items, with a margin
   bool log = false;                                     ///< decades; values <= 0 are left out

@@ -68,8 +68,7 @@ void print_drawn(const std::vector<results::FigureFile>& drawn, const fs::path& 
 
 /// A catalogue says for each figure which scenario, pipelines and scan it shows.
 int gallery(const FiguresVerbOptions& given, const std::vector<std::string>& argv) {
-  if (!given.files.empty() || !given.figures.pipelines.empty() || !given.figures.figures.empty() ||
-      given.figures.frame)
+  if (!given.files.empty() || !given.figures.pipelines.empty() || !given.figures.figures.empty() || given.figures.frame)
     throw ConfigError("--with, --figure, --pipelines and --frame are for the figures of a run; " + given.run +
                       " is a catalogue, which names them itself");
   results::FigureOptions figures = figure_options(given);
@@ -152,9 +151,10 @@ void add_figures(CommandLine& line) {
       "-o,--out", options->out,
       "an own folder for the figures (default: RUN/figures, which the report shows; of a catalogue out/<its name>)");
   add_style_options(verb, *options);
-  verb.option("--figure", options->figures.figures,
-              "only these figures, separated by commas, whether or not the scenarios list them (scanbench list figures); "
-              "the folder keeps its others")
+  verb.option(
+          "--figure", options->figures.figures,
+          "only these figures, separated by commas, whether or not the scenarios list them (scanbench list figures); "
+          "the folder keeps its others")
       .separated_by_commas();
   verb.option("--pipelines", options->figures.pipelines, "only these pipelines, separated by commas")
       .separated_by_commas();

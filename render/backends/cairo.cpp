@@ -1,5 +1,5 @@
-// SVG and PDF backend through Cairo. Text has one symbol per glyph in SVG, below transparent text, and an embedded subset
-// in PDF, so that a file looks the same if the font is not installed.
+// SVG and PDF backend through Cairo. Text has one symbol per glyph in SVG, below transparent text, and an embedded
+// subset in PDF, so that a file looks the same if the font is not installed.
 #include "render/backends/cairo.hpp"
 
 #include <cairo-pdf.h>

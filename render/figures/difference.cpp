@@ -40,8 +40,8 @@ class Difference : public Figure {
     std::vector<Segment> walls = true_walls_of(input);
     for (const NamedResult* named : shown) scene.panels.push_back(panel_of(*named, walls, shown.size()));
     const PixelDifference& first = *shown.front()->difference;
-    for (const auto& [text, stroke] :
-         {std::pair("found and true", kRightStroke), {"missed", kMissedStroke}, {"false", kWrongStroke}})
+    for (const auto& [text, stroke] : {std::pair("found and true", kRightStroke), std::pair("missed", kMissedStroke),
+                                       std::pair("false", kWrongStroke)})
       if (draws(scene, stroke)) scene.legend.push_back({.text = text, .stroke = stroke});
     return {
         {"difference",

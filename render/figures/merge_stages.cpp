@@ -1,5 +1,5 @@
-// Figures 6 and 9 of Lakaemper 2009: the segments given, and the merged ones with those that cleaning erased; below them
-// a detail, because both look alike on a map of a building.
+// Figures 6 and 9 of Lakaemper 2009: the segments given, and the merged ones with those that cleaning erased; below
+// them a detail, because both look alike on a map of a building.
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -55,8 +55,8 @@ Stage inside(const Window& window, const Stage& stage) {
   return part;
 }
 
-/// The part that is magnified, of the shape of the whole map: around most erased lines, or most given ones, and so small
-/// that lines beside each other can be seen as such.
+/// The part that is magnified, of the shape of the whole map: around most erased lines, or most given ones, and so
+/// small that lines beside each other can be seen as such.
 std::optional<Window> detail_of(const Stage& before, const Stage& after, double aspect) {
   const std::vector<Segment>& around = after.erased.empty() ? before.lines : after.erased;
   std::vector<Vec2> places;
@@ -120,8 +120,8 @@ class MergeStages : public Figure {
     }
     add_legend_entries(scene);
     return {{"merge_stages",
-             fmt::format("{}: a) {} given to {} and b) {} in the map{}; c) and d) the framed part of both.", input.title,
-                         counted(before.lines.size(), "line"), both.named->pipeline,
+             fmt::format("{}: a) {} given to {} and b) {} in the map{}; c) and d) the framed part of both.",
+                         input.title, counted(before.lines.size(), "line"), both.named->pipeline,
                          counted(after.lines.size(), "line"), of_merging),
              std::move(scene)}};
   }
@@ -158,9 +158,9 @@ class MergeStages : public Figure {
     if (std::ranges::any_of(scene.panels, has_points))
       scene.legend.push_back(
           {.text = "scan points", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.0});
-    for (const auto& [text, stroke] : {std::pair("lines given", kStageGivenStroke),
-                                       {"lines of the map", kStageMergedStroke},
-                                       {"erased by cleaning", kStageErasedStroke}})
+    for (const auto& [text, stroke] :
+         {std::pair("lines given", kStageGivenStroke), std::pair("lines of the map", kStageMergedStroke),
+          std::pair("erased by cleaning", kStageErasedStroke)})
       if (draws(scene, stroke)) scene.legend.push_back({.text = text, .stroke = stroke});
   }
 

@@ -99,9 +99,7 @@ class Sweep : public Figure {
       scene.legend.push_back({.text = "smallest to largest", .fill = lighten(kGrey, 0.7)});
       over_seeds = fmt::format(", mean over {} seeds and band between the smallest and the largest value", seeds);
     }
-    return {{"sweep",
-             fmt::format("{}: {} against {}{}.", input.title, words, against, over_seeds),
-             std::move(scene)}};
+    return {{"sweep", fmt::format("{}: {} against {}{}.", input.title, words, against, over_seeds), std::move(scene)}};
   }
 
  private:

@@ -49,9 +49,7 @@ class AlignmentMoves final : public FilmKind {
   using Params = NoParams;
   explicit AlignmentMoves(const Params&) {}
 
-  std::vector<std::string> trace_rows() const override {
-    return keys_of_iterations();
-  }
+  std::vector<std::string> trace_rows() const override { return keys_of_iterations(); }
 
   std::optional<Film> make(const FigureInput& input, std::size_t most) const override {
     if (input.results.empty()) return std::nullopt;

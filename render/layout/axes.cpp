@@ -14,8 +14,8 @@ namespace {
 
 constexpr Color kAxis{70, 70, 70};
 constexpr Color kGridLine{228, 228, 228};
-constexpr int kLabelLines = 3;         // at most
-constexpr double kLabelHeight = 1.2;   // of a further line
+constexpr int kLabelLines = 3;          // at most
+constexpr double kLabelHeight = 1.2;    // of a further line
 constexpr double kLabelOverhang = 2.0;  // an upright label may be longer than the box is high
 
 std::vector<Tick> round_ticks_of(const Axis& axis, double low, double high, int count) {

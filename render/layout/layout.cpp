@@ -115,7 +115,8 @@ class Composer {
     for (const Tick& t : place(i).x_ticks) {
       const double x = place(i).to_device({t.value, place(i).y_min}).x();
       const double half = 0.5 * Font::get().width_em(t.label) * em_;
-      beyond = {std::max(beyond.first, place(i).box.x0 - x + half), std::max(beyond.second, x + half - place(i).box.x1)};
+      beyond = {std::max(beyond.first, place(i).box.x0 - x + half),
+                std::max(beyond.second, x + half - place(i).box.x1)};
     }
     return beyond;
   }
@@ -267,11 +268,11 @@ class Composer {
   const Scene& scene_;
   double em_;
   int count_, columns_, rows_;
-  std::vector<std::string> title_;        ///< of the scene, line by line
-  std::vector<std::size_t> title_lines_;  ///< most lines of each panel's title so far
+  std::vector<std::string> title_;              ///< of the scene, line by line
+  std::vector<std::size_t> title_lines_;        ///< most lines of each panel's title so far
   std::vector<std::size_t> x_lines_, y_lines_;  ///< most lines of the labels of each panel's axes so far
   std::vector<double> widest_label_;            ///< of each panel's y axis so far [pt]
-  std::vector<PanelLayout> natural_;      ///< ranges before they grow to fill their boxes
+  std::vector<PanelLayout> natural_;            ///< ranges before they grow to fill their boxes
   ScaleBar bar_;
   LegendRoom legend_room_;
   Layout out_;

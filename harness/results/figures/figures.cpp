@@ -159,7 +159,8 @@ std::vector<FigureFile> draw_run_wide_figures(const runs::RunStore& store,
     const auto figure = figure_of(choice);
     const auto scenes = figure->draw(input);
     const std::string owner = scenarios.front().name;  // the report shows it there
-    if (scenes.empty()) files.push_back({owner, "", choice.module + " is not drawn: " + why_not_drawn(*figure, input), choice.module});
+    if (scenes.empty())
+      files.push_back({owner, "", choice.module + " is not drawn: " + why_not_drawn(*figure, input), choice.module});
     for (const auto& drawn : scenes) {
       const auto taken = [&](const std::string& name) {
         return std::ranges::find(files, name, &FigureFile::name) != files.end();
@@ -248,10 +249,8 @@ void write_figure(const fs::path& folder, const std::string& name, const render:
 void save_figure_index(const fs::path& folder, const std::vector<FigureFile>& figures) {
   auto list = nlohmann::ordered_json::array();
   for (const auto& figure : figures)
-    list.push_back({{"scenario", figure.scenario},
-                    {"name", figure.name},
-                    {"figure", figure.figure},
-                    {"caption", figure.caption}});
+    list.push_back(
+        {{"scenario", figure.scenario}, {"name", figure.name}, {"figure", figure.figure}, {"caption", figure.caption}});
   io::make_folders(folder);
   io::write_file_atomically(folder / kIndexFile, io::json_text(list) + "\n");
 }

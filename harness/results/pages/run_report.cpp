@@ -142,7 +142,8 @@ void draw_run_figures(const fs::path& run, const std::vector<study::Scenario>& s
   const runs::RunStore store(run);
   std::vector<FigureFile> figures;
   const auto benchmark = runs::load_benchmark(run, scenarios);
-  if (benchmark && options.figures.empty()) figures = draw_benchmark_figures(store, scenarios, *benchmark, options, progress);
+  if (benchmark && options.figures.empty())
+    figures = draw_benchmark_figures(store, scenarios, *benchmark, options, progress);
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     const auto part = [&](double share, const std::string& what) {
       if (progress) progress((static_cast<double>(i) + share) / static_cast<double>(scenarios.size()), what);

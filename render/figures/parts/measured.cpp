@@ -93,7 +93,8 @@ std::optional<double> cost_of(const FigureInput& input, const std::string& metri
 }
 
 std::string no_value_of(const std::string& metric) {
-  if (metric.empty()) return "no pipeline has a value of a metric by which reports rank; the figure's parameters name one";
+  if (metric.empty())
+    return "no pipeline has a value of a metric by which reports rank; the figure's parameters name one";
   return fmt::format("no pipeline has a value of the metric {}", metric);
 }
 

@@ -41,10 +41,11 @@ class AccuracyTime : public Figure {
     std::string metric;
     std::string time{kScanTime};
     static auto fields() {
-      return std::tuple{field("metric", &Params::metric, kRankedMetricDoc),
-                        field("time", &Params::time,
-                              "scan_time, the CPU time of all stages for one scan, or a metric of time: t_scan, t_match, "
-                              "t_align, t_total")};
+      return std::tuple{
+          field("metric", &Params::metric, kRankedMetricDoc),
+          field("time", &Params::time,
+                "scan_time, the CPU time of all stages for one scan, or a metric of time: t_scan, t_match, "
+                "t_align, t_total")};
     }
   };
   explicit AccuracyTime(const Params& params) : params_(params) {}
@@ -67,10 +68,8 @@ class AccuracyTime : public Figure {
     for (const PlacedPipeline& p : placed) names.push_back(p.name);
     const std::vector<MethodStyle> styles = method_styles(names);
 
-    Panel panel{.x = metric_axis(input, params_.time),
-                .y = metric_axis(input, metric),
-                .equal_aspect = false,
-                .items = {}};
+    Panel panel{
+        .x = metric_axis(input, params_.time), .y = metric_axis(input, metric), .equal_aspect = false, .items = {}};
     panel.x.log = true;
     const std::vector<PlacedPipeline> front = front_of(placed);
     panel.items.emplace_back(stairs(front));
@@ -99,16 +98,16 @@ class AccuracyTime : public Figure {
     const std::size_t seeds = most_seeds(input, metric);
     std::string names_of_front;
     for (const PlacedPipeline& p : front) names_of_front += (names_of_front.empty() ? "" : ", ") + p.name;
-    return {
-        {"accuracy_time",
-         fmt::format("{}: {} against {}{}. No pipeline is better in one of both and as good in the other than one "
-                     "of the Pareto front: {}.",
-                     input.title, metric_words(input, metric), metric_words(input, params_.time),
-                     seeds > 1 ? fmt::format(", means over {} seeds with {}", seeds,
-                                             has_ranges(input, metric) ? "the range of their values" : "their 95 % intervals")
-                               : "",
-                     names_of_front),
-         std::move(scene)}};
+    return {{"accuracy_time",
+             fmt::format("{}: {} against {}{}. No pipeline is better in one of both and as good in the other than one "
+                         "of the Pareto front: {}.",
+                         input.title, metric_words(input, metric), metric_words(input, params_.time),
+                         seeds > 1 ? fmt::format(", means over {} seeds with {}", seeds,
+                                                 has_ranges(input, metric) ? "the range of their values"
+                                                                           : "their 95 % intervals")
+                                   : "",
+                         names_of_front),
+             std::move(scene)}};
   }
 
  private:

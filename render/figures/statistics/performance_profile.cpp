@@ -40,9 +40,7 @@ class PerformanceProfile : public Figure {
  public:
   struct Params {
     std::string metric;
-    static auto fields() {
-      return std::tuple{field("metric", &Params::metric, kRankedMetricDoc)};
-    }
+    static auto fields() { return std::tuple{field("metric", &Params::metric, kRankedMetricDoc)}; }
   };
   explicit PerformanceProfile(const Params& params) : params_(params) {}
 
@@ -65,7 +63,8 @@ class PerformanceProfile : public Figure {
     const double end = std::max(1.05 * largest, 1.1);
     const std::vector<MethodStyle> styles = method_styles(names);
 
-    Scene scene{.title = fmt::format("{}: performance profiles, {}", input.title, metric_words(input, metric_of(input)))};
+    Scene scene{.title =
+                    fmt::format("{}: performance profiles, {}", input.title, metric_words(input, metric_of(input)))};
     Panel panel{.x = {.label = "factor of the best cost, τ", .range = std::pair(1.0, end), .log = end > 5.0},
                 .y = {.label = "share of problems", .range = std::pair(-0.03, 1.03)},
                 .equal_aspect = false,
@@ -116,8 +115,7 @@ class PerformanceProfile : public Figure {
     const MetricLook& metric = *look(input);
     const std::string words = metric_words(input, metric_of(input));
     if (metric.best == MetricLook::Best::highest) return "difference of " + words + " to 1";
-    if (metric.best == MetricLook::Best::target)
-      return fmt::format("distance of {} from {:g}", words, metric.target);
+    if (metric.best == MetricLook::Best::target) return fmt::format("distance of {} from {:g}", words, metric.target);
     return words;
   }
 

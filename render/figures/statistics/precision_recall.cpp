@@ -23,10 +23,12 @@ class PrecisionRecall : public Figure {
     std::string precision = "precision";
     std::string recall = "recall";
     static auto fields() {
-      return std::tuple{field("parameter", &Params::parameter, "the parameter that varies along a curve, like extract.threshold_m; empty: the first in which two "
-                              "pipelines differ alone"),
-                        field("precision", &Params::precision, "the metric on the vertical axis"),
-                        field("recall", &Params::recall, "the metric on the horizontal axis")};
+      return std::tuple{
+          field("parameter", &Params::parameter,
+                "the parameter that varies along a curve, like extract.threshold_m; empty: the first in which two "
+                "pipelines differ alone"),
+          field("precision", &Params::precision, "the metric on the vertical axis"),
+          field("recall", &Params::recall, "the metric on the horizontal axis")};
     }
   };
   explicit PrecisionRecall(const Params& params) : params_(params) {}
@@ -81,13 +83,12 @@ class PrecisionRecall : public Figure {
     scene.legend.push_back({.text = "equal F", .stroke = kEqualF});
     scene.panels.push_back(std::move(panel));
     const std::size_t seeds = most_seeds(input, params_.precision);
-    return {
-        {"precision_recall",
-         fmt::format("{}: {} against {} as {} varies, whose smallest and largest value are at the ends of each "
-                     "curve{}.",
-                     input.title, precision, recall, parameter_with_unit(parameter, input.measured),
-                     seeds > 1 ? fmt::format("; means over {} seeds", seeds) : ""),
-         std::move(scene)}};
+    return {{"precision_recall",
+             fmt::format("{}: {} against {} as {} varies, whose smallest and largest value are at the ends of each "
+                         "curve{}.",
+                         input.title, precision, recall, parameter_with_unit(parameter, input.measured),
+                         seeds > 1 ? fmt::format("; means over {} seeds", seeds) : ""),
+             std::move(scene)}};
   }
 
  private:

@@ -38,9 +38,7 @@ class Seeds : public Figure {
  public:
   struct Params {
     std::string metric;
-    static auto fields() {
-      return std::tuple{field("metric", &Params::metric, kRankedMetricDoc)};
-    }
+    static auto fields() { return std::tuple{field("metric", &Params::metric, kRankedMetricDoc)}; }
   };
   explicit Seeds(const Params& params) : params_(params) {}
 
@@ -85,16 +83,15 @@ class Seeds : public Figure {
                      .marker_size_pt = 4.5}};
     scene.panels.push_back(std::move(panel));
     const std::size_t seeds = most_seeds(input, metric);
-    return {
-        {"seeds",
-         fmt::format("{}: {} of each of {}, with the mean and {}.", input.title, words, counted(seeds, "seed"),
-                     few ? "the range, because so few have no interval" : "its 95 % interval"),
-         std::move(scene)}};
+    return {{"seeds",
+             fmt::format("{}: {} of each of {}, with the mean and {}.", input.title, words, counted(seeds, "seed"),
+                         few ? "the range, because so few have no interval" : "its 95 % interval"),
+             std::move(scene)}};
   }
 
  private:
-  static void add_row(const MeasuredPipeline& measured, const std::string& metric, double row, Color color, double width,
-                      Panel& panel) {
+  static void add_row(const MeasuredPipeline& measured, const std::string& metric, double row, Color color,
+                      double width, Panel& panel) {
     std::vector<double> values = measured.metrics.at(metric);
     std::ranges::sort(values);
     const std::vector<double> offsets = spread(values, width);

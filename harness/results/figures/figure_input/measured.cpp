@@ -37,7 +37,8 @@ render::MetricLook look_of(const metrics::MetricDescription& metric) {
     case metrics::Direction::neither:
       break;
   }
-  return {.label = metric.label, .unit = metric.unit, .best = best, .target = metric.target, .tolerance = metric.tolerance};
+  return {
+      .label = metric.label, .unit = metric.unit, .best = best, .target = metric.target, .tolerance = metric.tolerance};
 }
 
 render::MeasuredPipeline measured_pipeline(const runs::RunStore& store, const study::Scenario& scenario,

@@ -11,7 +11,8 @@
 
 namespace scanbench::results {
 
-/// The values of metrics.csv of all cells of a scenario, and the time of a scan, by pipeline. Throws ConfigError for a damaged file.
+/// The values of metrics.csv of all cells of a scenario, and the time of a scan, by pipeline. Throws ConfigError for a
+/// damaged file.
 std::vector<render::MeasuredPipeline> measured_pipelines(const runs::RunStore& store, const study::Scenario& scenario);
 
 /// The metric by which reports rank these pipelines: of quality_metrics(), the first that most of them have; empty if
