@@ -169,8 +169,9 @@ class MainDirections : public Figure {
     scene.columns = 3;
     const std::vector<int> frames = chosen(adoption, seen, static_cast<int>(poses.size()) - 1);
     for (const int frame : frames) scene.panels.push_back(moment(input, history, poses, frame));
-    scene.legend = {{.text = "map", .stroke = kMapStroke}, {.text = "main directions", .stroke = kRayStroke}};
-    if (input.recording.truth) scene.legend.push_back({.text = "walls", .stroke = kTrueWallStroke});
+    for (const auto& [text, stroke] :
+         {std::pair("map", kMapStroke), std::pair("main directions", kRayStroke), std::pair("walls", kTrueWallStroke)})
+      if (draws(scene, stroke)) scene.legend.push_back({.text = text, .stroke = stroke});
     std::string caption =
         fmt::format("{}: the map of {} and its main directions after scans", input.title, shown.pipeline);
     for (std::size_t i = 0; i < frames.size(); ++i) caption += fmt::format("{} {}", i == 0 ? "" : ",", frames[i]);
@@ -220,13 +221,15 @@ class MainDirections : public Figure {
         (k == 0 ? strongest : others).points.emplace_back(frame, shown_deg(angles[k]));
     panel.y.range = {-50.0, 140.0};  // 0 and 90 degrees, the usual ones, are inside
     panel.y.ticks = {{-45, "\u221245"}, {0, "0"}, {45, "45"}, {90, "90"}, {135, "135"}};
+    const auto dot = [](const char* text, Color color) {
+      return LegendEntry{.text = text, .marker = Marker::dot, .marker_color = color, .marker_size_pt = 3.0};
+    };
+    scene.legend = {dot("strongest", kBlue)};
+    if (!others.points.empty()) scene.legend.push_back(dot("other main directions", kVermillion));
     panel.items.emplace_back(std::move(others));
     panel.items.emplace_back(std::move(strongest));
     scene.panels.push_back(std::move(panel));
     scene.box_aspect = 0.4;
-    scene.legend = {
-        {.text = "strongest", .marker = Marker::dot, .marker_color = kBlue, .marker_size_pt = 3.0},
-        {.text = "other main directions", .marker = Marker::dot, .marker_color = kVermillion, .marker_size_pt = 3.0}};
     return {"main_directions_over_time",
             fmt::format("{}: the main directions that {} merged each scan with.", input.title, shown.pipeline),
             std::move(scene)};
