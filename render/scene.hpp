@@ -115,6 +115,11 @@ struct Axis {
   bool grid = true;
 };
 
+/// Room around the data of a panel for letters of its own, in em: they keep their size when the panel shrinks.
+struct LetterRoom {
+  double left = 0.0, right = 0.0, below = 0.0, above = 0.0;
+};
+
 /// One set of axes with its items.
 struct Panel {
   std::string title{};
@@ -122,6 +127,7 @@ struct Panel {
   Axis y{.label = "y [m]"};
   bool axes = true;          ///< false: no box, ticks and grid, because the items draw their own
   bool equal_aspect = true;  ///< a metre is as long in x as in y: ranges grow to fill the box
+  LetterRoom room{};         ///< of a panel with equal aspect
   /// "point" or "line": the number of dots, or of segments with an end, outside the box is written into a corner, if
   /// any.
   std::string tell_outside{};

@@ -155,14 +155,20 @@ class Composer {
     return m;
   }
 
-  double tallest_aspect() const {
+  /// Height over width of the tallest panel, for boxes of this width.
+  double tallest_aspect(double box_w) const {
     double aspect = 0.0;
-    for (int i = 0; i < count_; ++i) {
-      const PanelLayout& p = natural_[static_cast<std::size_t>(i)];
-      aspect = std::max(aspect, panel(i).equal_aspect ? std::clamp((p.y_max - p.y_min) / (p.x_max - p.x_min), 0.3, 2.5)
-                                                      : scene_.box_aspect);
-    }
+    for (int i = 0; i < count_; ++i)
+      aspect = std::max(aspect, panel(i).equal_aspect ? map_aspect(i, box_w) : scene_.box_aspect);
     return aspect;
+  }
+
+  double map_aspect(int i, double box_w) const {
+    const PanelLayout& p = natural_[static_cast<std::size_t>(i)];
+    const LetterRoom& room = panel(i).room;
+    const double data = std::clamp((p.y_max - p.y_min) / (p.x_max - p.x_min), 0.3, 2.5);
+    const double data_w = std::max(box_w - (room.left + room.right) * em_, kLeastDataShare * box_w);
+    return (data * data_w + (room.below + room.above) * em_) / box_w;
   }
 
   double title_room() const { return title_.empty() ? 0.0 : (0.55 + 1.35 * static_cast<double>(title_.size())) * em_; }
@@ -186,8 +192,9 @@ class Composer {
     for (const double l : m.left) fixed_x += l;
     for (std::size_t r = 0; r < m.above.size(); ++r) fixed_y += m.above[r] + m.below[r];
 
-    const double aspect = tallest_aspect();
-    double box_w = std::max(1.0, (out_.width - fixed_x) / columns_), box_h = aspect * box_w;
+    double box_w = std::max(1.0, (out_.width - fixed_x) / columns_);
+    const double aspect = tallest_aspect(box_w);
+    double box_h = aspect * box_w;
     const bool sized = scene_.height_in > 0;
     // A picture may become higher than its limit rather than lose its panels between their labels.
     const double least = sized ? 1.0 : kLeastPanelEm * scene_.font_pt;
@@ -212,7 +219,7 @@ class Composer {
         if (const int i = r * columns_ + c; i < count_) {
           place(i) = natural_[static_cast<std::size_t>(i)];
           place(i).box = {x, y, x + box_w, y + box_h};
-          if (panel(i).equal_aspect) equalise(place(i));
+          if (panel(i).equal_aspect) equalise(panel(i).room, em_, place(i));
         }
         x += box_w;
       }
