@@ -97,12 +97,12 @@ class Seeds : public Figure {
     const std::vector<double> offsets = spread(values, width);
     Points dots{.marker = Marker::circle, .color = color, .size_pt = kSeedDotPt};
     for (std::size_t k = 0; k < values.size(); ++k) dots.points.emplace_back(values[k], row + offsets[k]);
-    panel.items.emplace_back(std::move(dots));
     const MeanBand band = *band_of(measured, metric);
     const auto cap = [&](double x) { return Segment{{x, row - 0.12}, {x, row + 0.12}}; };
     if (band.high > band.low)
       panel.items.emplace_back(
           Lines{.segments = {{{band.low, row}, {band.high, row}}, cap(band.low), cap(band.high)}, .stroke = kInterval});
+    panel.items.emplace_back(std::move(dots));  // over the interval, which would hide those of a few seeds
     panel.items.emplace_back(
         Points{.points = {{band.mean, row}}, .marker = Marker::diamond, .color = kBlack, .size_pt = 4.5});
   }
