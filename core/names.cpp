@@ -52,4 +52,21 @@ std::string known_names(std::string_view name, const std::vector<std::string>& k
   return (near.empty() ? "; known: " : "; did you mean '" + near + "'? known: ") + join(known);
 }
 
+std::string words_of_name(std::string_view name) {
+  const auto is_lower = [](char c) { return c >= 'a' && c <= 'z'; };
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto is_year_at = [&](std::size_t i) {
+    const std::string_view year = name.substr(i, 4);
+    return (year.starts_with("19") || year.starts_with("20")) && year.size() == 4 && is_digit(year[2]) &&
+           is_digit(year[3]) && (i + 4 == name.size() || !is_digit(name[i + 4]));
+  };
+  std::string words;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (i > 0 && is_lower(name[i - 1]) && is_year_at(i)) words += ' ';
+    words += name[i] == '_' ? ' ' : name[i];
+  }
+  if (!words.empty() && is_lower(words.front())) words.front() = static_cast<char>(words.front() - 'a' + 'A');
+  return words;
+}
+
 }  // namespace scanbench

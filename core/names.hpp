@@ -19,4 +19,7 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 /// near, and "; known: none".
 std::string known_names(std::string_view name, const std::vector<std::string>& known);
 
+/// The words of a name, for titles: "Lakaemper 2009 hallway" of lakaemper2009_hallway.
+std::string words_of_name(std::string_view name);
+
 }  // namespace scanbench

@@ -59,6 +59,7 @@ struct RoundObject {
 /// Which values of a metric are good, and what a figure writes beside them.
 struct MetricLook {
   enum class Best { lowest, highest, target, none };
+  std::string label{};  ///< words for axes and titles, without the unit
   std::string unit{};
   Best best = Best::none;
   double target = 0.0;     ///< for Best::target
@@ -71,12 +72,16 @@ struct MeanBand {
   bool is_range = false;  ///< low and high are the smallest and the largest value, too few for an interval
 };
 
+/// The name among the metrics of a pipeline of the CPU time [s] of all its stages for one scan.
+inline constexpr std::string_view kScanTime = "scan_time";
+
 /// The metrics of one pipeline over all seeds of a run, with its parameters.
 struct MeasuredPipeline {
   std::string pipeline;
-  std::map<std::string, ParamSet> slots;               ///< "merge mean_shift" and the like, with all parameters
-  std::map<std::string, std::string> units;            ///< of parameters, "merge.sigma_m" and the like
-  std::map<std::string, std::vector<double>> metrics;  ///< of the subject "all", a finite value per seed
+  std::map<std::string, ParamSet> slots;     ///< "merge mean_shift" and the like, with all parameters
+  std::map<std::string, std::string> units;  ///< of parameters, "merge.sigma_m" and the like
+  /// A finite value per seed: of the subject "all", else "mean", else the mean over the subjects.
+  std::map<std::string, std::vector<double>> metrics;
   /// The same with a value for every seed of the scenario in its order: NaN where it is undefined or the cell failed.
   std::map<std::string, std::vector<double>> by_seed{};
   std::map<std::string, MeanBand> bands{};  ///< of the finite values
@@ -99,6 +104,7 @@ struct FigureInput {
   std::vector<NamedResult> results;           ///< in the scenario's order
   std::vector<MeasuredPipeline> measured{};   ///< in the scenario's order
   std::map<std::string, MetricLook> looks{};  ///< of the metrics in `measured`
+  std::string quality{};                      ///< the metric by which reports rank these pipelines; empty: none
   std::vector<MeasuredScenario> scenarios{};  ///< of the whole run; only for a figure that spans_scenarios()
 };
 

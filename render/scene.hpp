@@ -105,11 +105,19 @@ struct ErrorBars {
 using Item = std::variant<Lines, Polyline, Points, Polygon, Ellipse, Text, Arrow, Bars, ErrorBars>;
 
 struct Axis {
-  std::string label{};                                  ///< with its unit: "x [m]"
+  std::string label{};  ///< "position error", or with a unit that does not change: "x [m]"
+  /// Of the data: "m", "us", "deg". The numbers may be written in another one (layout/shown_unit.hpp), which then
+  /// follows the label: "position error [mm]".
+  std::string unit{};
   std::optional<std::pair<double, double>> range{};     ///< absent: from the items, with a margin
   bool log = false;                                     ///< decades; values <= 0 are left out
   std::vector<std::pair<double, std::string>> ticks{};  ///< absent: round numbers
   bool grid = true;
+};
+
+/// Room around the data of a panel for letters of its own, in em: they keep their size when the panel shrinks.
+struct LetterRoom {
+  double left = 0.0, right = 0.0, below = 0.0, above = 0.0;
 };
 
 /// One set of axes with its items.
@@ -119,6 +127,7 @@ struct Panel {
   Axis y{.label = "y [m]"};
   bool axes = true;          ///< false: no box, ticks and grid, because the items draw their own
   bool equal_aspect = true;  ///< a metre is as long in x as in y: ranges grow to fill the box
+  LetterRoom room{};         ///< of a panel with equal aspect
   /// "point" or "line": the number of dots, or of segments with an end, outside the box is written into a corner, if
   /// any.
   std::string tell_outside{};

@@ -19,6 +19,7 @@
 #include "app/verbs/gallery.hpp"
 #include "core/error.hpp"
 #include "harness/results/figures/figures.hpp"
+#include "harness/results/figures/requested_figures.hpp"
 #include "harness/results/pages/run_report.hpp"
 #include "harness/runs/store/run_folder.hpp"
 #include "harness/runs/store/run_lock.hpp"
@@ -67,8 +68,8 @@ void print_drawn(const std::vector<results::FigureFile>& drawn, const fs::path& 
 
 /// A catalogue says for each figure which scenario, pipelines and scan it shows.
 int gallery(const FiguresVerbOptions& given, const std::vector<std::string>& argv) {
-  if (!given.files.empty() || !given.figures.pipelines.empty() || given.figures.frame)
-    throw ConfigError("--with, --pipelines and --frame are for the figures of a run; " + given.run +
+  if (!given.files.empty() || !given.figures.pipelines.empty() || !given.figures.figures.empty() || given.figures.frame)
+    throw ConfigError("--with, --figure, --pipelines and --frame are for the figures of a run; " + given.run +
                       " is a catalogue, which names them itself");
   results::FigureOptions figures = figure_options(given);
   const bool is_shown = std::ranges::any_of(figures.formats, [](const auto& format) { return format != "pdf"; });
@@ -86,9 +87,12 @@ int gallery(const FiguresVerbOptions& given, const std::vector<std::string>& arg
 int figures(const FiguresVerbOptions& given, const std::vector<std::string>& argv) {
   if (fs::is_regular_file(given.run)) return gallery(given, argv);
   if (!given.only.empty())
-    throw ConfigError("--only is for the entries of a catalogue; " + given.run + " is a run folder");
+    throw ConfigError("--only is for the entries of a catalogue; " + given.run +
+                      " is a run folder, of which --figure names the figures");
   const fs::path run = given.run;
-  const auto scenarios = scenarios_for(run, given.files);
+  auto scenarios = scenarios_for(run, given.files);
+  const std::vector<std::string>& requested = given.figures.figures;
+  if (!requested.empty()) scenarios = results::with_figures(std::move(scenarios), requested);
   const results::FigureOptions options = figure_options(given);
   results::check_figure_options(options, scenarios);
   const runs::RunLock lock(run);
@@ -103,7 +107,10 @@ int figures(const FiguresVerbOptions& given, const std::vector<std::string>& arg
   }
   if (given.quiet) return kGood;
   const fs::path folder = results::figure_folder(run, options);
-  print_drawn(results::load_figure_index(folder), folder, options.formats.front(),
+  std::vector<results::FigureFile> drawn = results::load_figure_index(folder);
+  if (!requested.empty())
+    std::erase_if(drawn, [&](const auto& file) { return std::ranges::count(requested, file.figure) == 0; });
+  print_drawn(drawn, folder, options.formats.front(),
               std::ranges::any_of(scenarios, [](const auto& s) { return !s.figures.empty(); }));
   return kGood;
 }
@@ -144,6 +151,11 @@ void add_figures(CommandLine& line) {
       "-o,--out", options->out,
       "an own folder for the figures (default: RUN/figures, which the report shows; of a catalogue out/<its name>)");
   add_style_options(verb, *options);
+  verb.option(
+          "--figure", options->figures.figures,
+          "only these figures, separated by commas, whether or not the scenarios list them (scanbench list figures); "
+          "the folder keeps its others")
+      .separated_by_commas();
   verb.option("--pipelines", options->figures.pipelines, "only these pipelines, separated by commas")
       .separated_by_commas();
   verb.option("--frame", options->figures.frame, "number of the scan, from 0, that figures of one scan show");

@@ -1,5 +1,5 @@
-// SVG and PDF backend through Cairo. Text has one symbol per glyph in SVG and an embedded subset in PDF, so that a file
-// looks the same if the font is not installed.
+// SVG and PDF backend through Cairo. Text has one symbol per glyph in SVG, below transparent text, and an embedded
+// subset in PDF, so that a file looks the same if the font is not installed.
 #include "render/backends/cairo.hpp"
 
 #include <cairo-pdf.h>
@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "render/backends/svg_text.hpp"
 #include "render/layout/layout.hpp"
 #include "render/paper/font.hpp"
 #include "render/paper/stroke_style.hpp"
@@ -182,11 +183,11 @@ std::string with_ids_of_content(const std::string& svg) {
 
 }  // namespace
 
-std::string to_svg(const Scene& scene) {
+std::string to_svg(const Scene& scene, std::string_view description) {
   const Layout placed = layout(scene);
   std::string svg;
   draw(cairo_svg_surface_create_for_stream(append, &svg, placed.width, placed.height), placed);
-  return with_ids_of_content(svg);
+  return with_words(with_ids_of_content(svg), placed, scene.title, description);
 }
 
 std::string to_pdf(const Scene& scene) {

@@ -12,7 +12,7 @@ namespace scanbench::render {
 /// The whole scene as the bytes of a file. The same scene gives the same bytes in every thread and process. Throws
 /// ConfigError if the font (DejaVu Sans) or OSMesa is not installed, or if the picture would be larger than 20 000
 /// pixels per side; InternalError if a library fails.
-std::string to_png(const Scene& scene, double dpi = 200.0);
+std::string to_png(const Scene& scene, double dpi = 300.0);
 
 /// The same as pixels, rows from top to bottom with 3 bytes per pixel.
 struct Pixels {

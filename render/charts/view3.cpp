@@ -122,11 +122,12 @@ Panel View3::panel(double width_pt, double font_pt) const {
       }
   double widest = 0.0;
   for (const auto& [value, label] : ticks(2)) widest = std::max(widest, Font::get().width_em(label) * font_pt);
-  const double left_pt = widest + 8.0 + 1.4 * font_pt, right_pt = 1.5 * font_pt, below_pt = 2.6 * font_pt,
-               above_pt = font_pt;
-  const double pt = (high.x() - low.x()) / std::max(width_pt - left_pt - right_pt, 0.3 * width_pt);  // units per point
-  panel.x.range = {low.x() - left_pt * pt, high.x() + right_pt * pt};
-  panel.y.range = {low.y() - below_pt * pt, high.y() + above_pt * pt};
+  panel.room = {.left = widest / font_pt + 2.4, .right = 2.0, .below = 3.2, .above = 1.0};
+  const double letters_pt = (panel.room.left + panel.room.right) * font_pt;
+  const double pt = (high.x() - low.x()) / std::max(width_pt - letters_pt, 0.3 * width_pt);  // units per point
+  const Vec2 margin = 0.005 * (high - low);
+  panel.x.range = {low.x() - margin.x(), high.x() + margin.x()};
+  panel.y.range = {low.y() - margin.y(), high.y() + margin.y()};
 
   const bool near_x = toward_.x() > 0, near_y = toward_.y() > 0;
   add_wall(2, false, panel);  // the floor, then the walls behind

@@ -35,8 +35,8 @@ class View3 {
   /// Nearness to the camera: 0 at the farthest corner of the box, 1 at the nearest.
   double nearness(const Vec3& p) const;
 
-  /// A panel of the given width that holds the box: floor and far walls with their grids, axes with ticks and labels.
-  /// Items pushed later are in front of it.
+  /// A panel of about the given width that holds the box: floor and far walls with their grids, axes with ticks and
+  /// labels, which have their room in a narrower one too. Items pushed later are in front of it.
   Panel panel(double width_pt, double font_pt) const;
 
  private:

@@ -64,9 +64,7 @@ class Alignment : public Figure {
 
     std::string sources;
     for (const Panel& panel : scene.panels) sources += (sources.empty() ? "" : "; ") + panel.title;
-    scene.columns = static_cast<int>(std::min<std::size_t>(scene.panels.size(), 3));
-    scene.width_in = scene.columns == 1 ? kSingleColumnIn : kDoubleColumnIn;
-    scene.share_axes = scene.scale_bar = true;
+    arrange_multiples(scene);
     scene.title = fmt::format("{}: {} superimposed", input.title, counted(frames.size(), "scan"));
     scene.legend = {{.text = frames.size() <= kMostColored ? "points, a colour for each scan" : "points",
                      .marker = Marker::dot,

@@ -1,6 +1,7 @@
 // The found lines of each pipeline beside the true walls in three colours: found and true, false, missed. What it shows
 // are the pixels that the metric family raster_truth counts, as the parts of lines that they belong to.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -39,9 +40,9 @@ class Difference : public Figure {
     std::vector<Segment> walls = true_walls_of(input);
     for (const NamedResult* named : shown) scene.panels.push_back(panel_of(*named, walls, shown.size()));
     const PixelDifference& first = *shown.front()->difference;
-    scene.legend = {{.text = "found and true", .stroke = kRightStroke},
-                    {.text = "missed", .stroke = kMissedStroke},
-                    {.text = "false", .stroke = kWrongStroke}};
+    for (const auto& [text, stroke] : {std::pair("found and true", kRightStroke), std::pair("missed", kMissedStroke),
+                                       std::pair("false", kWrongStroke)})
+      if (draws(scene, stroke)) scene.legend.push_back({.text = text, .stroke = stroke});
     return {
         {"difference",
          fmt::format("{}: found lines and the visible parts of true walls, drawn as pixels of {:g} cm. Found pixels "

@@ -25,6 +25,7 @@ constexpr double kChiSquare95 = 5.991464547107979;  // two degrees of freedom: -
 constexpr double kLargestOffset = 0.15, kLargestAngle = radians(10);
 constexpr std::size_t kLeastErrors = 8;  // fewer have no ellipse worth drawing
 constexpr std::size_t kMostDots = 3000;  // per panel
+constexpr double kSameScale = 4.0;       // ranges that differ more make the smallest ellipse a dot
 
 /// Errors in two coordinates and their covariances, in the units of the axes.
 struct Errors {
@@ -89,22 +90,33 @@ class ErrorEllipses : public Figure {
       if (found.errors.size() >= kLeastErrors) scene.panels.push_back(panel_of(named.pipeline, found));
     }
     if (scene.panels.empty()) return {};
+    arrange_multiples(scene);
     scene.title = input.title + ": estimated and empirical covariance";
-    scene.columns = static_cast<int>(std::min<std::size_t>(scene.panels.size(), 3));
-    scene.width_in = scene.columns == 1 ? kSingleColumnIn : kDoubleColumnIn;
-    scene.share_axes = true;
+    scene.scale_bar = false;
+    scene.share_axes = of_one_scale(scene.panels);
     scene.legend = {{.text = "errors", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.4},
                     {.text = "95 % of the errors, empirical", .stroke = kEmpirical},
                     {.text = "95 % as estimated", .stroke = kEstimated}};
     return {{"error_ellipses",
              fmt::format("{}: errors of {}, with the ellipses that contain 95 % of a normal distribution with their "
-                         "second moments (empirical) and with the mean of the reported covariances (estimated).",
+                         "second moments (empirical) and with the mean of the reported covariances (estimated).{}",
                          input.title,
-                         lines ? "lines at their midpoints" : "converged matches, in the reference scan's frame"),
+                         lines ? "lines at their midpoints" : "converged matches, in the reference scan's frame",
+                         scene.share_axes ? "" : " Every panel has its own scale."),
              std::move(scene)}};
   }
 
  private:
+  /// True if the ellipses of all panels can be seen on the axes of the largest.
+  static bool of_one_scale(const std::vector<Panel>& panels) {
+    for (const auto axis : {&Panel::x, &Panel::y}) {
+      const auto reach = [&](const Panel& panel) { return (panel.*axis).range->second; };
+      const auto [least, most] = std::ranges::minmax(panels, {}, reach);
+      if (reach(most) > kSameScale * reach(least)) return false;
+    }
+    return true;
+  }
+
   Panel panel_of(const std::string& name, const Errors& found) const {
     const bool lines = params_.of == Of::lines;
     const Ellipse empirical = ellipse_of(moments_of(found.errors), kEmpirical);

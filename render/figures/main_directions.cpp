@@ -169,8 +169,9 @@ class MainDirections : public Figure {
     scene.columns = 3;
     const std::vector<int> frames = chosen(adoption, seen, static_cast<int>(poses.size()) - 1);
     for (const int frame : frames) scene.panels.push_back(moment(input, history, poses, frame));
-    scene.legend = {{.text = "map", .stroke = kMapStroke}, {.text = "main directions", .stroke = kRayStroke}};
-    if (input.recording.truth) scene.legend.push_back({.text = "walls", .stroke = kTrueWallStroke});
+    for (const auto& [text, stroke] :
+         {std::pair("map", kMapStroke), std::pair("main directions", kRayStroke), std::pair("walls", kTrueWallStroke)})
+      if (draws(scene, stroke)) scene.legend.push_back({.text = text, .stroke = stroke});
     std::string caption =
         fmt::format("{}: the map of {} and its main directions after scans", input.title, shown.pipeline);
     for (std::size_t i = 0; i < frames.size(); ++i) caption += fmt::format("{} {}", i == 0 ? "" : ",", frames[i]);
@@ -200,7 +201,7 @@ class MainDirections : public Figure {
     }
     panel.items.emplace_back(std::move(rays));
     panel.items.emplace_back(Points{.points = {pose.translation()}, .color = kPathColor, .size_pt = kPlaceSizePt});
-    panel.title = fmt::format("scan {}: {} deg", frame, text.empty() ? "no" : text);
+    panel.title = text.empty() ? fmt::format("scan {}: no direction", frame) : fmt::format("scan {}: {}°", frame, text);
     set_view(ends_of(map), ends_of(true_walls(input.recording, {})), panel);
     return panel;
   }
@@ -213,20 +214,22 @@ class MainDirections : public Figure {
 
   static NamedScene over_time(const FigureInput& input, const NamedResult& shown, const History& history) {
     Scene scene{.width_in = kDoubleColumnIn, .title = input.title + ": main directions over time"};
-    Panel panel{.x = {.label = "scan"}, .y = {.label = "direction [deg]"}, .equal_aspect = false};
+    Panel panel{.x = {.label = "scan"}, .y = {.label = "direction [°]"}, .equal_aspect = false};
     Points strongest{.color = kBlue, .size_pt = 1.6}, others{.color = kVermillion, .size_pt = 1.6};
     for (const auto& [frame, angles] : history.directions)
       for (std::size_t k = 0; k < angles.size(); ++k)
         (k == 0 ? strongest : others).points.emplace_back(frame, shown_deg(angles[k]));
     panel.y.range = {-50.0, 140.0};  // 0 and 90 degrees, the usual ones, are inside
     panel.y.ticks = {{-45, "\u221245"}, {0, "0"}, {45, "45"}, {90, "90"}, {135, "135"}};
+    const auto dot = [](const char* text, Color color) {
+      return LegendEntry{.text = text, .marker = Marker::dot, .marker_color = color, .marker_size_pt = 3.0};
+    };
+    scene.legend = {dot("strongest", kBlue)};
+    if (!others.points.empty()) scene.legend.push_back(dot("other main directions", kVermillion));
     panel.items.emplace_back(std::move(others));
     panel.items.emplace_back(std::move(strongest));
     scene.panels.push_back(std::move(panel));
     scene.box_aspect = 0.4;
-    scene.legend = {
-        {.text = "strongest", .marker = Marker::dot, .marker_color = kBlue, .marker_size_pt = 3.0},
-        {.text = "other main directions", .marker = Marker::dot, .marker_color = kVermillion, .marker_size_pt = 3.0}};
     return {"main_directions_over_time",
             fmt::format("{}: the main directions that {} merged each scan with.", input.title, shown.pipeline),
             std::move(scene)};

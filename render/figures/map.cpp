@@ -9,6 +9,7 @@
 #include "render/figures/parts/frames.hpp"
 #include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
+#include "render/figures/parts/visible_points.hpp"
 
 namespace scanbench::render {
 namespace {
@@ -41,11 +42,16 @@ class Map : public Figure {
     scene.title = input.title + ": line maps";
     for (const auto& group : groups)
       scene.panels.push_back(panel_of(input, group, groups.size(), most_lines <= kMostLinesWithEnds));
-    scene.legend.push_back(
-        {.text = "points of all scans", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.0});
+    const bool points = show_points(input, groups, scene);
+    if (points)
+      scene.legend.push_back(
+          {.text = "points of all scans", .marker = Marker::dot, .marker_color = kFaintPoints, .marker_size_pt = 2.0});
     add_method_legend(input.results, groups, kMapLineWidth, scene);
     scene.legend.push_back(path_legend(input, kMapPathStroke));
-    return {{"map", input.title + ": the line map of each pipeline over the points of all scans.", std::move(scene)}};
+    return {{"map",
+             input.title + (points ? ": the line map of each pipeline over the points of all scans."
+                                   : ": the line map of each pipeline; its lines cover the points of the scans."),
+             std::move(scene)}};
   }
 
  private:
@@ -60,17 +66,35 @@ class Map : public Figure {
                                                        place_frames(input.recording, b.result).world_from_sensor);
   }
 
+  /// Draws the points below the lines, if a panel has any that its lines do not hide.
+  static bool show_points(const FigureInput& input, const std::vector<std::vector<std::size_t>>& groups, Scene& scene) {
+    std::vector<Points> below;
+    bool any = false;
+    for (const auto& group : groups) {
+      const NamedResult& named = input.results[group.front()];
+      below.push_back({.points = placed_points(input, named, groups.size()), .color = kFaintPoints, .size_pt = 0.8});
+      any = any || seen_beside(below.back().points, segments_of(named), kMapLineWidth, scene);
+    }
+    for (std::size_t k = 0; any && k < below.size(); ++k)
+      scene.panels[k].items.insert(scene.panels[k].items.begin(), std::move(below[k]));
+    return any;
+  }
+
+  static std::vector<Vec2> placed_points(const FigureInput& input, const NamedResult& named, std::size_t panels) {
+    return all_points(input.recording, place_frames(input.recording, named.result).world_from_sensor,
+                      kPointBudget / panels);
+  }
+
   static Panel panel_of(const FigureInput& input, const std::vector<std::size_t>& group, std::size_t panels,
                         bool with_ends) {
     const NamedResult& named = input.results[group.front()];
     const PlacedFrames placed = place_frames(input.recording, named.result);
-    const std::vector<Vec2> points = all_points(input.recording, placed.world_from_sensor, kPointBudget / panels);
+    const std::vector<Vec2> points = placed_points(input, named, panels);
     const Lines lines{.segments = segments_of(named),
                       .stroke = {method_color(input.results, group.front()), kMapLineWidth, Dash::solid}};
     const std::vector<Vec2> ends = ends_of(lines.segments);
     Panel panel{.title = names_of(input.results, group) + ": " + counted(lines.segments.size(), "line"),
                 .tell_outside = "point"};
-    panel.items.emplace_back(Points{.points = points, .color = kFaintPoints, .size_pt = 0.8});
     panel.items.emplace_back(lines);
     if (with_ends)
       panel.items.emplace_back(

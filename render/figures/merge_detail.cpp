@@ -77,12 +77,8 @@ class MergeDetail : public Figure {
     Lines lines{.stroke = stroke};
     if (window) {
       window->set_ranges(result);
-      const double reach = 0.5 * window->side;
-      for (const Segment& s : segments) {
-        const Vec2 low = s.a.cwiseMin(s.b) - window->center, high = s.a.cwiseMax(s.b) - window->center;
-        if (low.x() <= reach && low.y() <= reach && high.x() >= -reach && high.y() >= -reach)
-          lines.segments.push_back(s);
-      }
+      for (const Segment& s : segments)
+        if (window->is_near(s)) lines.segments.push_back(s);
     }
     lines.segments = thinned(lines.segments, kSegmentBudget / 4);
     result.items.emplace_back(std::move(lines));

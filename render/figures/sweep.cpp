@@ -38,14 +38,15 @@ std::vector<std::string> words_of(std::string text) {
 class Sweep : public Figure {
  public:
   struct Params {
-    std::string parameters = "extract.threshold_m";
-    std::string metric = "f1";
+    std::string parameters;
+    std::string metric;
     std::vector<double> target{};
     static auto fields() {
       return std::tuple{
           field("parameters", &Params::parameters,
-                "the varied parameters, one panel each: names like extract.threshold_m or [a list of them]"),
-          field("metric", &Params::metric, "the metric that is shown, of the subject all"),
+                "the varied parameters, one panel each: names like extract.threshold_m or [a list of them]; empty: all "
+                "in which two pipelines differ alone"),
+          field("metric", &Params::metric, kRankedMetricDoc),
           field("target", &Params::target, any_number(), "", "values at which a dashed line is drawn")};
     }
   };
@@ -53,28 +54,38 @@ class Sweep : public Figure {
   explicit Sweep(const Params& params) : params_(params) {}
 
   std::string why_nothing(const FigureInput& input) const override {
-    const auto has_metric = [&](const MeasuredPipeline& measured) { return values_of(measured) != nullptr; };
-    if (std::ranges::none_of(input.measured, has_metric)) return no_value_of(params_.metric);
+    const std::string metric = chosen_metric(input, params_.metric);
+    const auto has_metric = [&](const MeasuredPipeline& measured) { return values_of(measured, metric) != nullptr; };
+    if (std::ranges::none_of(input.measured, has_metric)) return no_value_of(metric);
+    if (params_.parameters.empty()) return "no two pipelines differ in one parameter alone";
     return fmt::format("no two pipelines differ in {} alone", fmt::join(words_of(params_.parameters), " or "));
   }
 
   bool spans_seeds() const override { return true; }
   std::vector<NamedScene> draw(const FigureInput& input) const override {
-    Scene scene{.title = input.title + ": " + params_.metric};
+    const std::string metric = chosen_metric(input, params_.metric), words = metric_words(input, metric);
+    Scene scene;
     std::vector<std::string> names;  // of the curves in all panels
     std::size_t seeds = 0;
     for (const MeasuredPipeline& measured : input.measured)
-      if (const auto* values = values_of(measured)) seeds = std::max(seeds, values->size());
-    std::vector<std::pair<std::string, std::vector<Curve>>> panels;  // by the label of their x axis
-    for (const std::string& parameter : words_of(params_.parameters)) {
-      std::vector<Curve> curves = curves_over(parameter, input.measured);
+      if (const auto* values = values_of(measured, metric)) seeds = std::max(seeds, values->size());
+    std::vector<std::pair<Axis, std::vector<Curve>>> panels;  // by their x axis
+    std::string against;                                      // "threshold and max angle"
+    const std::vector<std::string> parameters =
+        params_.parameters.empty() ? varied_parameters(input.measured, {metric}) : words_of(params_.parameters);
+    for (const std::string& parameter : parameters) {
+      std::vector<Curve> curves = curves_over(parameter, metric, input.measured);
       for (const Curve& curve : curves)
         if (std::ranges::find(names, curve.name) == names.end()) names.push_back(curve.name);
-      if (!curves.empty()) panels.emplace_back(parameter_label(parameter, input.measured), std::move(curves));
+      if (curves.empty()) continue;
+      against += (against.empty() ? "" : " and ") + parameter_words(parameter, input.measured);
+      panels.emplace_back(parameter_axis(parameter, input.measured), std::move(curves));
     }
     const std::vector<MethodStyle> styles = method_styles(names);
-    for (const auto& [label, curves] : panels) scene.panels.push_back(panel_of(label, curves, names, styles));
+    const Axis values = metric_axis(input, metric);
+    for (const auto& [axis, curves] : panels) scene.panels.push_back(panel_of(axis, values, curves, names, styles));
     if (scene.panels.empty()) return {};
+    scene.title = fmt::format("{}: {} against {}", input.title, words, against);
     if (scene.panels.size() > 1) scene.width_in = kDoubleColumnIn;
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto [color, dash, marker] = styles[i];
@@ -88,25 +99,23 @@ class Sweep : public Figure {
       scene.legend.push_back({.text = "smallest to largest", .fill = lighten(kGrey, 0.7)});
       over_seeds = fmt::format(", mean over {} seeds and band between the smallest and the largest value", seeds);
     }
-    return {{"sweep",
-             fmt::format("{}: {} against {}{}.", input.title, params_.metric,
-                         fmt::join(words_of(params_.parameters), " and "), over_seeds),
-             std::move(scene)}};
+    return {{"sweep", fmt::format("{}: {} against {}{}.", input.title, words, against, over_seeds), std::move(scene)}};
   }
 
  private:
-  const std::vector<double>* values_of(const MeasuredPipeline& measured) const {
-    const auto found = measured.metrics.find(params_.metric);
+  static const std::vector<double>* values_of(const MeasuredPipeline& measured, const std::string& metric) {
+    const auto found = measured.metrics.find(metric);
     return found == measured.metrics.end() || found->second.empty() ? nullptr : &found->second;
   }
 
   /// Curves of two points at least, in the order of their first pipelines.
-  std::vector<Curve> curves_over(const std::string& parameter, const std::vector<MeasuredPipeline>& all) const {
+  static std::vector<Curve> curves_over(const std::string& parameter, const std::string& metric,
+                                        const std::vector<MeasuredPipeline>& all) {
     std::vector<Curve> curves;
-    for (const VariedPipelines& group : varied_pipelines(parameter, all, {params_.metric})) {
+    for (const VariedPipelines& group : varied_pipelines(parameter, all, {metric})) {
       Curve curve{group.name, {}};
       for (const auto& [x, measured] : group.members) {
-        const std::vector<double>& values = *values_of(*measured);
+        const std::vector<double>& values = *values_of(*measured, metric);
         const auto [low, high] = std::ranges::minmax(values);
         const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
         curve.samples.push_back({x, low, mean, high});
@@ -116,9 +125,9 @@ class Sweep : public Figure {
     return curves;
   }
 
-  Panel panel_of(const std::string& label, const std::vector<Curve>& curves, const std::vector<std::string>& names,
+  Panel panel_of(const Axis& x, const Axis& y, const std::vector<Curve>& curves, const std::vector<std::string>& names,
                  const std::vector<MethodStyle>& styles) const {
-    Panel panel{.x = {.label = label}, .y = {.label = params_.metric}, .equal_aspect = false};
+    Panel panel{.x = x, .y = y, .equal_aspect = false};
     const auto style_of = [&](const Curve& curve) {
       return styles[static_cast<std::size_t>(std::ranges::find(names, curve.name) - names.begin())];
     };

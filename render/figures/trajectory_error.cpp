@@ -58,7 +58,7 @@ class TrajectoryError : public Figure {
     if (truth.empty() || (shown.empty() && odometry.size() != truth.size())) return {};
 
     Panel position{
-        .x = {.label = "path [m]"}, .y = {.label = "position error [m]"}, .equal_aspect = false, .items = {}};
+        .x = {.label = "path [m]"}, .y = {.label = "position error", .unit = "m"}, .equal_aspect = false, .items = {}};
     Panel heading{.x = {.label = "path [m]"}, .y = {.label = "heading error [°]"}, .equal_aspect = false, .items = {}};
     Scene scene{.width_in = kDoubleColumnIn, .title = input.title + ": errors along the path", .columns = 2};
     const std::vector<double> path = path_of(truth);

@@ -2,19 +2,18 @@
 // hypotheses that it made of them.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "core/contracts/force_field_trace.hpp"
 #include "core/registry.hpp"
 #include "core/trace/trace_rows.hpp"
 #include "render/figure.hpp"
 #include "render/figures/parts/clusters.hpp"
 #include "render/figures/parts/frames.hpp"
+#include "render/figures/parts/iterations.hpp"
 #include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
 
@@ -24,37 +23,6 @@ namespace {
 // Wide and pale under the lines that they explain: colours of scans may be dark.
 const Stroke kHypothesisStroke{Color{200, 200, 200}, 2.6, Dash::solid};
 constexpr double kScanWidthPt = 0.6;
-
-/// Rows of an aligner's trace by iteration.
-struct Iterations {
-  std::map<int, std::vector<Pose2>> poses;
-  std::map<int, std::vector<std::vector<Vec2>>> hypotheses;  ///< corners of those that were not dropped
-
-  /// Hypotheses are made before an iteration: those of the last one belong to the final poses too.
-  const std::vector<std::vector<Vec2>>* hypotheses_at(int iteration) const {
-    auto after = hypotheses.upper_bound(iteration);
-    return after == hypotheses.begin() ? nullptr : &std::prev(after)->second;
-  }
-};
-
-constexpr int kDroppedFate = 3;
-constexpr std::string_view kVirtualScansSlot = "align";
-
-Iterations iterations_of(const TraceRows* trace, std::size_t scans) {
-  Iterations result;
-  if (trace == nullptr) return result;
-  for (const auto& row : rows_of<force_field::PoseRow>(*trace, kVirtualScansSlot)) {
-    if (row.scan < 0 || row.scan >= static_cast<int>(scans)) continue;
-    auto& poses = result.poses[row.iteration];
-    poses.resize(scans);
-    poses[static_cast<std::size_t>(row.scan)] = Pose2(row.x_m, row.y_m, row.yaw_rad);
-  }
-  for (const auto& row : rows_of<force_field::HypothesisRow>(*trace, kVirtualScansSlot))
-    if (row.fate != kDroppedFate)
-      result.hypotheses[row.iteration].push_back(
-          {{row.x1_m, row.y1_m}, {row.x2_m, row.y2_m}, {row.x3_m, row.y3_m}, {row.x4_m, row.y4_m}});
-  return result;
-}
 
 class VirtualScans : public Figure {
  public:
@@ -73,16 +41,16 @@ class VirtualScans : public Figure {
 
   std::vector<std::string> trace_rows(std::string_view pipeline) const override {
     if (!shows(params_.pipeline, pipeline)) return {};
-    return {key_of<force_field::PoseRow>(kVirtualScansSlot), key_of<force_field::HypothesisRow>(kVirtualScansSlot)};
+    return keys_of_iterations();
   }
 
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     const std::size_t scans = input.recording.observed.frames.size();
     const NamedResult* shown = nullptr;
-    Iterations iterations;
+    AlignerIterations iterations;
     for (const NamedResult& r : input.results) {
       if (!shows(params_.pipeline, r.pipeline) || r.result->lines.size() != scans) continue;
-      Iterations found = iterations_of(r.trace, scans);
+      AlignerIterations found = aligner_iterations(r.trace, scans);
       if (shown != nullptr && found.hypotheses.empty()) continue;
       shown = &r;
       iterations = std::move(found);
@@ -90,7 +58,7 @@ class VirtualScans : public Figure {
     }
     if (shown == nullptr || scans == 0) return {};
 
-    Scene scene{.width_in = kDoubleColumnIn, .title = input.title + ": virtual scans", .columns = 3};
+    Scene scene;
     for (const double wanted : params_.iterations) {
       const int t = static_cast<int>(wanted);
       if (const auto poses = iterations.poses.find(t); poses != iterations.poses.end())
@@ -98,10 +66,10 @@ class VirtualScans : public Figure {
     }
     if (params_.last || scene.panels.empty())
       add_panel(*shown, "result", place_frames(input.recording, shown->result).world_from_sensor, nullptr, scene);
-    scene.columns = static_cast<int>(std::min<std::size_t>(scene.panels.size(), 3));
-    scene.share_axes = scene.scale_bar = true;
-    scene.legend = {{.text = "lines, a colour for each scan", .stroke = Stroke{kScanColor, kScanWidthPt, Dash::solid}},
-                    {.text = "hypotheses", .stroke = kHypothesisStroke}};
+    arrange_multiples(scene);
+    scene.title = input.title + ": virtual scans";
+    scene.legend = {{.text = "lines, a colour for each scan", .stroke = Stroke{kScanColor, kScanWidthPt, Dash::solid}}};
+    if (draws(scene, kHypothesisStroke)) scene.legend.push_back({.text = "hypotheses", .stroke = kHypothesisStroke});
     return {{"virtual_scans",
              fmt::format("{}: lines of {} as {} had placed them, and its hypotheses about lines and rectangles.",
                          input.title, counted(scans, "scan"), shown->pipeline),

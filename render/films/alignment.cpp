@@ -1,20 +1,18 @@
 // An alignment: the lines of all scans after each iteration of an aligner, with its hypotheses about lines and
 // rectangles.
+#include <algorithm>
 #include <cstddef>
-#include <iterator>
-#include <map>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "core/contracts/force_field_trace.hpp"
 #include "core/registry.hpp"
 #include "core/trace/trace_rows.hpp"
 #include "render/figures/parts/clusters.hpp"
+#include "render/figures/parts/iterations.hpp"
 #include "render/figures/parts/style.hpp"
 #include "render/figures/parts/view_box.hpp"
 #include "render/film.hpp"
@@ -23,8 +21,6 @@
 namespace scanbench::render {
 namespace {
 
-constexpr std::string_view kAlignmentSlot = "align";
-constexpr int kDroppedHypothesis = 3;  // the fate of a hypothesis that was given up
 const Stroke kHypothesis{Color{200, 200, 200}, 2.6, Dash::solid};
 
 struct Iteration {
@@ -34,22 +30,13 @@ struct Iteration {
 };
 
 std::vector<Iteration> film_iterations_of(const TraceRows* trace, std::size_t scans) {
-  std::map<int, Iteration> found;
-  if (trace == nullptr) return {};
-  for (const auto& row : rows_of<force_field::PoseRow>(*trace, kAlignmentSlot)) {
-    if (row.scan < 0 || row.scan >= static_cast<int>(scans)) continue;
-    Iteration& iteration = found[row.iteration];
-    iteration.number = row.iteration;
-    iteration.poses.resize(scans);
-    iteration.poses[static_cast<std::size_t>(row.scan)] = Pose2(row.x_m, row.y_m, row.yaw_rad);
-  }
-  for (const auto& row : rows_of<force_field::HypothesisRow>(*trace, kAlignmentSlot))
-    if (const auto at = found.find(row.iteration); at != found.end() && row.fate != kDroppedHypothesis)
-      at->second.hypotheses.push_back(
-          {{row.x1_m, row.y1_m}, {row.x2_m, row.y2_m}, {row.x3_m, row.y3_m}, {row.x4_m, row.y4_m}});
+  AlignerIterations rows = aligner_iterations(trace, scans);
   std::vector<Iteration> iterations;
-  iterations.reserve(found.size());
-  for (auto& [number, iteration] : found) iterations.push_back(std::move(iteration));
+  iterations.reserve(rows.poses.size());
+  for (auto& [number, poses] : rows.poses) {
+    const auto* suspected = rows.hypotheses_at(number);
+    iterations.push_back({number, std::move(poses), suspected != nullptr ? *suspected : Iteration{}.hypotheses});
+  }
   return iterations;
 }
 
@@ -62,9 +49,7 @@ class AlignmentMoves final : public FilmKind {
   using Params = NoParams;
   explicit AlignmentMoves(const Params&) {}
 
-  std::vector<std::string> trace_rows() const override {
-    return {key_of<force_field::PoseRow>(kAlignmentSlot), key_of<force_field::HypothesisRow>(kAlignmentSlot)};
-  }
+  std::vector<std::string> trace_rows() const override { return keys_of_iterations(); }
 
   std::optional<Film> make(const FigureInput& input, std::size_t most) const override {
     if (input.results.empty()) return std::nullopt;
@@ -75,7 +60,9 @@ class AlignmentMoves final : public FilmKind {
     const auto steps = chosen_steps(iterations->size(), most);
     std::vector<Vec2> places;
     for (const Pose2& pose : iterations->back().poses) places.push_back(pose.translation());
-    const auto scene = [&input, &shown, iterations, steps, colors = cluster_colors(places),
+    const bool has_hypotheses =
+        std::ranges::any_of(*iterations, [](const Iteration& iteration) { return !iteration.hypotheses.empty(); });
+    const auto scene = [&input, &shown, iterations, steps, has_hypotheses, colors = cluster_colors(places),
                         view = view_of(shown, *iterations)](std::size_t k) {
       const Iteration& now = (*iterations)[steps[k]];
       Panel panel = view;
@@ -88,9 +75,10 @@ class AlignmentMoves final : public FilmKind {
           lines.segments.push_back(now.poses[f] * line.segment);
         panel.items.emplace_back(std::move(lines));
       }
-      return film_scene(input.title, {std::move(panel)},
-                        {{.text = "lines, a colour for each scan", .stroke = Stroke{kScanColor, 0.8, Dash::solid}},
-                         {.text = "hypotheses", .stroke = kHypothesis}});
+      std::vector<LegendEntry> legend{
+          {.text = "lines, a colour for each scan", .stroke = Stroke{kScanColor, 0.8, Dash::solid}}};
+      if (has_hypotheses) legend.push_back({.text = "hypotheses", .stroke = kHypothesis});
+      return film_scene(input.title, {std::move(panel)}, std::move(legend));
     };
     return Film{steps.size(), scene,
                 fmt::format("{}: the lines of {} after each iteration of {}.", input.title,

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
+#include "render/layout/shown_unit.hpp"
 #include "render/paper/font.hpp"
 
 namespace scanbench::render {
@@ -11,8 +14,11 @@ namespace {
 
 constexpr Color kAxis{70, 70, 70};
 constexpr Color kGridLine{228, 228, 228};
+constexpr int kLabelLines = 3;          // at most
+constexpr double kLabelHeight = 1.2;    // of a further line
+constexpr double kLabelOverhang = 2.0;  // an upright label may be longer than the box is high
 
-std::vector<Tick> ticks_of(const Axis& axis, double low, double high, int count) {
+std::vector<Tick> round_ticks_of(const Axis& axis, double low, double high, int count) {
   if (axis.ticks.empty() && axis.log) return log_ticks(low, high, count);
   if (axis.ticks.empty()) {
     std::vector<Tick> ticks = linear_ticks(low, high, count);
@@ -23,6 +29,16 @@ std::vector<Tick> ticks_of(const Axis& axis, double low, double high, int count)
   for (const auto& [value, label] : axis.ticks)
     if (value >= low && value <= high) ticks.push_back({value, label});
   return ticks;
+}
+
+/// The ticks at round numbers of the unit that suits the range, and that unit.
+std::pair<std::vector<Tick>, std::string> ticks_of(const Axis& axis, double low, double high, int count) {
+  if (!axis.ticks.empty()) return {round_ticks_of(axis, low, high, count), axis.unit};
+  const ShownUnit shown = shown_unit(axis.unit, low, high, axis.log);
+  std::vector<Tick> ticks = round_ticks_of(axis, shown.per_data * low, shown.per_data * high, count);
+  if (shown.per_data != 1.0)
+    for (Tick& tick : ticks) tick.value /= shown.per_data;
+  return {std::move(ticks), shown.text};
 }
 
 /// Marks and labels below the box; a label that would run into the one before is left out.
@@ -56,8 +72,11 @@ double add_y_ticks(const PanelLayout& p, bool labelled, double em, StrokeShape& 
 
 void choose_ticks(const Panel& panel, double em, PanelLayout& place) {
   const auto count = [](double length, double apart) { return std::clamp(static_cast<int>(length / apart), 2, 10); };
-  place.x_ticks = ticks_of(panel.x, place.x_min, place.x_max, count(place.box.width(), 3.6 * em));
-  place.y_ticks = ticks_of(panel.y, place.y_min, place.y_max, count(place.box.height(), 2.6 * em));
+  std::string x_unit, y_unit;
+  std::tie(place.x_ticks, x_unit) = ticks_of(panel.x, place.x_min, place.x_max, count(place.box.width(), 3.6 * em));
+  std::tie(place.y_ticks, y_unit) = ticks_of(panel.y, place.y_min, place.y_max, count(place.box.height(), 2.6 * em));
+  place.x_label = with_unit(panel.x.label, x_unit);
+  place.y_label = with_unit(panel.y.label, y_unit);
   if (!panel.equal_aspect || !panel.x.ticks.empty() || !panel.y.ticks.empty()) return;
   // A map has one step in both directions: squares of a round number of metres, two lines in each direction at least.
   for (const double apart : {3.2 * em, 2.0 * em}) {
@@ -70,8 +89,21 @@ void choose_ticks(const Panel& panel, double em, PanelLayout& place) {
   }
 }
 
-double bottom_room(const Panel& panel, double em) {
-  return kTickLengthPt + 1.35 * em + (panel.x.label.empty() ? 0.0 : 1.3 * em);
+std::vector<std::string> x_label_lines(const PanelLayout& place, double em) {
+  return wrap_text(place.x_label, place.box.width() / em, kLabelLines);
+}
+
+std::vector<std::string> y_label_lines(const PanelLayout& place, double em) {
+  return wrap_text(place.y_label, place.box.height() / em + kLabelOverhang, kLabelLines);
+}
+
+double bottom_room(std::size_t lines, double em) {
+  const double label = lines == 0 ? 0.0 : 1.3 + kLabelHeight * static_cast<double>(lines - 1);
+  return kTickLengthPt + (1.35 + label) * em;
+}
+
+double left_label_room(std::size_t lines, double em) {
+  return lines == 0 ? 0.0 : (1.35 + kLabelHeight * static_cast<double>(lines - 1)) * em;
 }
 
 void add_grid(const Panel& panel, const PanelLayout& place, std::vector<Shape>& shapes) {
@@ -86,8 +118,7 @@ void add_grid(const Panel& panel, const PanelLayout& place, std::vector<Shape>& 
   if (!lines.points.empty()) shapes.push_back({std::move(lines)});
 }
 
-void add_frame(const Panel& panel, const PanelLayout& place, LabelledSides sides, double em,
-               std::vector<Shape>& shapes) {
+void add_frame(const PanelLayout& place, LabelledSides sides, double em, std::vector<Shape>& shapes) {
   const Rect& b = place.box;
   StrokeShape box{.points = {{b.x0, b.y0}, {b.x1, b.y0}, {b.x1, b.y1}, {b.x0, b.y1}},
                   .stroke = {kAxis, 0.6, Dash::solid},
@@ -99,12 +130,19 @@ void add_frame(const Panel& panel, const PanelLayout& place, LabelledSides sides
   add_x_ticks(place, sides.bottom, em, marks, shapes);
   const double widest = add_y_ticks(place, sides.left, em, marks, shapes);
   if (!marks.points.empty()) shapes.push_back({std::move(marks)});
-  if (sides.bottom)
-    add_text({0.5 * (b.x0 + b.x1), b.y1 + kTickLengthPt + (1.35 + Font::get().cap_height_em()) * em + 1.0}, 0.5,
-             fit_text(panel.x.label, b.width() / em), em, false, shapes);
-  if (sides.left)
-    add_text({b.x0 - kTickLengthPt - 2.0 - widest - 0.5 * em, 0.5 * (b.y0 + b.y1)}, 0.5,
-             fit_text(panel.y.label, (b.height() + 2 * em) / em), em, true, shapes);
+  if (sides.bottom) {
+    double y = b.y1 + kTickLengthPt + (1.35 + Font::get().cap_height_em()) * em + 1.0;
+    for (const std::string& line : x_label_lines(place, em)) {
+      add_text({0.5 * (b.x0 + b.x1), y}, 0.5, line, em, false, shapes);
+      y += kLabelHeight * em;
+    }
+  }
+  if (sides.left) {
+    const std::vector<std::string> lines = y_label_lines(place, em);
+    double x = b.x0 - kTickLengthPt - 2.0 - widest - 0.5 * em;
+    for (std::size_t k = lines.size(); k-- > 0; x -= kLabelHeight * em)
+      add_text({x, 0.5 * (b.y0 + b.y1)}, 0.5, lines[k], em, true, shapes);
+  }
 }
 
 void add_text(const Vec2& at, double align, const std::string& text, double size, bool upwards,

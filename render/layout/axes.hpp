@@ -1,6 +1,7 @@
 // Ticks, grid and frame of a panel.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -16,15 +17,21 @@ struct LabelledSides {
   bool bottom = true;
 };
 
-/// Round numbers along both axes of a box whose ranges are set; `em`: size of the font in points.
+/// Round numbers along both axes of a box whose ranges are set, in the unit that suits them, and the labels with that
+/// unit; `em`: size of the font in points.
 void choose_ticks(const Panel& panel, double em, PanelLayout& place);
 
-/// Room for tick labels and axis label below a labelled box.
-double bottom_room(const Panel& panel, double em);
+/// The labels of the axes, broken into lines that fit beside the box.
+std::vector<std::string> x_label_lines(const PanelLayout& place, double em);
+std::vector<std::string> y_label_lines(const PanelLayout& place, double em);
+
+/// Room below a labelled box for its tick labels and an axis label of `lines` lines.
+double bottom_room(std::size_t lines, double em);
+/// Room left of the tick labels for an axis label of `lines` lines.
+double left_label_room(std::size_t lines, double em);
 
 void add_grid(const Panel& panel, const PanelLayout& place, std::vector<Shape>& shapes);
-void add_frame(const Panel& panel, const PanelLayout& place, LabelledSides sides, double em,
-               std::vector<Shape>& shapes);
+void add_frame(const PanelLayout& place, LabelledSides sides, double em, std::vector<Shape>& shapes);
 
 /// A text run on paper; `align`: the share of its length that is before (x, y).
 void add_text(const Vec2& at, double align, const std::string& text, double size, bool upwards,

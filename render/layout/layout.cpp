@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "render/layout/axes.hpp"
 #include "render/layout/dark.hpp"
@@ -26,6 +27,7 @@ Rect merged(const Rect& a, const Rect& b) {
 
 /// Room around the boxes of a grid of panels.
 struct Margins {
+  std::vector<double> gap;           ///< before each column but the first
   std::vector<double> left;          ///< per column
   std::vector<double> above, below;  ///< per row
   double right = 0.0;
@@ -44,6 +46,10 @@ class Composer {
     out_.panels.resize(scene.panels.size());
     widest_label_.resize(scene.panels.size());
     title_lines_.resize(scene.panels.size(), 1);
+    for (const Panel& panel : scene.panels) {
+      x_lines_.push_back(panel.x.label.empty() ? 0 : 1);
+      y_lines_.push_back(panel.y.label.empty() ? 0 : 1);
+    }
     title_ = wrap_text(scene.title, (out_.width - em_) / (kTitleSize * em_), kTitleLines);
   }
 
@@ -88,17 +94,42 @@ class Composer {
     if (!left_axis(i)) return 0.0;
     double& widest = widest_label_[static_cast<std::size_t>(i)];
     for (const Tick& t : place(i).y_ticks) widest = std::max(widest, Font::get().width_em(t.label) * em_);
-    return kTickLengthPt + 2.0 + widest + (panel(i).y.label.empty() ? 0.0 : 1.35 * em_);
+    return kTickLengthPt + 2.0 + widest + left_label_room(y_lines(i), em_);
   }
-  /// The last tick label may reach beyond the box by half its width.
-  double right_room(int i) {
-    double room = 0.3 * em_;
-    if (!panel(i).axes) return room;
-    for (const Tick& t : place(i).x_ticks)
-      room = std::max(room, place(i).to_device({t.value, place(i).y_min}).x() +
-                                0.5 * Font::get().width_em(t.label) * em_ - place(i).box.x1);
-    return room;
+  double below_room(int i) { return bottom_room(x_lines(i), em_); }
+
+  /// Lines of the labels in the box of the last pass, or more if it was narrower before.
+  std::size_t x_lines(int i) {
+    std::size_t& lines = x_lines_[static_cast<std::size_t>(i)];
+    return lines = std::max(lines, x_label_lines(place(i), em_).size());
   }
+  std::size_t y_lines(int i) {
+    std::size_t& lines = y_lines_[static_cast<std::size_t>(i)];
+    return lines = std::max(lines, y_label_lines(place(i), em_).size());
+  }
+
+  /// How far tick labels reach beyond the left and the right side of the box.
+  std::pair<double, double> overhang(int i) {
+    std::pair<double, double> beyond{0.0, 0.0};
+    if (!bottom_axis(i)) return beyond;
+    for (const Tick& t : place(i).x_ticks) {
+      const double x = place(i).to_device({t.value, place(i).y_min}).x();
+      const double half = 0.5 * Font::get().width_em(t.label) * em_;
+      beyond = {std::max(beyond.first, place(i).box.x0 - x + half),
+                std::max(beyond.second, x + half - place(i).box.x1)};
+    }
+    return beyond;
+  }
+
+  /// Between columns: tick labels of neighbouring panels do not touch.
+  std::vector<double> gaps(const std::vector<double>& left) {
+    std::vector<double> gap(left.size(), 1.4 * em_);
+    for (int i = 1; i < count_; ++i)
+      if (const auto c = static_cast<std::size_t>(i % columns_); c > 0)
+        gap[c] = std::max(gap[c], overhang(i - 1).second + overhang(i).first + 0.6 * em_ - left[c]);
+    return gap;
+  }
+
   /// Room for the title, in as many lines as the box of the last pass needs.
   double above_room(int i) {
     const auto k = static_cast<std::size_t>(i);
@@ -110,27 +141,34 @@ class Composer {
 
   Margins margins() {
     const auto columns = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(rows_);
-    Margins m{std::vector(columns, 0.0), std::vector(rows, 0.0), std::vector(rows, 0.0)};
+    Margins m{{}, std::vector(columns, 0.0), std::vector(rows, 0.0), std::vector(rows, 0.0), 0.3 * em_};
     for (int i = 0; i < count_; ++i) {
       const auto c = static_cast<std::size_t>(i % columns_), r = static_cast<std::size_t>(i / columns_);
       m.left[c] = std::max(m.left[c], left_room(i));
       m.above[r] = std::max(m.above[r], above_room(i));
-      m.right = std::max(m.right, right_room(i));
+      m.right = std::max(m.right, overhang(i).second);
       // Labels of a panel above a free cell hang into that cell, so that all rows keep their spacing.
       const bool hangs = scene_.share_axes && i / columns_ + 1 < rows_;
-      if (bottom_axis(i) && !hangs) m.below[r] = std::max(m.below[r], bottom_room(panel(i), em_));
+      if (bottom_axis(i) && !hangs) m.below[r] = std::max(m.below[r], below_room(i));
     }
+    m.gap = gaps(m.left);
     return m;
   }
 
-  double tallest_aspect() const {
+  /// Height over width of the tallest panel, for boxes of this width.
+  double tallest_aspect(double box_w) const {
     double aspect = 0.0;
-    for (int i = 0; i < count_; ++i) {
-      const PanelLayout& p = natural_[static_cast<std::size_t>(i)];
-      aspect = std::max(aspect, panel(i).equal_aspect ? std::clamp((p.y_max - p.y_min) / (p.x_max - p.x_min), 0.3, 2.5)
-                                                      : scene_.box_aspect);
-    }
+    for (int i = 0; i < count_; ++i)
+      aspect = std::max(aspect, panel(i).equal_aspect ? map_aspect(i, box_w) : scene_.box_aspect);
     return aspect;
+  }
+
+  double map_aspect(int i, double box_w) const {
+    const PanelLayout& p = natural_[static_cast<std::size_t>(i)];
+    const LetterRoom& room = panel(i).room;
+    const double data = std::clamp((p.y_max - p.y_min) / (p.x_max - p.x_min), 0.3, 2.5);
+    const double data_w = std::max(box_w - (room.left + room.right) * em_, kLeastDataShare * box_w);
+    return (data * data_w + (room.below + room.above) * em_) / box_w;
   }
 
   double title_room() const { return title_.empty() ? 0.0 : (0.55 + 1.35 * static_cast<double>(title_.size())) * em_; }
@@ -147,14 +185,16 @@ class Composer {
 
   /// Places the boxes with `legend` points left free below them.
   void set_boxes(const Margins& m, double legend) {
-    const double pad = 0.4 * em_, gap_x = 1.4 * em_, gap_y = 0.5 * em_;
-    double fixed_x = 2 * pad + m.right + gap_x * (columns_ - 1);
+    const double pad = 0.4 * em_, gap_y = 0.5 * em_;
+    double fixed_x = 2 * pad + m.right;
+    for (std::size_t c = 1; c < m.gap.size(); ++c) fixed_x += m.gap[c];
     double fixed_y = 2 * pad + title_room() + gap_y * (rows_ - 1) + legend;
     for (const double l : m.left) fixed_x += l;
     for (std::size_t r = 0; r < m.above.size(); ++r) fixed_y += m.above[r] + m.below[r];
 
-    const double aspect = tallest_aspect();
-    double box_w = std::max(1.0, (out_.width - fixed_x) / columns_), box_h = aspect * box_w;
+    double box_w = std::max(1.0, (out_.width - fixed_x) / columns_);
+    const double aspect = tallest_aspect(box_w);
+    double box_h = aspect * box_w;
     const bool sized = scene_.height_in > 0;
     // A picture may become higher than its limit rather than lose its panels between their labels.
     const double least = sized ? 1.0 : kLeastPanelEm * scene_.font_pt;
@@ -175,13 +215,13 @@ class Composer {
       y += m.above[static_cast<std::size_t>(r)];
       double x = pad + slack;
       for (int c = 0; c < columns_; ++c) {
-        x += m.left[static_cast<std::size_t>(c)];
+        x += m.left[static_cast<std::size_t>(c)] + (c > 0 ? m.gap[static_cast<std::size_t>(c)] : 0.0);
         if (const int i = r * columns_ + c; i < count_) {
           place(i) = natural_[static_cast<std::size_t>(i)];
           place(i).box = {x, y, x + box_w, y + box_h};
-          if (panel(i).equal_aspect) equalise(place(i));
+          if (panel(i).equal_aspect) equalise(panel(i).room, em_, place(i));
         }
-        x += box_w + gap_x;
+        x += box_w;
       }
       y += box_h + m.below[static_cast<std::size_t>(r)] + gap_y;
     }
@@ -193,7 +233,7 @@ class Composer {
     const int filled = count_ % columns_;
     if (rows_ < 2 || filled == 0 || scene_.legend.empty()) return false;
     const int over = (rows_ - 2) * columns_ + filled;  // the panel over the first free cell
-    const double hanging = scene_.share_axes && panel(over).axes ? bottom_room(panel(over), em_) : m.below[0];
+    const double hanging = scene_.share_axes && panel(over).axes ? below_room(over) : m.below[0];
     const double top = place(over).box.y1 + hanging + 0.6 * em_;
     const double bottom = place(count_ - 1).box.y1 + m.below.back();
     const LegendRoom room{place(over).box.x0, top, place((rows_ - 1) * columns_ - 1).box.x1 - place(over).box.x0};
@@ -221,7 +261,7 @@ class Composer {
       const PanelLayout p = place(i);
       if (panel(i).axes) add_grid(panel(i), p, out_.shapes);
       add_items(panel(i), i, p, em_, out_.shapes);
-      if (panel(i).axes) add_frame(panel(i), p, {left_axis(i), bottom_axis(i)}, em_, out_.shapes);
+      if (panel(i).axes) add_frame(p, {left_axis(i), bottom_axis(i)}, em_, out_.shapes);
       const std::vector<std::string> title = wrap_text(panel(i).title, p.box.width() / em_, kTitleLines);
       for (std::size_t k = 0; k < title.size(); ++k) {
         const double up = (0.4 + kLineHeight * static_cast<double>(title.size() - 1 - k)) * em_;
@@ -235,10 +275,11 @@ class Composer {
   const Scene& scene_;
   double em_;
   int count_, columns_, rows_;
-  std::vector<std::string> title_;        ///< of the scene, line by line
-  std::vector<std::size_t> title_lines_;  ///< most lines of each panel's title so far
-  std::vector<double> widest_label_;      ///< of each panel's y axis so far [pt]
-  std::vector<PanelLayout> natural_;      ///< ranges before they grow to fill their boxes
+  std::vector<std::string> title_;              ///< of the scene, line by line
+  std::vector<std::size_t> title_lines_;        ///< most lines of each panel's title so far
+  std::vector<std::size_t> x_lines_, y_lines_;  ///< most lines of the labels of each panel's axes so far
+  std::vector<double> widest_label_;            ///< of each panel's y axis so far [pt]
+  std::vector<PanelLayout> natural_;            ///< ranges before they grow to fill their boxes
   ScaleBar bar_;
   LegendRoom legend_room_;
   Layout out_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -39,9 +40,13 @@ void add_swatch(const LegendEntry& entry, double x, double y, double em, std::ve
                 shapes);
 }
 
+constexpr int kTextLines = 4;  // of an entry, at most
+constexpr double kRowEm = 1.5;
+constexpr double kLineEm = 1.2;
+
 struct Piece {
   const LegendEntry* entry;  // nullptr: the scale bar
-  std::string text;
+  std::vector<std::string> lines;
   double swatch, width;
 };
 
@@ -49,14 +54,16 @@ std::vector<Piece> pieces_of(const Scene& scene, const ScaleBar& scale_bar, doub
   const Font& font = Font::get();
   const double em = scene.font_pt;
   std::vector<Piece> pieces;
-  const auto add = [&](const LegendEntry* entry, const std::string& text, double swatch) {
-    pieces.push_back({entry, text, swatch, swatch + 0.5 * em + font.width_em(text) * em});
+  const auto add = [&](const LegendEntry* entry, std::vector<std::string> lines, double swatch) {
+    double widest = 0.0;
+    for (const std::string& line : lines) widest = std::max(widest, font.width_em(line) * em);
+    pieces.push_back({entry, std::move(lines), swatch, swatch + 0.5 * em + widest});
   };
   for (const LegendEntry& entry : scene.legend) {
     const double swatch = swatch_width(entry, em);
-    add(&entry, fit_text(entry.text, (room - swatch - 0.5 * em) / em), swatch);
+    add(&entry, wrap_text(entry.text, (room - swatch - 0.5 * em) / em, kTextLines), swatch);
   }
-  if (scale_bar.length_pt > 0) add(nullptr, fmt::format("{:g} m", scale_bar.metres), scale_bar.length_pt);
+  if (scale_bar.length_pt > 0) add(nullptr, {fmt::format("{:g} m", scale_bar.metres)}, scale_bar.length_pt);
   return pieces;
 }
 
@@ -77,7 +84,7 @@ double widest_entry(const Scene& scene, const ScaleBar& scale_bar) {
 }
 
 double add_legend(const Scene& scene, const ScaleBar& scale_bar, const LegendRoom& room, std::vector<Shape>* shapes) {
-  const double em = scene.font_pt, row_height = 1.5 * em, gap = 1.5 * em;
+  const double em = scene.font_pt, gap = 1.5 * em;
   const double cap = Font::get().cap_height_em();
   const std::vector<Piece> pieces = pieces_of(scene, scale_bar, room.width - 2 * em);
   double y = room.top;
@@ -86,6 +93,9 @@ double add_legend(const Scene& scene, const ScaleBar& scale_bar, const LegendRoo
     for (last = first + 1; last < pieces.size() && used + gap + pieces[last].width <= room.width - 2 * em; ++last)
       used += gap + pieces[last].width;
     double x = room.left + 0.5 * (room.width - used);
+    std::size_t most_lines = 1;
+    for (std::size_t i = first; i < last; ++i) most_lines = std::max(most_lines, pieces[i].lines.size());
+    const double row_height = (kRowEm + kLineEm * static_cast<double>(most_lines - 1)) * em;
     const double middle = y + 0.5 * row_height;
     for (std::size_t i = first; i < last && shapes != nullptr; ++i) {
       const Piece& piece = pieces[i];
@@ -93,8 +103,12 @@ double add_legend(const Scene& scene, const ScaleBar& scale_bar, const LegendRoo
         add_swatch(*piece.entry, x, middle, em, *shapes);
       else
         add_scale_bar(x, middle, piece.swatch, *shapes);
-      const Vec2 origin(x + piece.swatch + 0.5 * em, middle + 0.5 * cap * em);
-      shapes->push_back({TextShape{origin, piece.text, em, false, false, kBlack}});
+      const double above = 0.5 * kLineEm * static_cast<double>(piece.lines.size() - 1);  // of the middle, in em
+      for (std::size_t k = 0; k < piece.lines.size(); ++k) {
+        const double down = 0.5 * cap + kLineEm * static_cast<double>(k) - above;
+        const Vec2 origin(x + piece.swatch + 0.5 * em, middle + down * em);
+        shapes->push_back({TextShape{origin, piece.lines[k], em, false, false, kBlack}});
+      }
       x += piece.width + gap;
     }
     y += row_height;

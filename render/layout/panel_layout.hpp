@@ -1,6 +1,7 @@
 // The place of a panel's data on paper.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/ticks.hpp"
@@ -13,6 +14,7 @@ struct PanelLayout {
   double x_min = 0, x_max = 1, y_min = 0, y_max = 1;  ///< of the data at the box's sides
   bool x_log = false, y_log = false;
   std::vector<Tick> x_ticks{}, y_ticks{};
+  std::string x_label{}, y_label{};  ///< with the unit of the numbers at the ticks
 
   /// Maps data to paper. Not finite for a coordinate that is not, or is <= 0 on a log axis.
   Vec2 to_device(const Vec2& data) const;

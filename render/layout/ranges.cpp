@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace scanbench::render {
 namespace {
@@ -44,11 +45,28 @@ void set_ranges(const Panel& panel, const Rect& data, PanelLayout& place) {
   place.x_log = panel.x.log, place.y_log = panel.y.log;
 }
 
-void equalise(PanelLayout& place) {
+void equalise(const LetterRoom& room, double em, PanelLayout& place) {
+  // One side of the box: what is left of it for the data, and the share of the rest that is before them.
+  struct Side {
+    double length, data, share;
+    Side(double box, double before, double after)
+        : length(box),
+          data(std::max(box - before - after, kLeastDataShare * box)),
+          share(before + after > 0 ? before / (before + after) : 0.5) {}
+    /// Data units to add before and after an extent that is `unit` points long per data unit.
+    std::pair<double, double> grow(double extent, double unit) const {
+      const double slack = 0.5 * (data - extent * unit), letters = length - data;
+      return {(slack + share * letters) / unit, (slack + (1.0 - share) * letters) / unit};
+    }
+  };
+  const Side x(place.box.width(), room.left * em, room.right * em);
+  const Side y(place.box.height(), room.below * em, room.above * em);
   const double dx = place.x_max - place.x_min, dy = place.y_max - place.y_min;
-  const double unit = std::min(place.box.width() / dx, place.box.height() / dy);
-  const double grow_x = 0.5 * (place.box.width() / unit - dx), grow_y = 0.5 * (place.box.height() / unit - dy);
-  place.x_min -= grow_x, place.x_max += grow_x, place.y_min -= grow_y, place.y_max += grow_y;
+  const double unit = std::min(x.data / dx, y.data / dy);
+  const auto [left, right] = x.grow(dx, unit);
+  const auto [below, above] = y.grow(dy, unit);
+  place.x_min -= left, place.x_max += right;
+  place.y_min -= below, place.y_max += above;
 }
 
 }  // namespace scanbench::render

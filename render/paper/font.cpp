@@ -16,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "render/paper/fill_triangles.hpp"
+#include "render/paper/utf8.hpp"
 
 namespace scanbench::render {
 namespace {
@@ -30,22 +31,6 @@ std::string font_file() {
         "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf"})
     if (std::filesystem::exists(path)) return path;
   throw ConfigError("figures need the font DejaVu Sans: install fonts-dejavu-core, or name the file in SCANBENCH_FONT");
-}
-
-/// Next code point of a UTF-8 text; U+FFFD for malformed bytes, a space for control characters.
-char32_t next_code_point(std::string_view text, std::size_t& at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(at++);
-  if (lead < 0x20 || lead == 0x7F) return U' ';
-  if (lead < 0x80) return lead;
-  const int more = lead >= 0xF0 && lead < 0xF8 ? 3 : lead >= 0xE0 ? 2 : lead >= 0xC2 ? 1 : 0;
-  if (more == 0 || lead >= 0xF8) return 0xFFFD;
-  char32_t code = lead & (0x3FU >> more);
-  for (int i = 0; i < more; ++i) {
-    if (at >= text.size() || (byte(at) & 0xC0U) != 0x80U) return 0xFFFD;
-    code = code << 6 | (byte(at++) & 0x3FU);
-  }
-  return code;
 }
 
 struct Flattener {

@@ -286,7 +286,7 @@ TEST_F(Verbs, AFigureThatHasNothingToDrawSaysWhy) {
   folder_.write("swept.yaml", room_with("[environment]", "[sweep]"));
   const auto ran = here({"run", "swept.yaml", "--out", "swept"});
   EXPECT_EQ(ran.code, 0);
-  const std::string why = "sweep is not drawn: no two pipelines differ in extract.threshold_m alone";
+  const std::string why = "sweep is not drawn: no two pipelines differ in one parameter alone";
   EXPECT_THAT(ran.err, HasSubstr(why));
   EXPECT_THAT(here({"figures", "swept"}).out, HasSubstr(why));
   EXPECT_THAT(read(folder_ / "swept/report.html"), HasSubstr(why));

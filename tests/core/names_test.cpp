@@ -34,5 +34,14 @@ TEST(KnownNames, EndsAMessage) {
   EXPECT_EQ(known_names("hough", {}), "; known: none");
 }
 
+TEST(WordsOfName, SeparateAYearAndBeginWithACapital) {
+  EXPECT_EQ(words_of_name("lakaemper2009_hallway"), "Lakaemper 2009 hallway");
+  EXPECT_EQ(words_of_name("four_rooms"), "Four rooms");
+  EXPECT_EQ(words_of_name("borges2000"), "Borges 2000");
+  EXPECT_EQ(words_of_name("log20091"), "Log20091");
+  EXPECT_EQ(words_of_name("2009_room"), "2009 room");
+  EXPECT_EQ(words_of_name(""), "");
+}
+
 }  // namespace
 }  // namespace scanbench

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <variant>
 #include <vector>
 
 #include "core/contracts/force_field_trace.hpp"
@@ -110,6 +112,34 @@ TEST(Film, OfAnAlignmentHasAFrameForEachIteration) {
   EXPECT_EQ(film->frames, 4U);
   EXPECT_EQ(segments_of(film->scene(3)), 3U);                 // a wall per scan
   EXPECT_EQ(film->scene(3).panels.front().items.size(), 3U);  // each scan has its own colour
+}
+
+TEST(Film, OfAnAlignmentKeepsTheHypothesesInItsLastFrame) {
+  // Hypotheses are made before an iteration, so none is written after the last one.
+  Drive drive;
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    for (int scan = 0; scan < 3; ++scan) {
+      const auto values = values_of(force_field::PoseRow{iteration, scan, 1.0 * scan, 0, 0});
+      drive.trace["align.pose"].push_back({-1, {values.begin(), values.end()}});
+    }
+    force_field::HypothesisRow line{.iteration = iteration, .fate = 1};
+    line.x2_m = line.x3_m = line.x4_m = 2.0;
+    const auto values = values_of(line);
+    if (iteration < 2) drive.trace["align.hypothesis"].push_back({-1, {values.begin(), values.end()}});
+  }
+  const FigureInput input = drive.input();
+  const auto film = Registry<FilmKind>::make("alignment")->make(input, 200);
+  ASSERT_TRUE(film);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_EQ(std::ranges::count_if(film->scene(k).panels.front().items,
+                                    [](const Item& item) { return std::holds_alternative<Polyline>(item); }),
+              1)
+        << "frame " << k;
+  // Those that are given up in the last iteration but one are not.
+  drive.trace["align.hypothesis"].back().values[3] = 3;
+  const FigureInput dropped = drive.input();
+  const Scene last = Registry<FilmKind>::make("alignment")->make(dropped, 200)->scene(2);
+  EXPECT_EQ(last.panels.front().items.size(), 3U) << "the lines of three scans";
 }
 
 TEST(Film, WithoutItsRowsThereIsNone) {

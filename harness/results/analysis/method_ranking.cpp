@@ -29,22 +29,6 @@ using metrics::MetricRow;
 constexpr std::array<std::string_view, 7> kQuality{"f1",           "covered_5cm",  "position_error", "pose_efficiency",
                                                    "rpe_position", "ate_position", "missed"};
 
-/// The value of a metric in a cell: of the subject "all", else "mean", else the mean over its subjects. NaN: none.
-double value_in(const std::vector<MetricRow>& rows, std::string_view metric) {
-  double sum = 0.0;
-  double count = 0.0;
-  double mean = kNaN;
-  for (const auto& row : rows) {
-    if (row.metric != metric) continue;
-    if (row.subject == "all") return row.value;
-    if (row.subject == "mean") mean = row.value;
-    sum += row.value;
-    count += 1.0;
-  }
-  if (std::isfinite(mean)) return mean;
-  return count > 0 ? sum / count : kNaN;
-}
-
 double clopper_pearson(double trials, double successes, bool upper) {
   return (upper ? share_upper_bound : share_lower_bound)(trials, successes, 0.025);
 }
@@ -170,6 +154,25 @@ class Ranker {
 };
 
 }  // namespace
+
+std::span<const std::string_view> quality_metrics() {
+  return kQuality;
+}
+
+double value_in(const std::vector<MetricRow>& rows, std::string_view metric) {
+  double sum = 0.0;
+  double count = 0.0;
+  double mean = kNaN;
+  for (const auto& row : rows) {
+    if (row.metric != metric) continue;
+    if (row.subject == "all") return row.value;
+    if (row.subject == "mean") mean = row.value;
+    sum += row.value;
+    count += 1.0;
+  }
+  if (std::isfinite(mean)) return mean;
+  return count > 0 ? sum / count : kNaN;
+}
 
 std::map<runs::CellKey, double> load_scan_seconds(const runs::RunStore& store, const std::vector<CellResults>& cells) {
   std::map<runs::CellKey, double> seconds;

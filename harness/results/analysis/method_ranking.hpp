@@ -6,7 +6,9 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/results/analysis/run_results.hpp"
@@ -38,6 +40,13 @@ struct MethodRanking {
   metrics::MetricDescription quality;
   std::vector<RankedMethod> methods;  ///< best first; then those that are not complete
 };
+
+/// What rankings are about, best suited first: F1, covered walls, errors of poses, lines missed. The first that most
+/// pipelines have decides.
+std::span<const std::string_view> quality_metrics();
+
+/// The value of a metric in a cell: of the subject "all", else "mean", else the mean over its subjects. NaN: none.
+double value_in(const std::vector<metrics::MetricRow>& rows, std::string_view metric);
 
 /// Seconds of CPU time of one scan, by cell: the sum over the stages of timing.csv over the recording's number of
 /// frames. Cells without these files are absent.

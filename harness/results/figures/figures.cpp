@@ -21,6 +21,7 @@
 #include "harness/results/figures/figure_input/measured.hpp"
 #include "harness/results/figures/line_verdicts.hpp"
 #include "harness/results/figures/recording_note.hpp"
+#include "harness/results/figures/requested_figures.hpp"
 #include "harness/runs/store/cell_files.hpp"
 #include "harness/runs/store/cell_status.hpp"
 #include "harness/runs/store/json_file.hpp"
@@ -145,19 +146,21 @@ std::vector<FigureFile> draw_run_wide_figures(const runs::RunStore& store,
     }
   if (choices.empty()) return {};
   const Recording none{};
-  render::FigureInput input{.title = scenarios.size() == 1 ? scenarios.front().name : "all scenarios",
+  render::FigureInput input{.title = scenarios.size() == 1 ? words_of_name(scenarios.front().name) : "All scenarios",
                             .recording = none,
                             .waypoints = {},
                             .results = {}};
   input.looks = metric_looks();
   for (const study::Scenario& scenario : scenarios)
     input.scenarios.push_back({scenario.name, measured_pipelines(store, with_pipelines(scenario, options.pipelines))});
+  if (!input.scenarios.empty()) input.quality = ranked_metric(input.scenarios.front().pipelines);
   std::vector<FigureFile> files;
   for (const study::ModuleChoice& choice : choices) {
     const auto figure = figure_of(choice);
     const auto scenes = figure->draw(input);
     const std::string owner = scenarios.front().name;  // the report shows it there
-    if (scenes.empty()) files.push_back({owner, "", choice.module + " is not drawn: " + figure->why_nothing(input)});
+    if (scenes.empty())
+      files.push_back({owner, "", choice.module + " is not drawn: " + why_not_drawn(*figure, input), choice.module});
     for (const auto& drawn : scenes) {
       const auto taken = [&](const std::string& name) {
         return std::ranges::find(files, name, &FigureFile::name) != files.end();
@@ -165,7 +168,7 @@ std::vector<FigureFile> draw_run_wide_figures(const runs::RunStore& store,
       std::string name = "all_" + drawn.name;
       for (int k = 2; taken(name); ++k) name = fmt::format("all_{}_{}", drawn.name, k);
       write_figure(figure_folder(store.run(), options), name, drawn.scene, drawn.caption, options);
-      files.push_back({owner, name, drawn.caption});
+      files.push_back({owner, name, drawn.caption, choice.module});
     }
   }
   return files;
@@ -182,8 +185,10 @@ std::vector<FigureFile> draw_figures(const runs::RunStore& store, const study::S
   const Recording recording = runs::load_recording(recorded);
   check_frame(options.frame, recording, scenario);
   const std::vector<LoadedResult> results = finished_results(store, scenario, seed);
-  render::FigureInput input{.title = scenario.name, .recording = recording, .waypoints = {}, .results = {}};
+  render::FigureInput input{
+      .title = words_of_name(scenario.name), .recording = recording, .waypoints = {}, .results = {}};
   input.measured = measured_pipelines(store, scenario);
+  input.quality = ranked_metric(input.measured);
   input.looks = metric_looks();
   if (std::holds_alternative<study::SimulatedInput>(scenario.input)) {
     const sim::SimulationInput simulated = study::simulation_input(scenario, seed);
@@ -210,14 +215,15 @@ std::vector<FigureFile> draw_figures(const runs::RunStore& store, const study::S
     const std::string note = recording_note(scenario, shown), title_note = recording_title_note(scenario, shown);
     auto scenes = figure->draw(input);
     if (scenes.empty())
-      files.push_back({scenario.name, "", choice.module + " is not drawn: " + figure->why_nothing(input)});
+      files.push_back(
+          {scenario.name, "", choice.module + " is not drawn: " + why_not_drawn(*figure, input), choice.module});
     for (auto& drawn : scenes) {
       std::string name = options.name.empty() ? scenario.name + "_" + drawn.name : options.name;
       if (!options.name.empty() && scenes.size() > 1) name += "_" + drawn.name;
       if (!drawn.scene.title.empty() && !title_note.empty()) drawn.scene.title += " (" + title_note + ")";
       const std::string caption = drawn.caption + " " + note;
       write_figure(figure_folder(store.run(), options), name, drawn.scene, caption, options);
-      files.push_back({scenario.name, name, caption});
+      files.push_back({scenario.name, name, caption, choice.module});
     }
   }
   return files;
@@ -234,7 +240,7 @@ void write_figure(const fs::path& folder, const std::string& name, const render:
   for (const std::string& format : options.formats) {
     const std::string bytes = format == "png"   ? render::to_png(drawn, options.dpi)
                               : format == "pdf" ? render::to_pdf(drawn)
-                                                : render::to_svg(drawn);
+                                                : render::to_svg(drawn, caption);
     io::write_file_atomically(folder / (name + "." + format), bytes);
   }
   io::write_file_atomically(folder / (name + ".caption.txt"), caption + "\n");
@@ -243,7 +249,8 @@ void write_figure(const fs::path& folder, const std::string& name, const render:
 void save_figure_index(const fs::path& folder, const std::vector<FigureFile>& figures) {
   auto list = nlohmann::ordered_json::array();
   for (const auto& figure : figures)
-    list.push_back({{"scenario", figure.scenario}, {"name", figure.name}, {"caption", figure.caption}});
+    list.push_back(
+        {{"scenario", figure.scenario}, {"name", figure.name}, {"figure", figure.figure}, {"caption", figure.caption}});
   io::make_folders(folder);
   io::write_file_atomically(folder / kIndexFile, io::json_text(list) + "\n");
 }
@@ -254,7 +261,7 @@ std::vector<FigureFile> load_figure_index(const fs::path& folder) {
   std::vector<FigureFile> figures;
   try {
     for (const auto& entry : runs::load_json(path))
-      figures.push_back({entry.at("scenario"), entry.at("name"), entry.at("caption")});
+      figures.push_back({entry.at("scenario"), entry.at("name"), entry.at("caption"), entry.value("figure", "")});
   } catch (const nlohmann::ordered_json::exception& error) {
     runs::refuse_json(path, error);
   }

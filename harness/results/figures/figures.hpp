@@ -18,19 +18,22 @@ namespace scanbench::results {
 /// A figure in its folder: <name>.svg, .png, .pdf, and <name>.caption.txt.
 struct FigureFile {
   std::string scenario;
-  std::string name;     ///< empty: the figure had nothing to draw, and there are no files
-  std::string caption;  ///< or why nothing was drawn
+  std::string name;      ///< empty: the figure had nothing to draw, and there are no files
+  std::string caption;   ///< or why nothing was drawn
+  std::string figure{};  ///< the registered name; empty for those of a benchmark
 };
 
 /// What is drawn, how, and where.
 struct FigureOptions {
   std::vector<std::string> formats{"svg", "png"};  ///< endings of the pictures: svg, png, pdf
-  double dpi = 200.0;                              ///< of PNG
+  double dpi = 300.0;                              ///< of PNG
   render::OutputStyle style{};
   std::vector<std::string> pipelines{};  ///< only these; empty: all
-  std::optional<std::size_t> frame{};    ///< the scan that figures of one scan show
-  std::filesystem::path folder{};        ///< empty: run/figures
-  std::string name{};                    ///< of the files, for a single figure; empty: <scenario>_<figure>
+  /// Figures that must be drawn (requested_figures.hpp); the folder keeps its others. Empty: those of the scenarios.
+  std::vector<std::string> figures{};
+  std::optional<std::size_t> frame{};  ///< the scan that figures of one scan show
+  std::filesystem::path folder{};      ///< empty: run/figures
+  std::string name{};                  ///< of the files, for a single figure; empty: <scenario>_<figure>
 };
 
 /// Throws ConfigError unless the scenarios have all the pipelines of the options, at least one figure has a frame if

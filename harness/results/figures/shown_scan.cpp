@@ -142,8 +142,10 @@ bool is_same_scan(const ChosenCell& a, const ChosenCell& b) {
 }
 
 ShownScan drawn_scan(const ChosenCell& cell, std::vector<render::NamedResult> results) {
-  render::FigureInput input{
-      .title = cell.key.scenario, .recording = cell.recording, .waypoints = {}, .results = std::move(results)};
+  render::FigureInput input{.title = words_of_name(cell.key.scenario),
+                            .recording = cell.recording,
+                            .waypoints = {},
+                            .results = std::move(results)};
   auto drawn =
       Registry<render::Figure>::make("scan_overlay", {{"frame", static_cast<std::int64_t>(cell.frame)}})->draw(input);
   if (drawn.empty()) throw ConfigError("there is nothing to draw of " + runs::to_string(cell.key));

@@ -75,8 +75,8 @@ std::unique_ptr<LoadedFilm> load_film(const runs::RunStore& store, const study::
   loaded->result = runs::load_result(cell);
   loaded->trace = runs::load_trace(cell, choice);
   loaded->pipeline = pipeline;
-  loaded->input.emplace(
-      render::FigureInput{.title = scenario.name, .recording = loaded->recording, .waypoints = {}, .results = {}});
+  loaded->input.emplace(render::FigureInput{
+      .title = words_of_name(scenario.name), .recording = loaded->recording, .waypoints = {}, .results = {}});
   if (const auto* simulated = std::get_if<study::SimulatedInput>(&scenario.input)) {
     const auto continuous = simulated->trajectory.params.find("continuous");
     if (continuous != simulated->trajectory.params.end())

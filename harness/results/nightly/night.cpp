@@ -43,7 +43,7 @@ constexpr std::size_t kTrendNights = 30;
 constexpr std::size_t kPictures = 6;
 constexpr std::size_t kListedChanges = 40;         // with a trend
 constexpr std::size_t kWorstScans = 10;            // of each pipeline
-constexpr std::uintmax_t kLargestFigure = 200000;  // bytes, so that the page stays small
+constexpr std::uintmax_t kLargestFigure = 400000;  // bytes, so that the page stays small
 
 struct Reference {
   std::string text;

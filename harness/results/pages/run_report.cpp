@@ -18,6 +18,7 @@
 #include "harness/results/document/html_page.hpp"
 #include "harness/results/document/plain_text.hpp"
 #include "harness/results/figures/benchmark_figures.hpp"
+#include "harness/results/figures/requested_figures.hpp"
 #include "harness/results/pages/benchmark_extremes.hpp"
 #include "harness/results/pages/benchmark_report.hpp"
 #include "harness/results/pages/report.hpp"
@@ -145,7 +146,8 @@ void draw_run_figures(const fs::path& run, const std::vector<study::Scenario>& s
   const runs::RunStore store(run);
   std::vector<FigureFile> figures;
   const auto benchmark = runs::load_benchmark(run, scenarios);
-  if (benchmark) figures = draw_benchmark_figures(store, scenarios, *benchmark, options, progress);
+  if (benchmark && options.figures.empty())
+    figures = draw_benchmark_figures(store, scenarios, *benchmark, options, progress);
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     const auto part = [&](double share, const std::string& what) {
       if (progress) progress((static_cast<double>(i) + share) / static_cast<double>(scenarios.size()), what);
@@ -153,8 +155,10 @@ void draw_run_figures(const fs::path& run, const std::vector<study::Scenario>& s
     for (auto& figure : draw_figures(store, scenarios[i], options, part)) figures.push_back(std::move(figure));
   }
   for (auto& figure : draw_run_wide_figures(store, scenarios, options)) figures.push_back(std::move(figure));
-  save_figure_index(figure_folder(run, options), figures);
+  const fs::path folder = figure_folder(run, options);
+  save_figure_index(folder, options.figures.empty() ? figures : beside(load_figure_index(folder), figures));
   if (options.folder.empty()) runs::refresh_manifest(run);
+  require_drawn(options.figures, figures);
 }
 
 Document closing_document(const ReportInput& input) {

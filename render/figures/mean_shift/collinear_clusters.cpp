@@ -56,7 +56,7 @@ class CollinearClusters : public Figure {
     scene.panels = {kernel_panel(*rows, members, shown), parts_panel(collinear, *rows, members, parts.size()),
                     modes_panel(collinear, *rows), map_panel(*rows)};
     scene.legend = {{.text = "centres of segments", .marker = Marker::dot, .marker_size_pt = 2.6},
-                    {.text = "kernel K2, one standard deviation", .stroke = kKernelStroke},
+                    {.text = "kernel of phase 2, one standard deviation", .stroke = kKernelStroke},
                     {.text = "modes",
                      .marker = kModeStyle.marker,
                      .marker_color = kModeStyle.color,

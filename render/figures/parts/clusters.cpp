@@ -98,4 +98,10 @@ std::vector<Segment> thinned(std::span<const Segment> segments, std::size_t most
   return some;
 }
 
+std::vector<Vec2> thinned(std::span<const Vec2> points, std::size_t most) {
+  std::vector<Vec2> some;
+  for (std::size_t i = 0; i < points.size(); i += stride_for(points.size(), most)) some.push_back(points[i]);
+  return some;
+}
+
 }  // namespace scanbench::render

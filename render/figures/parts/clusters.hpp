@@ -38,7 +38,8 @@ class ClusteredSegments {
   std::vector<Color> colors_;
 };
 
-/// An even selection of at most `most` segments.
+/// An even selection of at most `most` segments or points.
 std::vector<Segment> thinned(std::span<const Segment> segments, std::size_t most);
+std::vector<Vec2> thinned(std::span<const Vec2> points, std::size_t most);
 
 }  // namespace scanbench::render

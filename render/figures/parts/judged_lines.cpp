@@ -78,13 +78,16 @@ void JudgedLines::draw(const Stroke& own, bool ends, Panel& panel) const {
 }
 
 void add_verdict_legend(double width_pt, Scene& scene) {
-  for (const Look& look : kVerdictLooks)
+  for (const Look& look : kVerdictLooks) {
+    const Stroke stroke{look.color, look.width * width_pt, look.dash};
+    if (!draws(scene, stroke)) continue;
     scene.legend.push_back({.text = look.name,
-                            .stroke = Stroke{look.color, look.width * width_pt, look.dash},
+                            .stroke = stroke,
                             .marker = look.marker,
                             .marker_color = look.color,
                             .marker_size_pt = kEndPt,
                             .marker_filled = look.filled});
+  }
 }
 
 }  // namespace scanbench::render

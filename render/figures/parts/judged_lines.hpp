@@ -28,7 +28,7 @@ class JudgedLines {
   std::array<std::vector<Segment>, kKinds> lines_{};
 };
 
-/// An entry for each verdict.
+/// An entry for each verdict that a panel of the scene shows, drawn with this width.
 void add_verdict_legend(double width_pt, Scene& scene);
 
 }  // namespace scanbench::render

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <variant>
 
 #include <fmt/format.h>
@@ -42,6 +43,13 @@ std::string common_name(const std::string& a, const std::string& b) {
   return end == std::string::npos ? a : name.substr(0, end + 1);
 }
 
+std::string unit_of(const std::string& parameter, const std::vector<MeasuredPipeline>& all) {
+  for (const MeasuredPipeline& measured : all)
+    if (const auto unit = measured.units.find(parameter); unit != measured.units.end() && !unit->second.empty())
+      return unit->second;
+  return "";
+}
+
 bool has_value(const MeasuredPipeline& measured, const std::string& metric) {
   const auto found = measured.metrics.find(metric);
   return found != measured.metrics.end() && !found->second.empty();
@@ -49,10 +57,18 @@ bool has_value(const MeasuredPipeline& measured, const std::string& metric) {
 
 }  // namespace
 
-std::string metric_label(const FigureInput& input, const std::string& metric) {
+std::string chosen_metric(const FigureInput& input, const std::string& wanted) {
+  return wanted.empty() ? input.quality : wanted;
+}
+
+std::string metric_words(const FigureInput& input, const std::string& metric) {
   const auto look = input.looks.find(metric);
-  return look == input.looks.end() || look->second.unit.empty() ? metric
-                                                                : fmt::format("{} [{}]", metric, look->second.unit);
+  return look == input.looks.end() || look->second.label.empty() ? metric : look->second.label;
+}
+
+Axis metric_axis(const FigureInput& input, const std::string& metric) {
+  const auto look = input.looks.find(metric);
+  return {.label = metric_words(input, metric), .unit = look == input.looks.end() ? "" : look->second.unit};
 }
 
 std::optional<MeanBand> band_of(const MeasuredPipeline& measured, const std::string& metric) {
@@ -77,7 +93,9 @@ std::optional<double> cost_of(const FigureInput& input, const std::string& metri
 }
 
 std::string no_value_of(const std::string& metric) {
-  return fmt::format("no pipeline has a value of the metric {} for the subject all", metric);
+  if (metric.empty())
+    return "no pipeline has a value of a metric by which reports rank; the figure's parameters name one";
+  return fmt::format("no pipeline has a value of the metric {}", metric);
 }
 
 std::size_t most_seeds(const FigureInput& input, const std::string& metric) {
@@ -108,11 +126,35 @@ std::vector<VariedPipelines> varied_pipelines(const std::string& parameter, cons
   return groups;
 }
 
-std::string parameter_label(const std::string& parameter, const std::vector<MeasuredPipeline>& all) {
+std::vector<std::string> varied_parameters(const std::vector<MeasuredPipeline>& all,
+                                           const std::vector<std::string>& metrics) {
+  std::set<std::string> names;
   for (const MeasuredPipeline& measured : all)
-    if (const auto unit = measured.units.find(parameter); unit != measured.units.end() && !unit->second.empty())
-      return fmt::format("{} [{}]", parameter, unit->second);
-  return parameter;
+    for (const auto& [slot, params] : measured.slots)
+      for (const auto& [name, value] : params) names.insert(slot.substr(0, slot.find(' ')) + "." + name);
+  std::vector<std::string> varied;
+  for (const std::string& name : names)
+    if (!varied_pipelines(name, all, metrics).empty()) varied.push_back(name);
+  return varied;
+}
+
+std::string parameter_words(const std::string& parameter, const std::vector<MeasuredPipeline>& all) {
+  std::string words = parameter.substr(parameter.find('.') + 1);  // all of it without a slot
+  std::string suffix = "_" + unit_of(parameter, all);
+  if (const auto per = suffix.find('/'); per != std::string::npos) suffix.replace(per, 1, "_per_");
+  if (suffix.size() > 1 && words.size() > suffix.size() && words.ends_with(suffix))
+    words.resize(words.size() - suffix.size());
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+std::string parameter_with_unit(const std::string& parameter, const std::vector<MeasuredPipeline>& all) {
+  const std::string unit = unit_of(parameter, all), words = parameter_words(parameter, all);
+  return unit.empty() ? words : fmt::format("{} [{}]", words, unit);
+}
+
+Axis parameter_axis(const std::string& parameter, const std::vector<MeasuredPipeline>& all) {
+  return {.label = parameter_words(parameter, all), .unit = unit_of(parameter, all)};
 }
 
 }  // namespace scanbench::render

@@ -2,6 +2,7 @@
 #include "render/figures/parts/style.hpp"
 
 #include <algorithm>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -57,6 +58,23 @@ Scene small_multiples(std::size_t panels) {
   scene.share_axes = true;
   scene.scale_bar = true;
   return scene;
+}
+
+void arrange_multiples(Scene& scene) {
+  const Scene arranged = small_multiples(scene.panels.size());
+  scene.columns = arranged.columns;
+  scene.width_in = arranged.width_in;
+  scene.share_axes = scene.scale_bar = true;
+}
+
+bool draws(const Scene& scene, const Stroke& stroke) {
+  const auto same = [&](const Stroke& other) { return other.color == stroke.color && other.dash == stroke.dash; };
+  const auto has = [&](const Item& item) {
+    if (const auto* lines = std::get_if<Lines>(&item)) return !lines->segments.empty() && same(lines->stroke);
+    const auto* line = std::get_if<Polyline>(&item);
+    return line != nullptr && !line->points.empty() && same(line->stroke);
+  };
+  return std::ranges::any_of(scene.panels, [&](const Panel& panel) { return std::ranges::any_of(panel.items, has); });
 }
 
 void add_note(const std::string& text, Panel& panel) {

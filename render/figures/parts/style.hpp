@@ -56,8 +56,14 @@ Color method_color(const std::vector<NamedResult>& results, std::size_t index);
 void add_method_legend(const std::vector<NamedResult>& results, const std::vector<std::vector<std::size_t>>& groups,
                        double width_pt, Scene& scene);
 
-/// A scene of small multiples for `panels` panels on a map: width, columns, one range, a scale bar.
+/// A scene of small multiples for `panels` panels on a map: width, columns, one range, a scale bar. Four panels are two
+/// rows of two.
 Scene small_multiples(std::size_t panels);
+/// The same for the panels that the scene has.
+void arrange_multiples(Scene& scene);
+
+/// True if a panel has lines in this colour and dash, so that a legend may name them.
+bool draws(const Scene& scene, const Stroke& stroke);
 
 /// Writes into an empty panel why it is empty.
 void add_note(const std::string& text, Panel& panel);

@@ -73,13 +73,13 @@ std::vector<Vec2> ends_of(std::span<const Segment> segments) {
 }
 
 void Window::set_ranges(Panel& panel) const {
-  panel.x.range = {center.x() - 0.5 * side, center.x() + 0.5 * side};
-  panel.y.range = {center.y() - 0.5 * side, center.y() + 0.5 * side};
+  panel.x.range = {center.x() - half().x(), center.x() + half().x()};
+  panel.y.range = {center.y() - half().y(), center.y() + half().y()};
 }
 
 Polyline Window::outline() const {
-  const double h = 0.5 * side;
-  return {.points = {center + Vec2(-h, -h), center + Vec2(h, -h), center + Vec2(h, h), center + Vec2(-h, h)},
+  const double x = half().x(), y = half().y();
+  return {.points = {center + Vec2(-x, -y), center + Vec2(x, -y), center + Vec2(x, y), center + Vec2(-x, y)},
           .stroke = {kGrey, 0.6, Dash::dashed},
           .closed = true};
 }

@@ -16,11 +16,18 @@ void set_view(std::span<const Vec2> points, std::span<const Vec2> must_hold, Pan
 /// Both ends of each segment.
 std::vector<Vec2> ends_of(std::span<const Segment> segments);
 
-/// A square part of a map.
+/// A part of a map: a square, or a rectangle with `side` in x.
 struct Window {
   Vec2 center = Vec2::Zero();
   double side = 1.0;
-  bool contains(const Vec2& p) const { return ((p - center).cwiseAbs().array() <= 0.5 * side).all(); }
+  double aspect = 1.0;  ///< height over width
+  Vec2 half() const { return {0.5 * side, 0.5 * side * aspect}; }
+  bool contains(const Vec2& p) const { return ((p - center).cwiseAbs().array() <= half().array()).all(); }
+  /// True if the bounding box of the segment and the window overlap.
+  bool is_near(const Segment& s) const {
+    const Vec2 low = s.a.cwiseMin(s.b) - center, high = s.a.cwiseMax(s.b) - center;
+    return (low.array() <= half().array()).all() && (high.array() >= -half().array()).all();
+  }
   void set_ranges(Panel& panel) const;
   /// Its outline, on a panel that shows more.
   Polyline outline() const;

@@ -38,39 +38,42 @@ std::vector<PlacedPipeline> front_of(const std::vector<PlacedPipeline>& all) {
 class AccuracyTime : public Figure {
  public:
   struct Params {
-    std::string metric = "f1";
-    std::string time = "t_scan";
+    std::string metric;
+    std::string time{kScanTime};
     static auto fields() {
-      return std::tuple{field("metric", &Params::metric, "the metric of accuracy, of the subject all"),
-                        field("time", &Params::time, "the metric of time: t_scan, t_match, t_align, t_total")};
+      return std::tuple{
+          field("metric", &Params::metric, kRankedMetricDoc),
+          field("time", &Params::time,
+                "scan_time, the CPU time of all stages for one scan, or a metric of time: t_scan, t_match, "
+                "t_align, t_total")};
     }
   };
   explicit AccuracyTime(const Params& params) : params_(params) {}
 
   std::string why_nothing(const FigureInput& input) const override {
-    for (const std::string& metric : {params_.metric, params_.time})
+    const std::string quality = chosen_metric(input, params_.metric);
+    for (const std::string& metric : {quality, params_.time})
       if (std::ranges::none_of(input.measured, [&](const auto& m) { return band_of(m, metric).has_value(); }))
         return no_value_of(metric);
-    return fmt::format("no value of the metric {} is better than another, or no pipeline has a time > 0",
-                       params_.metric);
+    return fmt::format("no value of the metric {} is better than another, or no pipeline has a time > 0", quality);
   }
 
   bool spans_seeds() const override { return true; }
   std::vector<NamedScene> draw(const FigureInput& input) const override {
-    const std::vector<PlacedPipeline> placed = place(input);
+    const std::string metric = chosen_metric(input, params_.metric);
+    const std::vector<PlacedPipeline> placed = place(input, metric);
     if (placed.empty()) return {};
     std::vector<std::string> names;
     names.reserve(placed.size());
     for (const PlacedPipeline& p : placed) names.push_back(p.name);
     const std::vector<MethodStyle> styles = method_styles(names);
 
-    Panel panel{.x = {.label = metric_label(input, params_.time), .log = true},
-                .y = {.label = metric_label(input, params_.metric)},
-                .equal_aspect = false,
-                .items = {}};
+    Panel panel{
+        .x = metric_axis(input, params_.time), .y = metric_axis(input, metric), .equal_aspect = false, .items = {}};
+    panel.x.log = true;
     const std::vector<PlacedPipeline> front = front_of(placed);
     panel.items.emplace_back(stairs(front));
-    Scene scene{.title = fmt::format("{}: {} against time", input.title, params_.metric)};
+    Scene scene{.title = fmt::format("{}: {} against time", input.title, metric_words(input, metric))};
     for (std::size_t i = 0; i < placed.size(); ++i) {
       const PlacedPipeline& p = placed[i];
       const Stroke bar{styles[i].color, 0.8, Dash::solid};
@@ -92,35 +95,35 @@ class AccuracyTime : public Figure {
       panel.items.emplace_back(Text{.at = {p.time.mean, p.quality.mean}, .text = p.name, .offset_pt = {4.0, 4.0}});
     scene.legend.push_back({.text = "Pareto front", .stroke = kFront});
     scene.panels.push_back(std::move(panel));
-    const std::size_t seeds = most_seeds(input, params_.metric);
+    const std::size_t seeds = most_seeds(input, metric);
     std::string names_of_front;
     for (const PlacedPipeline& p : front) names_of_front += (names_of_front.empty() ? "" : ", ") + p.name;
-    return {
-        {"accuracy_time",
-         fmt::format("{}: {} against {}{}. No pipeline is better in one of both and as good in the other than one "
-                     "of the Pareto front: {}.",
-                     input.title, params_.metric, params_.time,
-                     seeds > 1 ? fmt::format(", means over {} seeds with {}", seeds,
-                                             has_ranges(input) ? "the range of their values" : "their 95 % intervals")
-                               : "",
-                     names_of_front),
-         std::move(scene)}};
+    return {{"accuracy_time",
+             fmt::format("{}: {} against {}{}. No pipeline is better in one of both and as good in the other than one "
+                         "of the Pareto front: {}.",
+                         input.title, metric_words(input, metric), metric_words(input, params_.time),
+                         seeds > 1 ? fmt::format(", means over {} seeds with {}", seeds,
+                                                 has_ranges(input, metric) ? "the range of their values"
+                                                                           : "their 95 % intervals")
+                                   : "",
+                         names_of_front),
+             std::move(scene)}};
   }
 
  private:
-  bool has_ranges(const FigureInput& input) const {
+  static bool has_ranges(const FigureInput& input, const std::string& metric) {
     return std::ranges::any_of(input.measured, [&](const MeasuredPipeline& measured) {
-      const auto band = measured.bands.find(params_.metric);
+      const auto band = measured.bands.find(metric);
       return band != measured.bands.end() && band->second.is_range;
     });
   }
 
-  std::vector<PlacedPipeline> place(const FigureInput& input) const {
+  std::vector<PlacedPipeline> place(const FigureInput& input, const std::string& metric) const {
     std::vector<PlacedPipeline> placed;
     for (const MeasuredPipeline& measured : input.measured) {
-      const auto time = band_of(measured, params_.time), quality = band_of(measured, params_.metric);
+      const auto time = band_of(measured, params_.time), quality = band_of(measured, metric);
       if (!time || !quality || !(time->mean > 0)) continue;
-      const std::optional<double> cost = cost_of(input, params_.metric, quality->mean);
+      const std::optional<double> cost = cost_of(input, metric, quality->mean);
       if (!cost) return {};
       placed.push_back({measured.pipeline, *time, *quality, *cost});
     }

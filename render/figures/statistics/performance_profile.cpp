@@ -39,18 +39,16 @@ Costs ratios_of(Costs costs) {
 class PerformanceProfile : public Figure {
  public:
   struct Params {
-    std::string metric = "f1";
-    static auto fields() {
-      return std::tuple{field("metric", &Params::metric, "the metric whose cost is compared, of the subject all")};
-    }
+    std::string metric;
+    static auto fields() { return std::tuple{field("metric", &Params::metric, kRankedMetricDoc)}; }
   };
   explicit PerformanceProfile(const Params& params) : params_(params) {}
 
   bool spans_scenarios() const override { return true; }
 
   std::string why_nothing(const FigureInput& input) const override {
-    if (pipelines_of(input).empty()) return no_value_of(params_.metric);
-    if (!cost(input, 0.5)) return fmt::format("no value of the metric {} is better than another", params_.metric);
+    if (pipelines_of(input).empty()) return no_value_of(metric_of(input));
+    if (!cost(input, 0.5)) return fmt::format("no value of the metric {} is better than another", metric_of(input));
     return "fewer than two pipelines are in all scenarios";
   }
 
@@ -65,7 +63,8 @@ class PerformanceProfile : public Figure {
     const double end = std::max(1.05 * largest, 1.1);
     const std::vector<MethodStyle> styles = method_styles(names);
 
-    Scene scene{.title = fmt::format("{}: performance profiles, {}", input.title, params_.metric)};
+    Scene scene{.title =
+                    fmt::format("{}: performance profiles, {}", input.title, metric_words(input, metric_of(input)))};
     Panel panel{.x = {.label = "factor of the best cost, τ", .range = std::pair(1.0, end), .log = end > 5.0},
                 .y = {.label = "share of problems", .range = std::pair(-0.03, 1.03)},
                 .equal_aspect = false,
@@ -97,13 +96,15 @@ class PerformanceProfile : public Figure {
   }
 
  private:
+  std::string metric_of(const FigureInput& input) const { return chosen_metric(input, params_.metric); }
+
   const MetricLook* look(const FigureInput& input) const {
-    const auto found = input.looks.find(params_.metric);
+    const auto found = input.looks.find(metric_of(input));
     return found == input.looks.end() ? nullptr : &found->second;
   }
 
   std::optional<double> cost(const FigureInput& input, double value) const {
-    const auto cost = cost_of(input, params_.metric, value);
+    const auto cost = cost_of(input, metric_of(input), value);
     if (!cost) return std::nullopt;
     const MetricLook& metric = *look(input);
     const double raw = metric.best == MetricLook::Best::highest ? 1.0 + *cost : *cost;
@@ -112,10 +113,10 @@ class PerformanceProfile : public Figure {
 
   std::string cost_text(const FigureInput& input) const {
     const MetricLook& metric = *look(input);
-    if (metric.best == MetricLook::Best::highest) return "difference of " + params_.metric + " to 1";
-    if (metric.best == MetricLook::Best::target)
-      return fmt::format("distance of {} from {:g}", params_.metric, metric.target);
-    return params_.metric;
+    const std::string words = metric_words(input, metric_of(input));
+    if (metric.best == MetricLook::Best::highest) return "difference of " + words + " to 1";
+    if (metric.best == MetricLook::Best::target) return fmt::format("distance of {} from {:g}", words, metric.target);
+    return words;
   }
 
   /// The pipelines that are in all scenarios and have a value in one of them, in the order of the first scenario.
@@ -127,7 +128,7 @@ class PerformanceProfile : public Figure {
       for (const MeasuredScenario& scenario : input.scenarios) {
         const auto found = std::ranges::find(scenario.pipelines, candidate.pipeline, &MeasuredPipeline::pipeline);
         everywhere = everywhere && found != scenario.pipelines.end();
-        somewhere = somewhere || (found != scenario.pipelines.end() && found->by_seed.contains(params_.metric));
+        somewhere = somewhere || (found != scenario.pipelines.end() && found->by_seed.contains(metric_of(input)));
       }
       if (everywhere && somewhere) names.push_back(candidate.pipeline);
     }
@@ -139,13 +140,13 @@ class PerformanceProfile : public Figure {
     for (const MeasuredScenario& scenario : input.scenarios) {
       std::size_t seeds = 0;
       for (const MeasuredPipeline& measured : scenario.pipelines)
-        if (const auto values = measured.by_seed.find(params_.metric); values != measured.by_seed.end())
+        if (const auto values = measured.by_seed.find(metric_of(input)); values != measured.by_seed.end())
           seeds = std::max(seeds, values->second.size());
       const std::size_t first = costs.size();
       costs.resize(first + seeds, std::vector(names.size(), static_cast<double>(INFINITY)));
       for (std::size_t i = 0; i < names.size(); ++i) {
         const auto measured = std::ranges::find(scenario.pipelines, names[i], &MeasuredPipeline::pipeline);
-        const auto values = measured->by_seed.find(params_.metric);
+        const auto values = measured->by_seed.find(metric_of(input));
         if (values == measured->by_seed.end()) continue;
         for (std::size_t s = 0; s < values->second.size(); ++s)
           if (std::isfinite(values->second[s])) costs[first + s][i] = *cost(input, values->second[s]);

@@ -19,13 +19,16 @@ constexpr double kRecallMarkerPt = 3.6;
 class PrecisionRecall : public Figure {
  public:
   struct Params {
-    std::string parameter = "extract.threshold_m";
+    std::string parameter;
     std::string precision = "precision";
     std::string recall = "recall";
     static auto fields() {
-      return std::tuple{field("parameter", &Params::parameter, "the parameter that varies along a curve"),
-                        field("precision", &Params::precision, "the metric on the vertical axis"),
-                        field("recall", &Params::recall, "the metric on the horizontal axis")};
+      return std::tuple{
+          field("parameter", &Params::parameter,
+                "the parameter that varies along a curve, like extract.threshold_m; empty: the first in which two "
+                "pipelines differ alone"),
+          field("precision", &Params::precision, "the metric on the vertical axis"),
+          field("recall", &Params::recall, "the metric on the horizontal axis")};
     }
   };
   explicit PrecisionRecall(const Params& params) : params_(params) {}
@@ -34,27 +37,33 @@ class PrecisionRecall : public Figure {
     for (const std::string& metric : {params_.precision, params_.recall})
       if (std::ranges::none_of(input.measured, [&](const auto& m) { return band_of(m, metric).has_value(); }))
         return no_value_of(metric);
-    return fmt::format("no two pipelines differ in {} alone", params_.parameter);
+    return fmt::format("no two pipelines differ in {} alone",
+                       params_.parameter.empty() ? "one parameter" : params_.parameter);
   }
 
   bool spans_seeds() const override { return true; }
   std::vector<NamedScene> draw(const FigureInput& input) const override {
-    const std::vector<VariedPipelines> groups =
-        varied_pipelines(params_.parameter, input.measured, {params_.precision, params_.recall});
+    const std::vector<std::string> metrics{params_.precision, params_.recall};
+    const std::vector<std::string> varied = varied_parameters(input.measured, metrics);
+    const std::string parameter = params_.parameter.empty() && !varied.empty() ? varied.front() : params_.parameter;
+    const std::vector<VariedPipelines> groups = varied_pipelines(parameter, input.measured, metrics);
     if (groups.empty()) return {};
     std::vector<std::string> names;
     names.reserve(groups.size());
     for (const VariedPipelines& group : groups) names.push_back(group.name);
     const std::vector<MethodStyle> styles = method_styles(names);
 
-    Panel panel{.x = {.label = params_.recall}, .y = {.label = params_.precision}, .equal_aspect = false, .items = {}};
+    Panel panel{.x = metric_axis(input, params_.recall),
+                .y = metric_axis(input, params_.precision),
+                .equal_aspect = false,
+                .items = {}};
     std::vector<std::vector<Vec2>> curves;
     curves.reserve(groups.size());
     for (const VariedPipelines& group : groups) curves.push_back(means_of(group));
     const double lowest = set_ranges(curves, panel);
     add_equal_f(lowest, panel);
-    Scene scene{.title = fmt::format("{}: {} against {}", input.title, params_.precision, params_.recall),
-                .box_aspect = 0.85};
+    const std::string precision = metric_words(input, params_.precision), recall = metric_words(input, params_.recall);
+    Scene scene{.title = fmt::format("{}: {} against {}", input.title, precision, recall), .box_aspect = 0.85};
     for (std::size_t i = 0; i < groups.size(); ++i) {
       const auto& [color, dash, marker] = styles[i];
       panel.items.emplace_back(Polyline{.points = curves[i], .stroke = {color, 1.2, dash}});
@@ -74,13 +83,12 @@ class PrecisionRecall : public Figure {
     scene.legend.push_back({.text = "equal F", .stroke = kEqualF});
     scene.panels.push_back(std::move(panel));
     const std::size_t seeds = most_seeds(input, params_.precision);
-    return {
-        {"precision_recall",
-         fmt::format("{}: {} against {} as {} varies, whose smallest and largest value are at the ends of each "
-                     "curve{}.",
-                     input.title, params_.precision, params_.recall, parameter_label(params_.parameter, input.measured),
-                     seeds > 1 ? fmt::format("; means over {} seeds", seeds) : ""),
-         std::move(scene)}};
+    return {{"precision_recall",
+             fmt::format("{}: {} against {} as {} varies, whose smallest and largest value are at the ends of each "
+                         "curve{}.",
+                         input.title, precision, recall, parameter_with_unit(parameter, input.measured),
+                         seeds > 1 ? fmt::format("; means over {} seeds", seeds) : ""),
+             std::move(scene)}};
   }
 
  private:

@@ -37,42 +37,43 @@ std::vector<double> spread(const std::vector<double>& sorted, double width) {
 class Seeds : public Figure {
  public:
   struct Params {
-    std::string metric = "f1";
-    static auto fields() {
-      return std::tuple{field("metric", &Params::metric, "the metric that is shown, of the subject all")};
-    }
+    std::string metric;
+    static auto fields() { return std::tuple{field("metric", &Params::metric, kRankedMetricDoc)}; }
   };
   explicit Seeds(const Params& params) : params_(params) {}
 
-  std::string why_nothing(const FigureInput&) const override { return no_value_of(params_.metric); }
+  std::string why_nothing(const FigureInput& input) const override {
+    return no_value_of(chosen_metric(input, params_.metric));
+  }
 
   bool spans_seeds() const override { return true; }
   std::vector<NamedScene> draw(const FigureInput& input) const override {
+    const std::string metric = chosen_metric(input, params_.metric), words = metric_words(input, metric);
     std::vector<const MeasuredPipeline*> shown;
     for (const MeasuredPipeline& measured : input.measured)
-      if (band_of(measured, params_.metric)) shown.push_back(&measured);
+      if (band_of(measured, metric)) shown.push_back(&measured);
     if (shown.empty()) return {};
     std::vector<std::string> names;
     double low = INFINITY, high = -INFINITY;
     for (const MeasuredPipeline* measured : shown) {
       names.push_back(measured->pipeline);
-      const auto [least, most] = std::ranges::minmax(measured->metrics.at(params_.metric));
+      const auto [least, most] = std::ranges::minmax(measured->metrics.at(metric));
       low = std::min(low, least), high = std::max(high, most);
     }
     const std::vector<MethodStyle> styles = method_styles(names);
     const auto rows = static_cast<double>(shown.size());
-    Panel panel{.x = {.label = metric_label(input, params_.metric)},
+    Panel panel{.x = metric_axis(input, metric),
                 .y = {.range = std::pair(-0.5, rows - 0.5), .grid = false},
                 .equal_aspect = false,
                 .items = {}};
     for (std::size_t i = 0; i < shown.size(); ++i) {
       const double row = rows - 1.0 - static_cast<double>(i);  // the first pipeline is on top
       panel.y.ticks.emplace_back(row, names[i]);
-      add_row(*shown[i], row, styles[i].color, (high - low) / 60.0, panel);
+      add_row(*shown[i], metric, row, styles[i].color, (high - low) / 60.0, panel);
     }
-    Scene scene{.title = fmt::format("{}: {} over the seeds", input.title, params_.metric),
+    Scene scene{.title = fmt::format("{}: {} over the seeds", input.title, words),
                 .box_aspect = std::clamp(0.13 * rows, 0.3, 2.0)};
-    const bool few = band_of(*shown.front(), params_.metric)->is_range;
+    const bool few = band_of(*shown.front(), metric)->is_range;
     const std::string spread = few ? "range" : "95 % interval";
     scene.legend = {{.text = "one seed", .marker = Marker::circle, .marker_color = kGrey, .marker_size_pt = kSeedDotPt},
                     {.text = "mean and " + spread,
@@ -81,27 +82,27 @@ class Seeds : public Figure {
                      .marker_color = kBlack,
                      .marker_size_pt = 4.5}};
     scene.panels.push_back(std::move(panel));
-    const std::size_t seeds = most_seeds(input, params_.metric);
-    return {
-        {"seeds",
-         fmt::format("{}: {} of each of {}, with the mean and {}.", input.title, params_.metric, counted(seeds, "seed"),
-                     few ? "the range, because so few have no interval" : "its 95 % interval"),
-         std::move(scene)}};
+    const std::size_t seeds = most_seeds(input, metric);
+    return {{"seeds",
+             fmt::format("{}: {} of each of {}, with the mean and {}.", input.title, words, counted(seeds, "seed"),
+                         few ? "the range, because so few have no interval" : "its 95 % interval"),
+             std::move(scene)}};
   }
 
  private:
-  void add_row(const MeasuredPipeline& measured, double row, Color color, double width, Panel& panel) const {
-    std::vector<double> values = measured.metrics.at(params_.metric);
+  static void add_row(const MeasuredPipeline& measured, const std::string& metric, double row, Color color,
+                      double width, Panel& panel) {
+    std::vector<double> values = measured.metrics.at(metric);
     std::ranges::sort(values);
     const std::vector<double> offsets = spread(values, width);
     Points dots{.marker = Marker::circle, .color = color, .size_pt = kSeedDotPt};
     for (std::size_t k = 0; k < values.size(); ++k) dots.points.emplace_back(values[k], row + offsets[k]);
-    panel.items.emplace_back(std::move(dots));
-    const MeanBand band = *band_of(measured, params_.metric);
+    const MeanBand band = *band_of(measured, metric);
     const auto cap = [&](double x) { return Segment{{x, row - 0.12}, {x, row + 0.12}}; };
     if (band.high > band.low)
       panel.items.emplace_back(
           Lines{.segments = {{{band.low, row}, {band.high, row}}, cap(band.low), cap(band.high)}, .stroke = kInterval});
+    panel.items.emplace_back(std::move(dots));  // over the interval, which would hide those of a few seeds
     panel.items.emplace_back(
         Points{.points = {{band.mean, row}}, .marker = Marker::diamond, .color = kBlack, .size_pt = 4.5});
   }

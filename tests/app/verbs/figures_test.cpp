@@ -145,6 +145,45 @@ TEST_F(Figures, RefuseSizesThatNoFigureHas) {
   EXPECT_FALSE(fs::exists(folder_ / "run/figures"));
 }
 
+TEST_F(Figures, AreDrawnByNameThoughTheScenarioDoesNotListThem) {
+  make_run();
+  ASSERT_EQ(figures({"-q"}).code, 0);
+  const auto before = files(folder_ / "run/figures");
+  const auto outcome = figures({"--figure", "accuracy_time,seeds"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("room_accuracy_time.svg"), HasSubstr("room_seeds.svg"), Not(HasSubstr("environment"))));
+  EXPECT_THAT(read(folder_ / "run/figures/room_accuracy_time.svg"), HasSubstr("CPU time of one scan"));
+  auto after = files(folder_ / "run/figures");
+  for (const auto& [name, bytes] : before)
+    if (name != "index.json") {
+      EXPECT_EQ(after[name], bytes) << name;
+    }
+  const std::string index = read(folder_ / "run/figures/index.json");
+  EXPECT_THAT(index, AllOf(HasSubstr("room_environment"), HasSubstr("room_accuracy_time"), HasSubstr("room_seeds")));
+}
+
+TEST_F(Figures, ThatTheRunCannotGiveSayWhatIsMissing) {
+  make_run();
+  const auto refusal = [&](const Args& args) {
+    const auto outcome = figures(args);
+    EXPECT_EQ(outcome.code, 2) << outcome.out;
+    return outcome.err;
+  };
+  EXPECT_THAT(refusal({"--figure", "joint_space"}),
+              AllOf(HasSubstr("joint_space is not drawn: no pipeline has the trace rows merge."),
+                    HasSubstr("scanbench run --trace")));
+  EXPECT_THAT(refusal({"--figure", "sweep"}), HasSubstr("no two pipelines differ in one parameter alone"));
+  EXPECT_THAT(refusal({"--figure", "enviroment"}), HasSubstr("did you mean 'environment'?"));
+  EXPECT_THAT(refusal({"--only", "environment"}), HasSubstr("--figure"));
+}
+
+TEST_F(Figures, HaveThreeHundredDotsPerInchIfNoneAreNamed) {
+  make_run();
+  ASSERT_EQ(figures({"--format", "png", "--width-mm", "84", "--out", "narrow"}).code, 0);
+  EXPECT_EQ(png_size(read(folder_ / "narrow/room_environment.png")).first, 992);  // 84 / 25.4 * 300 = 992.1
+}
+
 TEST_F(Figures, RefuseAFolderWithOtherFilesAndKeepThem) {
   make_run();
   folder_.write("thesis/chapter.txt", "years of work");

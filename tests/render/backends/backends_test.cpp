@@ -206,7 +206,22 @@ TEST(Svg, IsWellFormedAndItsReferencesStayInTheFile) {
       EXPECT_NE(svg.find("id=\"" + id + "\""), std::string::npos) << id;
     }
   EXPECT_GT(references, 20u);
-  EXPECT_EQ(svg.find("<text"), std::string::npos) << "letters are outlines: they look the same everywhere";
+}
+
+TEST(Svg, CanBeSearchedAndReadAloudThoughItsLettersAreOutlines) {
+  Scene scene = rich_scene();
+  scene.title = "walls & <lines>, \xff";
+  const std::string svg = to_svg(scene, "a caption");
+  expect_well_formed(svg);
+  EXPECT_NE(svg.find("<title>walls &amp; &lt;lines&gt;, \uFFFD</title>"), std::string::npos);
+  EXPECT_NE(svg.find("<desc>a caption</desc>"), std::string::npos);
+  const auto layer = svg.find("<g fill-opacity=\"0\"");
+  ASSERT_NE(layer, std::string::npos);
+  EXPECT_EQ(svg.find("<text"), svg.find("<text", layer)) << "letters are outlines: they look the same everywhere";
+  for (const Shape& shape : layout(scene).shapes)
+    if (const auto* text = std::get_if<TextShape>(&shape.what); text != nullptr && text->text != scene.title) {
+      EXPECT_NE(svg.find(">" + text->text + "</text>", layer), std::string::npos) << text->text;
+    }
 }
 
 TEST(Svg, IdsOfDifferentScenesDiffer) {

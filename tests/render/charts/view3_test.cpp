@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <variant>
+
+#include "render/layout/layout.hpp"
+#include "render/paper/font.hpp"
+
 namespace scanbench::render {
 namespace {
 
@@ -54,6 +59,29 @@ TEST(View3, ThePanelHoldsTheWholeBox) {
           EXPECT_GT(p.y(), panel.y.range->first);
           EXPECT_LT(p.y(), panel.y.range->second);
         }
+  }
+}
+
+TEST(View3, CutsNoLetterInAPanelOfHalfAColumn) {
+  for (const double width_mm : {60.0, 84.0, 180.0}) {
+    Scene scene;
+    scene.width_in = width_mm / 25.4;
+    scene.columns = 2;
+    const View3 v({Axis3{"x [m]", -3.0, 3.0, {}}, Axis3{"y [m]", -3.0, 3.0, {}},
+                   Axis3{"direction [°]", 0.0, 180.0, {{0, "0"}, {90, "90"}, {180, "180 = 0"}}}},
+                  {});
+    scene.panels = {v.panel(257.0, scene.font_pt), v.panel(257.0, scene.font_pt)};
+    const Layout placed = layout(scene);
+    int texts = 0;
+    for (const Shape& shape : placed.shapes)
+      if (const auto* text = std::get_if<TextShape>(&shape.what); text != nullptr && shape.clip >= 0) {
+        ++texts;
+        const double length = Font::get().width_em(text->text) * text->size;
+        const Vec2 end = text->origin + (text->upwards ? Vec2(0, -length) : Vec2(length, 0));
+        const Rect& box = placed.panels[static_cast<std::size_t>(shape.clip)].box;
+        EXPECT_TRUE(box.contains(text->origin) && box.contains(end)) << text->text << " of " << width_mm << " mm";
+      }
+    EXPECT_GT(texts, 2 * 9);
   }
 }
 

@@ -67,14 +67,15 @@ struct Case {
       const double better = 0.01 * static_cast<double>(i);
       for (const auto& [metric, value] : {std::pair("f1", 0.9), std::pair("precision", 0.8), std::pair("recall", 0.7)})
         measured.metrics[metric] = {value - 0.1, value + better};
-      measured.metrics["t_scan"] = {10.0, 20.0 + 5.0 * static_cast<double>(i)};
+      measured.metrics["scan_time"] = {1e-5, 2e-5 + 5e-6 * static_cast<double>(i)};
       measured.by_seed = measured.metrics;
       for (const auto& [metric, values] : measured.metrics)
         measured.bands[metric] = {0.5 * (values[0] + values[1]), values[0], values[1]};
       in.measured.push_back(std::move(measured));
     }
     in.looks = {{"f1", {.best = MetricLook::Best::highest}},
-                {"t_scan", {.unit = "us", .best = MetricLook::Best::lowest}}};
+                {"scan_time", {.label = "CPU time of one scan", .unit = "s", .best = MetricLook::Best::lowest}}};
+    in.quality = "f1";
     if (!in.measured.empty()) in.scenarios = {{"abcdef", in.measured}};
     return in;
   }
@@ -270,6 +271,42 @@ TEST(Map, HasTheColoursOfItsPanelsInItsLegend) {
     })) << kNames[i];
 }
 
+TEST(Map, NamesPointsOnlyIfItsLinesDoNotCoverThem) {
+  for (const double beside_m : {0.0, 0.3}) {
+    Case c;
+    c.recording.observed.sensor.geometry = ScanGeometry(radians(-45), radians(1), 91);
+    std::vector<double> ranges;
+    for (int deg = -45; deg <= 45; ++deg)
+      ranges.push_back((4.0 + (deg % 3 == 0 ? beside_m : 0.0)) / std::cos(radians(deg)));
+    c.recording.observed.frames.push_back({0.0, ranges, Pose2()});
+    PipelineResult result;
+    result.has_map = true;
+    result.map.lines.push_back({.segment = {{4, -4}, {4, 4}}});
+    c.results = {result};
+    const Scene scene = Registry<Figure>::make("map")->draw(c.input({})).at(0).scene;
+    const bool named = std::ranges::find(scene.legend, "points of all scans", &LegendEntry::text) != scene.legend.end();
+    const bool drawn = std::ranges::any_of(scene.panels[0].items, [](const Item& item) {
+      const auto* points = std::get_if<Points>(&item);
+      return points != nullptr && points->marker == Marker::dot;
+    });
+    EXPECT_EQ(named, beside_m > 0);
+    EXPECT_EQ(drawn, named);
+  }
+}
+
+TEST(ScanOverlay, NamesOnlyTheVerdictsThatItShows) {
+  const Case c = simulated(1);
+  FigureInput input = c.input({});
+  for (NamedResult& named : input.results)
+    named.verdicts = {{.lines = std::vector(named.result->lines.at(0).lines.size(), LineVerdict::right), .missed = {}}};
+  const Scene scene = Registry<Figure>::make("scan_overlay")->draw(input).at(0).scene;
+  const auto has = [&](const char* text) {
+    return std::ranges::find(scene.legend, text, &LegendEntry::text) != scene.legend.end();
+  };
+  EXPECT_TRUE(has("right"));
+  for (const char* absent : {"split", "false", "missed"}) EXPECT_FALSE(has(absent)) << absent;
+}
+
 TEST(Figures, DrawPanelsThatShowTheSameThingOnce) {
   Case c = simulated(6);
   c.results[1] = c.results[0];
@@ -407,11 +444,30 @@ TEST(Sweep, DrawsTheMeanAndTheBandOfPipelinesThatDifferInOneParameter) {
   ASSERT_EQ(scenes.size(), 1U);
   ASSERT_EQ(scenes[0].scene.panels.size(), 1U);  // nobody has a y
   const Panel& panel = scenes[0].scene.panels[0];
-  EXPECT_EQ(panel.x.label, "merge.x [m]");
+  EXPECT_EQ(panel.x.label, "x");
+  EXPECT_EQ(panel.x.unit, "m");
   EXPECT_EQ(std::get<Polygon>(panel.items.at(0)).points,
             (std::vector<Vec2>{{5, 4}, {10, 7}, {20, 1}, {20, 6}, {10, 9}, {5, 4}}));
   EXPECT_EQ(std::get<Polyline>(panel.items.at(1)).points, (std::vector<Vec2>{{5, 4}, {10, 8}, {20, 3}}));
   EXPECT_EQ(scenes[0].scene.legend.at(0).text, "wide");
+}
+
+TEST(Sweep, ShowsAllVariedParametersInWordsIfNoneIsNamed) {
+  const Recording none;
+  FigureInput input{.title = "t", .recording = none, .waypoints = {}, .results = {}};
+  for (const auto& [angle, window] : {std::pair(5.0, 3.0), std::pair(9.0, 3.0), std::pair(5.0, 7.0)})
+    input.measured.push_back({.pipeline = "p",
+                              .slots = {{"merge a", {{"max_angle_deg", angle}, {"window", window}}}},
+                              .units = {{"merge.max_angle_deg", "deg"}},
+                              .metrics = {{"map_lines", {angle + window}}}});
+  input.looks = {{"map_lines", {.label = "map lines"}}};
+  const Scene scene = Registry<Figure>::make("sweep", {{"metric", std::string("map_lines")}})->draw(input).at(0).scene;
+  ASSERT_EQ(scene.panels.size(), 2U);
+  EXPECT_EQ(scene.panels[0].x.label, "max angle");
+  EXPECT_EQ(scene.panels[0].x.unit, "deg");
+  EXPECT_EQ(scene.panels[1].x.label, "window");
+  EXPECT_EQ(scene.panels[0].y.label, "map lines");
+  EXPECT_EQ(scene.title, "t: map lines against max angle and window");
 }
 
 TEST(Sweep, NamesTheTargetInItsLegend) {

@@ -210,9 +210,25 @@ TEST(MergeStages, ShowsWhatCleaningErases) {
   std::vector<Vec2> points;
   for (int i = 0; i < 300; ++i) points.emplace_back(0.01 * i, 0.0);
   const NamedScene figure = drawn("merge_stages", test::merged_by_mean_shift(lines, points), "cleaned");
-  ASSERT_EQ(figure.scene.panels.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i)
-    EXPECT_EQ(items<Lines>(figure.scene.panels[i]).at(0).segments.size(), i < 2 ? 2u : 1u) << i;
+  ASSERT_EQ(figure.scene.panels.size(), 4u);
+  EXPECT_EQ(items<Lines>(figure.scene.panels[0]).at(0).segments.size(), 2u) << "given";
+  const auto after = items<Lines>(figure.scene.panels[1]);
+  ASSERT_EQ(after.size(), 2u);
+  ASSERT_EQ(after[0].segments.size(), 1u) << "erased";
+  EXPECT_NEAR((after[0].segments[0].midpoint() - Vec2(1.1, 2)).norm(), 0, 1e-6);
+  EXPECT_EQ(after[1].segments.size(), 1u) << "kept";
+  // The details show the place of the erased line.
+  for (const std::size_t i : {2u, 3u}) {
+    const Panel& panel = figure.scene.panels[i];
+    EXPECT_LT(panel.x.range->first, 1.1);
+    EXPECT_GT(panel.x.range->second, 1.1);
+    EXPECT_LT(panel.x.range->second - panel.x.range->first, 1.5);
+  }
+  const auto names = [&](const char* text) {
+    return std::ranges::find(figure.scene.legend, text, &LegendEntry::text) != figure.scene.legend.end();
+  };
+  EXPECT_TRUE(names("erased by cleaning"));
+  EXPECT_FALSE(names("scan points")) << "the lines cover them";
 }
 
 TEST(Alignment, ShowsThePosesOfAPipelineOnlyIfTheyAreNotThoseOfOdometry) {
@@ -220,6 +236,21 @@ TEST(Alignment, ShowsThePosesOfAPipelineOnlyIfTheyAreNotThoseOfOdometry) {
   EXPECT_EQ(drawn("alignment", merged, "odometry").scene.panels.size(), 1u);
   merged.result.world_from_sensor = {Pose2(0.1, 0.0, 0.0)};
   EXPECT_EQ(drawn("alignment", merged, "moved").scene.panels.size(), 2u);
+}
+
+TEST(Alignment, OfFourPanelsHasTwoRowsOfTwo) {
+  test::Merged merged = test::merged_by_mean_shift(std::vector<MapLine>{});
+  const Recording recording = test::blind_recording();
+  FigureInput input = input_of("four", recording, {});
+  std::vector<PipelineResult> results(3, merged.result);
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    results[k].world_from_sensor = {Pose2(0.1 * static_cast<double>(k + 1), 0.0, 0.0)};
+    input.results.push_back({"p" + std::to_string(k), &results[k]});
+  }
+  const auto scenes = Registry<Figure>::make("alignment", {{"every_pipeline", true}})->draw(input);
+  ASSERT_EQ(scenes.size(), 1u);
+  EXPECT_EQ(scenes[0].scene.panels.size(), 4u);
+  EXPECT_EQ(scenes[0].scene.columns, 2);
 }
 
 TEST(ClusterColors, NeighboursDifferAndTheSamePlacesGiveTheSameColours) {

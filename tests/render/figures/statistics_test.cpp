@@ -5,12 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/angles.hpp"
 #include "core/registry.hpp"
 #include "core/special_values.hpp"
 #include "render/figure.hpp"
+#include "render/layout/layout.hpp"
 
 namespace scanbench::render {
 namespace {
@@ -40,7 +42,8 @@ FigureInput input_of(std::vector<MeasuredPipeline> pipelines) {
   input.looks = {{"f1", {.best = MetricLook::Best::highest, .tolerance = 0.005}},
                  {"error", {.unit = "m", .best = MetricLook::Best::lowest, .tolerance = 0.001}},
                  {"n", {}},
-                 {"t_scan", {.unit = "us", .best = MetricLook::Best::lowest}}};
+                 {"scan_time", {.label = "CPU time of one scan", .unit = "s", .best = MetricLook::Best::lowest}}};
+  input.quality = "f1";
   return input;
 }
 
@@ -64,9 +67,9 @@ std::vector<Kind> items(const Scene& scene, std::size_t panel = 0) {
 
 TEST(AccuracyTime, TheFrontGoesThroughThePipelinesThatNoneBeats) {
   const auto input =
-      input_of({measured("slow_bad", {{"f1", {0.4}}, {"t_scan", {30}}}),
-                measured("slow_good", {{"f1", {0.9}}, {"t_scan", {40}}}),
-                measured("fast", {{"f1", {0.5}}, {"t_scan", {10}}}), measured("untimed", {{"f1", {1.0}}})});
+      input_of({measured("slow_bad", {{"f1", {0.4}}, {"scan_time", {30}}}),
+                measured("slow_good", {{"f1", {0.9}}, {"scan_time", {40}}}),
+                measured("fast", {{"f1", {0.5}}, {"scan_time", {10}}}), measured("untimed", {{"f1", {1.0}}})});
   const Scene scene = scene_of("accuracy_time", input);
   const auto stairs = items<Polyline>(scene);
   ASSERT_EQ(stairs.size(), 1u);
@@ -75,20 +78,32 @@ TEST(AccuracyTime, TheFrontGoesThroughThePipelinesThatNoneBeats) {
 }
 
 TEST(AccuracyTime, TheFrontOfAnErrorGoesDown) {
-  const auto input = input_of({measured("a", {{"error", {0.4}}, {"t_scan", {10}}}),
-                               measured("b", {{"error", {0.1}}, {"t_scan", {20}}}),
-                               measured("c", {{"error", {0.2}}, {"t_scan", {20}}})});
+  const auto input = input_of({measured("a", {{"error", {0.4}}, {"scan_time", {10}}}),
+                               measured("b", {{"error", {0.1}}, {"scan_time", {20}}}),
+                               measured("c", {{"error", {0.2}}, {"scan_time", {20}}})});
   const Scene scene = scene_of("accuracy_time", input, {{"metric", std::string("error")}});
   EXPECT_EQ(items<Polyline>(scene).at(0).points, (std::vector<Vec2>{{10, 0.4}, {20, 0.4}, {20, 0.1}}));
 }
 
 TEST(AccuracyTime, SaysWhyItIsNotDrawn) {
   const auto figure = Registry<Figure>::make("accuracy_time", {{"metric", std::string("n")}});
-  const auto counted = input_of({measured("a", {{"n", {4}}, {"t_scan", {10}}})});
+  const auto counted = input_of({measured("a", {{"n", {4}}, {"scan_time", {10}}})});
   EXPECT_TRUE(figure->draw(counted).empty());
   EXPECT_NE(figure->why_nothing(counted).find("no value of the metric n is better"), std::string::npos);
   const auto untimed = input_of({measured("a", {{"n", {4}}})});
-  EXPECT_NE(figure->why_nothing(untimed).find("value of the metric t_scan"), std::string::npos);
+  EXPECT_NE(figure->why_nothing(untimed).find("value of the metric scan_time"), std::string::npos);
+}
+
+TEST(AccuracyTime, HasTheMetricAndTheTimeOfTheReportIfNoneIsNamed) {
+  auto input = input_of({measured("a", {{"error", {0.002}}, {"scan_time", {1e-4}}}),
+                         measured("b", {{"error", {0.004}}, {"scan_time", {2e-4}}})});
+  input.quality = "error";
+  input.looks["error"].label = "position error";
+  const Scene scene = scene_of("accuracy_time", input);
+  EXPECT_EQ(scene.panels[0].x.label, "CPU time of one scan");
+  EXPECT_EQ(scene.panels[0].y.label, "position error");
+  EXPECT_EQ(scene.panels[0].y.unit, "m");
+  EXPECT_NE(scene.title.find("position error against time"), std::string::npos) << scene.title;
 }
 
 TEST(PrecisionRecall, CurvesFollowTheParameterOverLinesOfEqualF) {
@@ -241,6 +256,32 @@ TEST(ErrorEllipses, HaveTheAxesOfBothCovariances) {
   EXPECT_NEAR(std::remainder(ellipses[0].angle_rad - radians(30), kPi), 0.0, 1e-9);
   EXPECT_NEAR(ellipses[1].semi_axes.x(), 20 * root, 1e-6);
   EXPECT_NEAR(ellipses[1].semi_axes.y(), 10 * root, 1e-6);
+}
+
+TEST(ErrorEllipses, OfVeryDifferentSizeHaveTheirOwnScales) {
+  for (const double larger : {2.0, 50.0}) {
+    MadeUp made = straight_path(10), other = made;
+    const auto& poses = made.recording.truth->world_from_sensor;
+    for (auto [result, size] : {std::pair(&made.result, 1.0), std::pair(&other.result, larger)})
+      for (int k = 1; k < 10; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        const Vec2 e = 0.001 * size * Vec2(k % 2 == 0 ? 1 : -1, k % 4 < 2 ? 1 : -1);
+        FrameMatch match{.frame = k, .reference = k - 1, .match = {}};
+        match.match.reference_from_current = Pose2(e, 0.0) * (poses[at - 1].inverse() * poses[at]);
+        match.match.covariance = 1e-6 * size * size * Eigen::Matrix3d::Identity();
+        result->matches.push_back(match);
+      }
+    FigureInput input = made.input();
+    input.results.push_back({"q", &other.result});
+    const Scene scene = scene_of("error_ellipses", input, {{"of", std::string("matches")}});
+    ASSERT_EQ(scene.panels.size(), 2u);
+    const Layout placed = layout(scene);
+    for (std::size_t i = 0; i < 2; ++i) {  // an ellipse is at least an eighth of its panel wide
+      const double wide = 2.0 * items<Ellipse>(scene, i).at(0).semi_axes.x();
+      EXPECT_GT(wide / (placed.panels[i].x_max - placed.panels[i].x_min), 0.125) << larger;
+    }
+    EXPECT_EQ(scene.share_axes, larger < 4.0);
+  }
 }
 
 TEST(ErrorEllipses, OfLinesAreTheirErrorsAtTheMidpoint) {

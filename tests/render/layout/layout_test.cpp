@@ -3,13 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/rng.hpp"
 #include "render/layout/labels.hpp"
+#include "render/layout/shown_unit.hpp"
 #include "render/paper/fill_triangles.hpp"
 #include "render/paper/font.hpp"
 
@@ -238,6 +243,84 @@ TEST(Layout, WrapsLongTitlesAndLosesNoWord) {
   }
   EXPECT_NE(all.find(scene.title), std::string::npos) << all;
   EXPECT_NE(all.find(scene.panels[0].title), std::string::npos) << all;
+}
+
+std::string texts_of(const Layout& placed) {
+  std::string all;
+  for (const TextShape* text : shapes_of<TextShape>(placed, -1)) all += text->text + " ";
+  return all;
+}
+
+TEST(Layout, CutsNoLabelInAColumnOf84Millimetres) {
+  Scene scene = one_panel({Lines{.segments = {{{0, 0}, {10, 8}}}}});
+  scene.width_in = 84 / 25.4;
+  scene.columns = 2;
+  scene.panels[0].equal_aspect = false;
+  scene.panels[0].x.label = "largest angle between two lines that are merged";
+  scene.panels[0].y.label = "share of the walls that the map covers within 5 cm";
+  scene.panels[0].x.unit = "deg";
+  scene.panels.push_back(scene.panels[0]);
+  scene.legend = {
+      {.text = "a name that is as long as those of five methods, which all have the same lines in this scan",
+       .stroke = Stroke{}}};
+  const Layout placed = layout(scene);
+  const std::string all = texts_of(placed);
+  EXPECT_EQ(all.find("\u2026"), std::string::npos) << all;
+  for (const std::string& wanted : {scene.panels[0].x.label + " [°]", scene.legend[0].text})
+    EXPECT_NE(all.find(wanted), std::string::npos) << all;
+  const Rect canvas{0, 0, placed.width, placed.height};
+  for (const TextShape* text : shapes_of<TextShape>(placed, -1)) {
+    const double length = Font::get().width_em(text->text) * text->size;
+    const Vec2 end = text->origin + (text->upwards ? Vec2(0, -length) : Vec2(length, 0));
+    EXPECT_TRUE(canvas.contains(text->origin) && canvas.contains(end)) << text->text;
+  }
+}
+
+TEST(Layout, WritesMillimetresWhereMetresWouldHaveThreeZeros) {
+  Scene scene = one_panel({Polyline{.points = {{1, 0.0005}, {2, 0.004}}}});
+  scene.panels[0].equal_aspect = false;
+  scene.panels[0].y = {.label = "position error", .unit = "m"};
+  const Layout small = layout(scene);
+  EXPECT_NE(texts_of(small).find("position error [mm]"), std::string::npos) << texts_of(small);
+  for (const Tick& tick : small.panels[0].y_ticks) EXPECT_NEAR(tick.value, 1e-3 * std::stod(tick.label), 1e-12);
+  scene.panels[0].items = {Polyline{.points = {{1, 0.5}, {2, 4}}}};
+  const Layout large = layout(scene);
+  EXPECT_NE(texts_of(large).find("position error [m]"), std::string::npos) << texts_of(large);
+  for (const Tick& tick : large.panels[0].y_ticks) EXPECT_NEAR(tick.value, std::stod(tick.label), 1e-12);
+}
+
+TEST(ShownUnit, IsTheLargestInWhichATimeReachesOne) {
+  EXPECT_EQ(shown_unit("us", 0, 9800, false).text, "ms");
+  EXPECT_NEAR(9800 * shown_unit("us", 0, 9800, false).per_data, 9.8, 1e-12);
+  EXPECT_EQ(shown_unit("us", 0, 980, false).text, "µs");
+  EXPECT_EQ(shown_unit("ms", 0, 2500, false).text, "s");
+  EXPECT_EQ(shown_unit("s", 1e-6, 1e-4, true).text, "µs") << "10 µs are the middle of the decades";
+  EXPECT_EQ(shown_unit("deg", 0, 1, false).text, "°");
+  EXPECT_EQ(shown_unit("", 0, 1, false).text, "");
+  EXPECT_EQ(with_unit("F1", ""), "F1");
+}
+
+TEST(Layout, TickLabelsOfNeighbouringPanelsDoNotTouch) {
+  Scene scene = one_panel({Polyline{.points = {{0, 1}, {3, 2}}}});
+  scene.width_in = kDoubleColumnIn;
+  scene.share_axes = true;
+  scene.panels[0].equal_aspect = false;
+  scene.panels[0].x = {.label = "start error", .range = std::pair(0.0, 3.0)};
+  scene.panels[0].x.ticks = {{0, "10/1.5"}, {1, "20/3"}, {2, "40/6"}, {3, "80/12"}};
+  scene.panels.resize(8, scene.panels[0]);
+  scene.columns = 4;
+  const Layout placed = layout(scene);
+  std::map<double, std::vector<std::pair<double, double>>> rows;  // ends of the labels, by their height
+  for (const TextShape* text : shapes_of<TextShape>(placed, -1))
+    if (text->text.find('/') != std::string::npos)
+      rows[text->origin.y()].emplace_back(text->origin.x(),
+                                          text->origin.x() + Font::get().width_em(text->text) * text->size);
+  ASSERT_EQ(rows.size(), 1u);
+  auto& labels = rows.begin()->second;
+  std::sort(labels.begin(), labels.end());
+  ASSERT_GE(labels.size(), 8u);
+  for (std::size_t k = 1; k < labels.size(); ++k)
+    EXPECT_GE(labels[k].first - labels[k - 1].second, 0.2 * scene.font_pt) << "label " << k;
 }
 
 TEST(Layout, BreaksATitleIntoLinesOfAboutEqualWidth) {
