@@ -126,6 +126,8 @@ int export_recordings(const ExportOptions& options) {
   return kGood;
 }
 
+}  // namespace
+
 void add_simulate(CommandLine& line) {
   auto options = std::make_shared<SimulateOptions>();
   Verb verb = line.add_verb("simulate", "Makes only the recordings of a scenario");
@@ -153,13 +155,6 @@ void add_export(CommandLine& line) {
   verb.option("-o,--out", options->out, "the folder to write to (default: RUN/export)");
   verb.runs(
       [options] { return options->format == kPolygons ? export_polygons(*options) : export_recordings(*options); });
-}
-
-}  // namespace
-
-void add_recordings(CommandLine& line) {
-  add_simulate(line);
-  add_export(line);
 }
 
 }  // namespace scanbench::app

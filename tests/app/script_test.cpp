@@ -160,8 +160,13 @@ TEST_F(Script, AnInterruptWhileItLooksWhetherToBuildIsAnInterrupt) {
 
 TEST_F(Script, WritesNewModulesIntoItsOwnTree) {
   program("bin/ninja", "");
-  EXPECT_EQ(call({"new", "extract", "mine"}).out,
-            "the program: new extract mine --sources " + folder_.path().string() + "\n");
+  EXPECT_EQ(call({"module", "new", "extract", "mine"}).out,
+            "the program: module new extract mine --sources " + folder_.path().string() + "\n");
+}
+
+TEST_F(Script, LeavesFormerVerbsToTheProgramWhichSaysTheirNewNames) {
+  program("bin/ninja", "");
+  EXPECT_EQ(call({"new", "extract", "mine"}).out, "the program: new extract mine\n");
 }
 
 }  // namespace

@@ -56,12 +56,13 @@ std::string direction_text(const metrics::MetricDescription& metric) {
 /// What a comparison of two runs does with it.
 std::string gate_text(const metrics::MetricDescription& metric) {
   if (metric.timing) return "gate: only if a suite says so, because it depends on the machine";
-  if (metric.direction == metrics::Direction::neither) return "gate: no, compare and nightly only show changes";
+  if (metric.direction == metrics::Direction::neither) return "gate: no, compare and night run only show changes";
   if (!is_headline(metric.metric))
-    return fmt::format("gate: only if a suite says so; compare and nightly show a change of more than {:g}",
+    return fmt::format("gate: only if a suite says so; compare and night run show a change of more than {:g}",
                        metric.tolerance);
-  return fmt::format("gate: compare and nightly fail if it is worse by more than {:g}, unless a suite has other gates",
-                     metric.tolerance);
+  return fmt::format(
+      "gate: compare and night run fail if it is worse by more than {:g}, unless a suite has other gates",
+      metric.tolerance);
 }
 
 /// An entry for every metric of every family.
@@ -188,7 +189,7 @@ std::string catalog_text(const std::vector<CatalogEntry>& entries) {
 }
 
 std::string catalog_markdown(const std::vector<CatalogEntry>& entries) {
-  std::string out = "# Modules\n\nWritten by `scanbench describe --all --markdown`.\n";
+  std::string out = "# Modules\n\nWritten by `scanbench describe --all --format markdown`.\n";
   std::string kind;
   for (const auto& entry : entries) {
     if (entry.kind != kind) out += "\n## " + entry.kind + "\n";

@@ -110,7 +110,7 @@ void Store::check_schema() const {
   if (values["program"] != "scanbench") database_.refuse("another program wrote this database");
   if (values["schema"] != kSchemaVersion)
     database_.refuse("the store has schema " + values["schema"] + "; this program reads " + kSchemaVersion +
-                     " (a store can be made again from the run folders: scanbench store)");
+                     " (a store can be made again from the run folders: scanbench night store)");
 }
 
 std::int64_t Store::add(const std::string& suite, const fs::path& folder, const RunResults& results,

@@ -31,7 +31,7 @@ class Nightly : public testing::Test {
   }
   Outcome here(const Args& args) const { return run(args, {}, folder_.path()); }
   Outcome night(const Args& more = {}) const {
-    Args args{"nightly", "suite.yaml", "--no-figures"};
+    Args args{"night", "run", "suite.yaml", "--no-figures"};
     args.insert(args.end(), more.begin(), more.end());
     if (std::ranges::find(more, "--store") == more.end()) args.insert(args.end(), {"--store", "nights.sqlite"});
     return here(args);
@@ -46,7 +46,7 @@ TEST_F(Nightly, FailsWhenAParameterMakesAGateWorseAndPassesWhenItIsRestored) {
   const Outcome first = night();
   EXPECT_EQ(first.code, 0) << first.err;
   EXPECT_THAT(first.out, HasSubstr("PASS: this is the first night of the suite"));
-  ASSERT_EQ(here({"accept", "out/nightly/suite", "--reason", "first"}).code, 0);
+  ASSERT_EQ(here({"night", "accept", "out/nightly/suite", "--reason", "first"}).code, 0);
   const Outcome worse = night(worsened_);
   EXPECT_EQ(worse.code, 1) << worse.err;
   EXPECT_THAT(worse.out, AllOf(HasSubstr("FAIL: "), HasSubstr(" of iepf in room "), HasSubstr("95 % interval"),
@@ -60,12 +60,13 @@ TEST_F(Nightly, FailsWhenAParameterMakesAGateWorseAndPassesWhenItIsRestored) {
   const Outcome restored = night();
   EXPECT_EQ(restored.code, 0) << restored.out;
   EXPECT_THAT(restored.out, HasSubstr("PASS: none of 4 gates is worse (4 equal to the bit)."));
-  EXPECT_THAT(here({"accept", "out/nightly/suite", "--reason", "again"}).err, HasSubstr("has these values already"));
+  EXPECT_THAT(here({"night", "accept", "out/nightly/suite", "--reason", "again"}).err,
+              HasSubstr("has these values already"));
 }
 
 TEST_F(Nightly, KeepsTheNameOfItsSuiteInAnyFolder) {
   ASSERT_EQ(night({"--out", "elsewhere"}).code, 0);
-  const Outcome accepted = here({"accept", "elsewhere", "--reason", "first"});
+  const Outcome accepted = here({"night", "accept", "elsewhere", "--reason", "first"});
   EXPECT_THAT(accepted.out, HasSubstr("baselines/suite/0001.json")) << accepted.err;
   ASSERT_EQ(night({"--out", "elsewhere"}).code, 0);
   EXPECT_THAT(read(folder_ / "elsewhere/nightly.html"), HasSubstr("baseline 0001"));
@@ -114,8 +115,9 @@ TEST_F(Nightly, WithoutABaselineIsComparedWithTheLastGoodNight) {
 TEST_F(Nightly, KilledInItsMiddleAndStartedAgainEqualsAnUnbrokenOne) {
   ASSERT_EQ(night({"--out", "whole", "--store", "whole.sqlite"}).code, 0);
   {
-    const Child child(command({"nightly", "suite.yaml", "--store", "broken.sqlite", "--no-figures", "--out", "broken"}),
-                      {}, folder_.path());
+    const Child child(
+        command({"night", "run", "suite.yaml", "--store", "broken.sqlite", "--no-figures", "--out", "broken"}), {},
+        folder_.path());
     child.wait_until([&] {
       return fs::exists(folder_ / "broken/cells/room/iepf/2/status.json") ||
              fs::exists(folder_ / ".broken.new/cells/room/iepf/2/status.json");
@@ -148,7 +150,7 @@ TEST_F(Nightly, KilledInItsMiddleAndStartedAgainEqualsAnUnbrokenOne) {
 }
 
 TEST_F(Nightly, InterruptedSaysThatTheSameCommandContinues) {
-  Child child(command({"nightly", "suite.yaml", "--store", "n.sqlite", "--no-figures", "--out", "night"}), {},
+  Child child(command({"night", "run", "suite.yaml", "--store", "n.sqlite", "--no-figures", "--out", "night"}), {},
               folder_.path());
   ASSERT_TRUE(child.wait_until([&] {
     return fs::exists(folder_ / "night/cells/room/iepf/1/status.json") ||
@@ -162,7 +164,7 @@ TEST_F(Nightly, InterruptedSaysThatTheSameCommandContinues) {
 
 TEST_F(Nightly, StoreIsMadeAgainFromRunFolders) {
   ASSERT_EQ(night().code, 0);
-  const Outcome made = here({"store", "again.sqlite", "out/nightly/suite"});
+  const Outcome made = here({"night", "store", "again.sqlite", "out/nightly/suite"});
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("8 cells"));
   const results::Store again(folder_ / "again.sqlite");
@@ -188,24 +190,24 @@ TEST_F(Nightly, SaysBeforeTheNightWhatCannotBeUsed) {
 }
 
 TEST_F(Nightly, NamesAnOptionThatIsMisspeltAndAFileThatIsNotWhatItSays) {
-  const Outcome misspelt = here({"nightly", "suite.yaml", "--sotre", "nights.sqlite"});
+  const Outcome misspelt = here({"night", "run", "suite.yaml", "--sotre", "nights.sqlite"});
   EXPECT_EQ(misspelt.code, 2);
   EXPECT_THAT(misspelt.err, AllOf(HasSubstr("no option '--sotre'"), HasSubstr("did you mean '--store'?")));
   folder_.write("second.yaml", room());
-  const Outcome two = here({"nightly", "room.yaml", "second.yaml", "--store", "nights.sqlite"});
+  const Outcome two = here({"night", "run", "room.yaml", "second.yaml", "--store", "nights.sqlite"});
   EXPECT_EQ(two.code, 2);
   EXPECT_THAT(two.err, HasSubstr("2 files have no common name; --suite must name the suite"));
   EXPECT_FALSE(fs::exists(folder_ / "out"));
   ASSERT_EQ(night().code, 0);
   folder_.write("out/nightly/suite/night.json", "{}");
-  const Outcome damaged = here({"accept", "out/nightly/suite", "--reason", "first"});
+  const Outcome damaged = here({"night", "accept", "out/nightly/suite", "--reason", "first"});
   EXPECT_EQ(damaged.code, 2);
   EXPECT_THAT(damaged.err, HasSubstr("night.json: the key 'suite' is missing"));
 }
 
 TEST_F(Nightly, TakesTheNumberOfABaselineWithoutItsZeros) {
   ASSERT_EQ(night().code, 0);
-  ASSERT_EQ(here({"accept", "out/nightly/suite", "--reason", "first"}).code, 0);
+  ASSERT_EQ(here({"night", "accept", "out/nightly/suite", "--reason", "first"}).code, 0);
   EXPECT_EQ(night({"--baseline", "1"}).code, 0);
   EXPECT_THAT(page(), HasSubstr("baseline 0001"));
   EXPECT_THAT(night({"--baseline", "2"}).err, HasSubstr("no baseline '2' of suite; known: 0001"));
@@ -217,7 +219,7 @@ TEST_F(Nightly, SaysHowManyCellsItTookFromTheLastNightOnlyIfItTookAny) {
 }
 
 TEST_F(Nightly, OfTwoAtOnceOnANewStoreBothAreKept) {
-  Child first(command({"nightly", "suite.yaml", "--no-figures", "--store", "both.sqlite", "--out", "one"}), {},
+  Child first(command({"night", "run", "suite.yaml", "--no-figures", "--store", "both.sqlite", "--out", "one"}), {},
               folder_.path());
   EXPECT_EQ(night({"--store", "both.sqlite", "--out", "two"}).code, 0);
   EXPECT_EQ(first.wait().code, 0);
@@ -243,7 +245,7 @@ TEST_F(Nightly, ComparesALogByItsScansWithTheLastGoodNightAndByValueWithABaselin
   EXPECT_THAT(worse.out, HasSubstr("over 40 scans in blocks of"));
   EXPECT_THAT(page(), AllOf(HasSubstr("per-scan pairs: 40 scans in blocks of"), HasSubstr("40 scans")));
   ASSERT_EQ(night().code, 0);
-  ASSERT_EQ(here({"accept", "out/nightly/suite", "--reason", "first"}).code, 0);
+  ASSERT_EQ(here({"night", "accept", "out/nightly/suite", "--reason", "first"}).code, 0);
   const Outcome by_value = night({"--set", "pipelines.iepf.extract.params.threshold_m=0.6"});
   EXPECT_EQ(by_value.code, 1) << by_value.out;
   EXPECT_THAT(by_value.out, HasSubstr("without an interval: baseline 0001 keeps no single scans"));
