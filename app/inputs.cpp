@@ -104,7 +104,7 @@ void give_seeds(std::vector<study::Scenario>& scenarios, const std::vector<std::
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, seed);
     if (text.empty() || error != std::errc() || stop != end || seed > study::kLargestSeed)
-      throw ConfigError("--seed: '" + text + "' is no seed; allowed: whole numbers 0 .. " +
+      throw ConfigError("--seed: '" + text + "' is not a seed; allowed: whole numbers 0 .. " +
                         std::to_string(study::kLargestSeed) + ", separated by commas");
     if (std::ranges::count(seeds, seed) > 0) throw ConfigError("--seed: " + text + " is given twice");
     seeds.push_back(seed);

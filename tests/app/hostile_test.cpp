@@ -118,7 +118,8 @@ TEST_F(Plugins, OfAnotherBuildAreRefused) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("library old.so was built for another scanbench"),
                                  HasSubstr("version 9.9.9 instead of ")));
   EXPECT_THAT(run({"describe", "--plugin", places::plugin("no_stamp")}).err, HasSubstr("has no stamp"));
-  EXPECT_THAT(run({"describe", "--plugin", folder_.write("text.so", "hello")}).err, HasSubstr("is no shared library"));
+  EXPECT_THAT(run({"describe", "--plugin", folder_.write("text.so", "hello")}).err,
+              HasSubstr("is not a shared library"));
   EXPECT_THAT(run({"describe", "--plugin", places::plugin("fast_math")}).err,
               HasSubstr("changes the floating-point arithmetic"));
 }
@@ -271,7 +272,7 @@ std::vector<std::string> failed_checks(const std::string& module, const std::str
 TEST_F(Plugins, ConformPassesGoodModulesAndNamesTheBrokenChecksOfWrongOnes) {
   const auto outcome = run({"module", "conform", "--plugin", places::plugin("wrong")});
   EXPECT_EQ(outcome.code, 1) << outcome.err;
-  // Each is a line through all returns, which is no extractor for a room: what it fails without its fault is known.
+  // Each is a line through all returns, which is not an extractor for a room: what it fails without its fault is known.
   const auto with = [](std::vector<std::string> names) { return testing::IsSupersetOf(names); };
   EXPECT_THAT(failed_checks("remembers", outcome.out), with({"TheAnswerIsTheSameTwiceAndTheScanUntouched"}));
   EXPECT_THAT(failed_checks("reverses", outcome.out),

@@ -50,9 +50,9 @@ Pose2 sensor_place(std::string_view format, const ParamSet& params);
 
 /// The scans of a log. `sensor` gives name, noise and timing; beam angles and range limits come from the log and its
 /// options. Stamps are the log's, or one scan period of the sensor apart if it has none. The recording has no truth.
-/// Throws ConfigError with file:line:col for a truncated line, fields that are no numbers, beams that change unless the
-/// options allow it, and a log without scans. A log that needs more than max_bytes is refused before any of its text is
-/// kept. Throws as read_text_file() does.
+/// Throws ConfigError with file:line:col for a truncated line, fields that are not numbers, beams that change unless
+/// the options allow it, and a log without scans. A log that needs more than max_bytes is refused before any of its
+/// text is kept. Throws as read_text_file() does.
 Recording read_log(const std::filesystem::path& path, std::string_view format, const ParamSet& params,
                    const SensorModel& sensor, double max_bytes);
 

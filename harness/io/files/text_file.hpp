@@ -18,8 +18,8 @@ inline constexpr std::size_t kMaxWorldBytes = std::size_t{64} << 20;
 
 /// Calls `use` with the bytes of a regular file, block by block, unpacked if they are gzip (recognized by the file's
 /// first bytes, not by its name). Throws ConfigError for a missing, unreadable, damaged or truncated file, for a path
-/// that is no regular file, for more than max_bytes (packed or unpacked), and for a zero byte. Messages begin with the
-/// file's name; that of the zero byte ends with `allowed`, the kind of file that is expected.
+/// that is not a regular file, for more than max_bytes (packed or unpacked), and for a zero byte. Messages begin with
+/// the file's name; that of the zero byte ends with `allowed`, the kind of file that is expected.
 void for_each_text_block(const std::filesystem::path& path, std::uint64_t max_bytes, std::string_view allowed,
                          const std::function<void(std::string_view)>& use);
 

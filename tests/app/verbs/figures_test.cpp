@@ -131,10 +131,10 @@ TEST_F(Figures, RefuseSizesThatNoFigureHas) {
     EXPECT_EQ(outcome.code, 2) << outcome.out;
     return outcome.err;
   };
-  EXPECT_THAT(refusal({"--dpi", "0"}), HasSubstr("'0' is no resolution in dpi; allowed: 36 .. 1200"));
+  EXPECT_THAT(refusal({"--dpi", "0"}), HasSubstr("'0' is not a resolution in dpi; allowed: 36 .. 1200"));
   EXPECT_THAT(refusal({"--dpi", "1e9"}), HasSubstr("allowed: 36 .. 1200"));
   EXPECT_THAT(refusal({"--dpi", "nan"}), HasSubstr("allowed: 36 .. 1200"));
-  EXPECT_THAT(refusal({"--width-mm", "5"}), HasSubstr("'5' is no width in mm; allowed: 30 .. 1000"));
+  EXPECT_THAT(refusal({"--width-mm", "5"}), HasSubstr("'5' is not a width in mm; allowed: 30 .. 1000"));
   EXPECT_THAT(refusal({"--width-mm", "1000", "--dpi", "1200"}),
               AllOf(HasSubstr("47244 pixels"), HasSubstr("allowed: up to 20000"), HasSubstr("508 dpi")));
   EXPECT_THAT(refusal({"--font-pt", "99"}), HasSubstr("allowed: 4 .. 36"));

@@ -108,7 +108,7 @@ TEST_F(Nightly, AfterABadFirstNightSaysThatThereIsNoReference) {
 TEST_F(Nightly, WithoutABaselineIsComparedWithTheLastGoodNight) {
   ASSERT_EQ(night().code, 0);
   EXPECT_EQ(night(worsened_).code, 1);
-  EXPECT_EQ(night(worsened_).code, 1);  // a bad night is no reference
+  EXPECT_EQ(night(worsened_).code, 1);  // a bad night is not a reference
   EXPECT_EQ(night().code, 0);
 }
 

@@ -1,4 +1,4 @@
-// The store of nights: what goes in comes out, and files that are no stores are refused.
+// The store of nights: what goes in comes out, and files that are not stores are refused.
 #include "harness/results/nightly/store.hpp"
 
 #include <gmock/gmock.h>
