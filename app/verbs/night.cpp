@@ -12,6 +12,7 @@
 
 #include "app/inputs.hpp"
 #include "app/options.hpp"
+#include "app/seed_list.hpp"
 #include "app/terminal/progress.hpp"
 #include "app/terminal/running.hpp"
 #include "core/error.hpp"

@@ -9,6 +9,7 @@
 
 #include "app/inputs.hpp"
 #include "app/options.hpp"
+#include "app/seed_list.hpp"
 #include "app/terminal/progress.hpp"
 #include "harness/io/exchange/export.hpp"
 #include "harness/io/exchange/polygon_files.hpp"

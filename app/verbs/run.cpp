@@ -10,6 +10,7 @@
 #include "app/foreign.hpp"
 #include "app/inputs.hpp"
 #include "app/options.hpp"
+#include "app/seed_list.hpp"
 #include "app/terminal/forecast.hpp"
 #include "app/terminal/progress.hpp"
 #include "app/terminal/running.hpp"

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "app/picture_options.hpp"
+#include "app/seed_list.hpp"
+#include "core/error.hpp"
 #include "harness/io/files/atomic_file.hpp"
 #include "harness/results/figures/shown_scan.hpp"
 #include "harness/runs/store/manifest.hpp"
@@ -23,6 +25,7 @@ namespace fs = std::filesystem;
 
 struct ShowOptions {
   std::string run, out, style = "paper";
+  std::vector<std::string> seeds;
   results::ScanChoice choice;
   render::OutputStyle look;
   double dpi = 200.0;
@@ -42,7 +45,12 @@ fs::path keep_in_run(const fs::path& run, const results::ShownScan& shown, doubl
 int show(const ShowOptions& options) {
   render::OutputStyle look = options.look;
   look.theme = render::theme_from(options.style);
-  results::ShownScan shown = results::show_scan(options.run, options.choice);
+  results::ScanChoice choice = options.choice;
+  if (const auto seeds = seeds_of(options.seeds); seeds.size() == 1)
+    choice.seed = seeds.front();
+  else if (seeds.size() > 1)
+    throw ConfigError(fmt::format("--seed: show draws one scan of one seed, and {} are given", seeds.size()));
+  results::ShownScan shown = results::show_scan(options.run, choice);
   shown.scene = render::styled(std::move(shown.scene), look);
   fs::path path = options.out;
   if (path.empty())
@@ -64,7 +72,7 @@ void add_show(CommandLine& line) {
   verb.option("--frame", choice.frame, "number of the scan, from 0, or `worst`: the lowest F1 in scans.csv")
       .shows_default();
   verb.option("--scenario", choice.scenario, "of which scenario (not needed if the run has one)");
-  verb.option("--seed", choice.seed, "of which seed (default: the first)");
+  verb.option("--seed", options->seeds, "of which seed (default: the first)").separated_by_commas();
   verb.option("-o,--out", options->out,
               "the picture: a name that ends in .png, .svg or .pdf (default: a .png in RUN/figures)");
   add_picture_options(verb, options->style, options->look, options->dpi);

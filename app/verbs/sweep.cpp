@@ -15,6 +15,7 @@
 
 #include "app/inputs.hpp"
 #include "app/options.hpp"
+#include "app/seed_list.hpp"
 #include "app/terminal/progress.hpp"
 #include "app/terminal/running.hpp"
 #include "app/text_format.hpp"

@@ -12,6 +12,9 @@
 
 namespace scanbench::study {
 
+/// Of one scenario.
+inline constexpr std::size_t kMostSeeds = 100000;
+
 /// Checks the key `schema`: present, and 1. Throws PlacedError.
 void read_schema(io::YamlMap& map);
 
