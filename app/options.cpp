@@ -132,9 +132,13 @@ ParseFault fault_of(const CommandLineState& line, const CLI::ParseError& error) 
   return fault;
 }
 
+/// A former name is answered with one sentence, which has all that the user needs.
 std::string refusal_text(const CommandLineState& line, const CLI::ParseError& error) {
-  const std::string text = message_of(fault_of(line, error));
-  return text.empty() ? error.what() : text;
+  const ParseFault fault = fault_of(line, error);
+  if (const std::string now = renamed_option(fault); !now.empty()) return now;
+  const std::string text = message_of(fault);
+  return (text.empty() ? error.what() : text) +
+         "\n(scanbench --help shows the verbs, scanbench VERB --help its options)";
 }
 
 Option added(const VerbState& verb, CLI::Option* option) {
@@ -254,7 +258,9 @@ void Verb::runs(std::function<int()> action) {
 
 Verb Verb::add_verb(const std::string& name, const std::string& help) {
   state_->app->require_subcommand(1);
-  return Verb(state_->line->verbs.emplace_back(VerbState{state_->app->add_subcommand(name, help), state_->line}));
+  CLI::App* verb = state_->app->add_subcommand(name, help);
+  verb->group("Verbs");  // else it is in the drawer of this one
+  return Verb(state_->line->verbs.emplace_back(VerbState{verb, state_->line}));
 }
 
 void Verb::details(const std::string& text) {
@@ -276,6 +282,7 @@ CommandLine::CommandLine(int argc, char** argv, const std::string& name, const s
   app.require_subcommand(1);
   app.footer(footer);
   app.get_formatter()->column_width(34);
+  app.get_formatter()->label("SUBCOMMAND", "VERB");
 }
 
 CommandLine::~CommandLine() = default;
@@ -304,9 +311,7 @@ std::function<int()> CommandLine::parse() {
     if (!reversed.empty()) reversed.pop_back();  // the program's name
     app.parse(std::move(reversed));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0)
-      throw ConfigError(refusal_text(*state_, error) +
-                        "\n(scanbench --help shows the verbs, scanbench VERB --help its options)");
+    if (error.get_exit_code() != 0) throw ConfigError(refusal_text(*state_, error));
     app.exit(error);  // prints the help or the version
     return {};
   }

@@ -13,8 +13,8 @@ std::string quoted(const std::string& text) {
   return "'" + text + "'";
 }
 
-/// The message about the first option that the verb does not have: its new name, or the nearest one that the verb has.
-/// Empty if there is no such option.
+/// The message about the first option that the verb does not have, with the nearest one that it has; empty if there is
+/// none.
 std::string unknown_option(const ParseFault& fault) {
   Words known;
   for (const OptionDescription& option : fault.verb.options)
@@ -23,7 +23,6 @@ std::string unknown_option(const ParseFault& fault) {
   for (std::size_t i = 1; i < fault.argv.size(); ++i) {
     const std::string name = fault.argv[i].substr(0, fault.argv[i].find('='));
     if (!name.starts_with("--") || name == "--" || std::ranges::count(known, name) > 0) continue;
-    if (const auto now = fault.renamed.find(name); now != fault.renamed.end()) return now->second;
     const std::string subject =
         fault.verb.path.empty() ? "there is no option " : quoted(fault.verb.path) + " has no option ";
     return subject + quoted(name) + known_names(name, known);
@@ -61,6 +60,13 @@ std::string extra_argument(const ParseFault& fault) {
 }
 
 }  // namespace
+
+std::string renamed_option(const ParseFault& fault) {
+  for (const std::string& argument : fault.argv)
+    if (const auto now = fault.renamed.find(argument.substr(0, argument.find('='))); now != fault.renamed.end())
+      return now->second;
+  return "";
+}
 
 std::string message_of(const ParseFault& fault) {
   // A misspelt option that is required is both unknown and missing: the name that is wrong helps more.

@@ -18,7 +18,10 @@ struct ParseFault {
   Words extras;                                ///< arguments that the verb does not take
 };
 
-/// What is wrong, with the nearest name or the new one; empty if the fault is of another kind.
+/// What is said of the first option of earlier versions among the arguments; empty if there is none.
+std::string renamed_option(const ParseFault& fault);
+
+/// What is wrong, with the nearest name; empty if the fault is of another kind.
 std::string message_of(const ParseFault& fault);
 
 }  // namespace scanbench::app

@@ -143,10 +143,9 @@ void add_simulate(CommandLine& line) {
 
 void add_export(CommandLine& line) {
   auto options = std::make_shared<ExportOptions>();
-  Verb verb = line.add_verb(
-      "export",
-      "Writes a run's recordings as logs that other programs read, and prints the options that read them back; or the "
-      "lines of its cells as polygons");
+  Verb verb =
+      line.add_verb("export", "Writes a run's recordings as logs that other programs read, or lines as polygons");
+  verb.details("Prints the options with which a scenario reads the logs.");
   verb.option("RUN", options->run, "a run folder").required();
   auto formats = io::export_formats();
   formats.emplace_back(kPolygons);

@@ -54,9 +54,7 @@ std::string verb_text(const VerbDescription& verb) {
 }
 
 void add_script_verb(CommandLine& line, const std::string& name, const std::string& what) {
-  Verb verb = line.add_verb(
-      name,
-      fmt::format("{0}; the script ./scanbench in the folder of the sources does it: ./scanbench {1}", what, name));
+  Verb verb = line.add_verb(name, fmt::format("{}, from the folder of the sources: ./scanbench {}", what, name));
   verb.ignore_other_arguments();
   verb.runs([name]() -> int {
     throw ConfigError(name + " is done by the script ./scanbench in the folder of the sources: ./scanbench " + name);

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "core/names.hpp"
 #include "harness/io/files/base64.hpp"
 #include "harness/results/analysis/gates.hpp"
 #include "harness/results/analysis/verdict.hpp"
@@ -25,6 +26,11 @@ namespace {
 
 Blocks verdict_blocks(const NightInput& input) {
   Blocks blocks{Paragraph{input.sentence, input.sentence.starts_with("PASS") ? "verdict good" : "verdict bad"}};
+  if (!input.now.overrides.empty())
+    blocks.push_back(
+        Paragraph{fmt::format("This night ran with --set {}. It is in no trend, and no later night is "
+                              "compared with it.",
+                              join(input.now.overrides))});
   if (input.comparison) blocks.push_back(Paragraph{"Compared with " + input.reference + "."});
   if (input.drift)
     blocks.push_back(Paragraph{
@@ -126,7 +132,8 @@ Blocks history_blocks(const NightInput& input) {
   Table table{"nights", "", "", {"start (UTC)", "commit", "verdict"}, {}, {}};
   for (std::size_t i = input.nights.size(); i-- > 0 && table.rows.size() < kShown;) {
     const Night& night = input.nights[i];
-    table.rows.push_back({{night.start, commit_text(night.commit), night.sentence}, {}, false});
+    const std::string mark = night.overrides.empty() ? "" : "with --set " + night.overrides + ": ";
+    table.rows.push_back({{night.start, commit_text(night.commit), mark + night.sentence}, {}, false});
   }
   if (table.rows.size() < 2) return {};
   return {BlockGroup{"nights", {std::move(table)}}};

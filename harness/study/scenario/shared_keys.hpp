@@ -1,6 +1,7 @@
 // Readers of the keys that scenarios, suites and worlds share.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// The verbs nightly, accept and store.
+// The verbs of `night`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,9 +36,18 @@ class Nightly : public testing::Test {
     if (std::ranges::find(more, "--store") == more.end()) args.insert(args.end(), {"--store", "nights.sqlite"});
     return here(args);
   }
+  /// A night whose room has a threshold of iepf that rounds off every corner.
+  Outcome worse_night(const Args& more = {}) const {
+    const std::string good = read(folder_ / "room.yaml");
+    std::string bad = good;
+    const std::string threshold = "threshold_m: 0.10";
+    folder_.write("room.yaml", bad.replace(bad.find(threshold), threshold.size(), "threshold_m: 2"));
+    const Outcome outcome = night(more);
+    folder_.write("room.yaml", good);
+    return outcome;
+  }
   std::string page() const { return read(folder_ / "out/nightly/suite/nightly.html"); }
 
-  const Args worsened_ = {"--set", "pipelines.iepf.extract.params.threshold_m=2"};
   Folder folder_;
 };
 
@@ -47,7 +56,7 @@ TEST_F(Nightly, FailsWhenAParameterMakesAGateWorseAndPassesWhenItIsRestored) {
   EXPECT_EQ(first.code, 0) << first.err;
   EXPECT_THAT(first.out, HasSubstr("PASS: this is the first night of the suite"));
   ASSERT_EQ(here({"night", "accept", "out/nightly/suite", "--reason", "first"}).code, 0);
-  const Outcome worse = night(worsened_);
+  const Outcome worse = worse_night();
   EXPECT_EQ(worse.code, 1) << worse.err;
   EXPECT_THAT(worse.out, AllOf(HasSubstr("FAIL: "), HasSubstr(" of iepf in room "), HasSubstr("95 % interval"),
                                HasSubstr("over 4 seeds")));
@@ -74,15 +83,13 @@ TEST_F(Nightly, KeepsTheNameOfItsSuiteInAnyFolder) {
 
 TEST_F(Nightly, ShowsTheScanOfTheLastGoodNightThatIsInAnotherFolder) {
   ASSERT_EQ(night({"--out", "first"}).code, 0);
-  Args second = worsened_;
-  second.insert(second.end(), {"--out", "second"});
-  ASSERT_EQ(night(second).code, 1);
+  ASSERT_EQ(worse_night({"--out", "second"}).code, 1);
   EXPECT_THAT(read(folder_ / "second/nightly.html"), AllOf(HasSubstr(". Before: "), HasSubstr(". Now: ")));
 }
 
 TEST_F(Nightly, WithoutAReferenceLeavesNoComparisonOfAnEarlierNight) {
   ASSERT_EQ(night().code, 0);
-  ASSERT_EQ(night(worsened_).code, 1);
+  ASSERT_EQ(worse_night().code, 1);
   ASSERT_TRUE(fs::exists(folder_ / "out/nightly/suite/comparison.md"));
   ASSERT_EQ(night({"--store", "other.sqlite"}).code, 0);
   for (const char* file : {"comparison.md", "comparison.json", "comparison.junit.xml"})
@@ -96,8 +103,10 @@ TEST_F(Nightly, RefusesAFolderOfBaselinesThatIsNotThere) {
 }
 
 TEST_F(Nightly, AfterABadFirstNightSaysThatThereIsNoReference) {
-  folder_.write("room.yaml", room_with("metrics:", "  - {name: hang, extract: {module: iepf}}\nmetrics:"));
-  const Outcome first = night({"--set", "limits.seconds=0.000001"});
+  const std::string good = room_with("metrics:", "  - {name: hang, extract: {module: iepf}}\nmetrics:");
+  folder_.write("room.yaml", good + "limits: {seconds: 0.000001}\n");
+  const Outcome first = night();
+  folder_.write("room.yaml", good);
   EXPECT_EQ(first.code, 1) << first.out;
   EXPECT_THAT(first.out, HasSubstr("cells are not ok, first room/"));
   const Outcome second = night();
@@ -107,9 +116,28 @@ TEST_F(Nightly, AfterABadFirstNightSaysThatThereIsNoReference) {
 
 TEST_F(Nightly, WithoutABaselineIsComparedWithTheLastGoodNight) {
   ASSERT_EQ(night().code, 0);
-  EXPECT_EQ(night(worsened_).code, 1);
-  EXPECT_EQ(night(worsened_).code, 1);  // a bad night is not a reference
+  EXPECT_EQ(worse_night().code, 1);
+  EXPECT_EQ(worse_night().code, 1);  // a bad night is not a reference
   EXPECT_EQ(night().code, 0);
+}
+
+TEST_F(Nightly, WithOverridesIsJudgedAndMarkedAndNoOtherNightIsComparedWithIt) {
+  ASSERT_EQ(night().code, 0);
+  const Args same{"--set", "pipelines.iepf.extract.params.threshold_m=0.1"};  // the value of the file: all is equal
+  const Outcome marked = night(same);
+  EXPECT_EQ(marked.code, 0) << marked.out;
+  EXPECT_THAT(page(), HasSubstr("This night ran with --set pipelines.iepf.extract.params.threshold_m=0.1. It is in no "
+                                "trend, and no later night is compared with it."));
+  const results::Store store(folder_ / "nights.sqlite");
+  const auto nights = store.nights("suite");
+  ASSERT_EQ(nights.size(), 2U);
+  EXPECT_EQ(nights[0].overrides, "");
+  EXPECT_EQ(nights[1].overrides, "pipelines.iepf.extract.params.threshold_m=0.1");
+  EXPECT_EQ(store.trend("suite", "room", "iepf", "f1", 30).size(), 1U);
+  const Outcome third = night();
+  EXPECT_THAT(page(), AllOf(HasSubstr("Compared with the last good night, " + nights[0].start),
+                            HasSubstr("with --set pipelines.iepf.extract.params.threshold_m=0.1: PASS"),
+                            Not(HasSubstr("This night ran with --set"))));
 }
 
 TEST_F(Nightly, KilledInItsMiddleAndStartedAgainEqualsAnUnbrokenOne) {
@@ -240,13 +268,21 @@ TEST_F(Nightly, ComparesALogByItsScansWithTheLastGoodNightAndByValueWithABaselin
                 "params: {threshold_m: 0.1}}}\nmetrics: [siadat1997]\n");
   folder_.write("suite.yaml", "schema: 1\nscenarios: [log.yaml]\ngates: {d_mean: 0.0001}\n");
   ASSERT_EQ(night().code, 0);
-  const Outcome worse = night({"--set", "pipelines.iepf.extract.params.threshold_m=0.6"});
+  const auto worse_log = [&] {
+    const std::string good = read(folder_ / "log.yaml");
+    std::string bad = good;
+    folder_.write("log.yaml", bad.replace(bad.find("threshold_m: 0.1"), 16, "threshold_m: 0.6"));
+    const Outcome outcome = night();
+    folder_.write("log.yaml", good);
+    return outcome;
+  };
+  const Outcome worse = worse_log();
   EXPECT_EQ(worse.code, 1) << worse.out << worse.err;
   EXPECT_THAT(worse.out, HasSubstr("over 40 scans in blocks of"));
   EXPECT_THAT(page(), AllOf(HasSubstr("per-scan pairs: 40 scans in blocks of"), HasSubstr("40 scans")));
   ASSERT_EQ(night().code, 0);
   ASSERT_EQ(here({"night", "accept", "out/nightly/suite", "--reason", "first"}).code, 0);
-  const Outcome by_value = night({"--set", "pipelines.iepf.extract.params.threshold_m=0.6"});
+  const Outcome by_value = worse_log();
   EXPECT_EQ(by_value.code, 1) << by_value.out;
   EXPECT_THAT(by_value.out, HasSubstr("without an interval: baseline 0001 keeps no single scans"));
   EXPECT_THAT(page(), HasSubstr("value only"));
@@ -265,7 +301,7 @@ TEST_F(Nightly, IsIncompleteWhereAScenarioIsGone) {
 TEST_F(Nightly, PageSortsFollowsItsLinksAndRequestsNothing) {
   if (!has_browser()) GTEST_SKIP() << "chromium is not installed";
   ASSERT_EQ(night().code, 0);
-  ASSERT_EQ(night(worsened_).code, 1);
+  ASSERT_EQ(worse_night().code, 1);
   const fs::path html = folder_ / "out/nightly/suite/nightly.html";
   // The first table with a metric column: click its heading twice; the rows are then in both orders.
   const std::string sorted = title_after(html, R"js(
