@@ -20,6 +20,7 @@
 #include "app/verbs/gallery.hpp"
 #include "core/error.hpp"
 #include "harness/results/figures/figures.hpp"
+#include "harness/results/gallery/catalogue.hpp"
 #include "harness/results/pages/run_report.hpp"
 #include "harness/runs/store/run_folder.hpp"
 #include "harness/runs/store/run_lock.hpp"
@@ -85,7 +86,12 @@ int gallery(const FiguresVerbOptions& given, const std::vector<std::string>& arg
 }
 
 int figures(const FiguresVerbOptions& given, const std::vector<std::string>& argv) {
-  if (fs::is_regular_file(given.run)) return gallery(given, argv);
+  if (fs::is_regular_file(given.run)) {
+    if (!results::is_catalogue(given.run))
+      throw ConfigError(given.run + ": a scenario or suite; allowed: a run folder, which `scanbench run " + given.run +
+                        "` makes, or a catalogue of figures, like scenarios/figures.yaml");
+    return gallery(given, argv);
+  }
   if (!given.only.empty())
     throw ConfigError("--entry is for the entries of a catalogue; " + given.run + " is a run folder");
   const fs::path run = given.run;

@@ -18,7 +18,6 @@
 #include "core/error.hpp"
 #include "harness/io/files/json.hpp"
 #include "harness/results/document/plain_text.hpp"
-#include "harness/results/pages/run_report.hpp"
 #include "harness/runs/execute/run_options.hpp"
 #include "harness/runs/store/cell_status.hpp"
 
@@ -66,21 +65,20 @@ int run(const RunVerbOptions& options, const std::vector<std::string>& argv) {
   run_options.journal = options.journal;
   run_options.argv = argv;
   if (options.dry_run) return print_forecast(scenarios, run_options, options.quiet);
-  const auto [result, report, figure_failure] =
+  const FinishedRun finished =
       run_and_report(scenarios, run_options, {.quiet = options.quiet, .figures = !options.no_figures});
+  const runs::RunResult& result = finished.result;
   say(unfinished_text(result));
   if (result.interrupted) return kInterrupted;
   if (options.quiet) say(failed_text(result.cells));
-  if (!figure_failure.empty()) say("scanbench: " + figure_failure + "\n");
+  if (!finished.figure_failure.empty()) say("scanbench: " + finished.figure_failure + "\n");
 
-  if (!options.quiet && report) note_absent_figures(*report);
-  if (options.json) {
+  if (!options.quiet && finished.report) note_absent_figures(*finished.report);
+  if (options.json)
     print_json(result);
-  } else if (!options.quiet && report) {
-    print_tables(*report);
-    fmt::print("{}\n", (result.out / results::kReportPage).string());
-  }
-  return result.exit_code() == kGood && !figure_failure.empty() ? kCellsFailed : result.exit_code();
+  else if (!options.quiet && finished.report)
+    print_ending(finished);
+  return result.exit_code() == kGood && !finished.figure_failure.empty() ? kCellsFailed : result.exit_code();
 }
 
 }  // namespace

@@ -28,7 +28,6 @@
 #include "harness/io/process/child.hpp"
 #include "harness/io/process/pipe.hpp"
 #include "harness/results/document/plain_text.hpp"
-#include "harness/results/pages/run_report.hpp"
 #include "harness/runs/store/cell_status.hpp"
 #include "harness/runs/store/summary.hpp"
 #include "harness/runs/sweep/slurm.hpp"
@@ -151,21 +150,21 @@ int merge(const SweepVerbOptions& options, const std::vector<std::string>& argv)
     return std::move(merged.run);
   };
   const bool has_report = plan.cells.size() <= kMostReportedCells;
-  const auto [result, report, figure_failure] =
+  const FinishedRun finished =
       make_and_report(make, run, {.quiet = options.quiet, .figures = !options.no_figures, .report = has_report});
   if (missing) return report_missing(options.sweep, *missing);
+  const runs::RunResult& result = finished.result;
   say(failed_text(result.cells));
-  if (!figure_failure.empty()) say("scanbench: " + figure_failure + "\n");
-  if (!options.quiet && report) {
-    note_absent_figures(*report);
-    print_tables(*report);
-    fmt::print("{}\n", (result.out / results::kReportPage).string());
+  if (!finished.figure_failure.empty()) say("scanbench: " + finished.figure_failure + "\n");
+  if (!options.quiet && finished.report) {
+    note_absent_figures(*finished.report);
+    print_ending(finished);
   }
   if (!options.quiet && !has_report)
     fmt::print("{}: {}; `scanbench figures {}` draws its figures, `scanbench report {}` writes its report\n",
                (result.out / runs::kSummaryFile).string(), counted(plan.cells.size(), "cell"), result.out.string(),
                result.out.string());
-  return result.exit_code() == kGood && !figure_failure.empty() ? kCellsFailed : result.exit_code();
+  return result.exit_code() == kGood && !finished.figure_failure.empty() ? kCellsFailed : result.exit_code();
 }
 
 constexpr std::size_t kMostPrinted = 1 << 16;  // bytes kept of what sbatch prints

@@ -52,6 +52,13 @@ TEST(Catalog, ListsEveryKindAndDescribesEveryName) {
   EXPECT_THAT(run({"--help"}).out, HasSubstr("compare"));
 }
 
+TEST(Catalog, SaysWhichParametersMustBeGiven) {
+  const auto text = run({"describe", "carmen"});
+  EXPECT_THAT(text.out, testing::ContainsRegex("no_return_m +required +m"));
+  EXPECT_THAT(text.out, testing::ContainsRegex("range_min_m +0 +m"));
+  EXPECT_THAT(run({"describe", "csv"}).out, testing::ContainsRegex("no_return_m +0 +m"));
+}
+
 TEST(Catalog, TakesPluralsModulesAndSingleMetrics) {
   EXPECT_EQ(run({"list", "sensors"}).out, run({"list", "sensor"}).out);
   EXPECT_EQ(run({"list", "metric"}).out, run({"list", "metrics"}).out);

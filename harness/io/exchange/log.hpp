@@ -35,6 +35,9 @@ std::vector<std::string> log_formats();
 /// The options of a format, with units, bounds and docs. Throws ConfigError for an unknown format.
 std::vector<ParamSpec> log_param_specs(std::string_view format);
 
+/// The options that a scenario must give, because neither the log nor the format has them.
+std::vector<std::string> required_log_params(std::string_view format);
+
 /// Throws ParamError for options that fit no log of the format: wrong `columns`, no `step_deg`.
 void check_log_params(std::string_view format, const ParamSet& params);
 

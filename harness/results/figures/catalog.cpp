@@ -107,10 +107,16 @@ std::string allowed(const ParamSpec& spec) {
   return std::string(to_string(spec.type)) + (bounds.empty() ? "" : " " + bounds);
 }
 
+/// "required" instead of a default that is unused.
+std::string default_text(const CatalogEntry& entry, const ParamSpec& spec) {
+  const bool is_required = std::ranges::count(entry.required, spec.name) > 0;
+  return is_required ? "required" : to_text(spec.default_value);
+}
+
 Table param_table(const CatalogEntry& entry) {
   Table table{entry.info.name, "parameters", "", {"parameter", "default", "unit", "allowed", "meaning"}, {}, {}};
   for (const auto& spec : entry.params)
-    table.rows.push_back({{spec.name, to_text(spec.default_value), spec.unit, allowed(spec), spec.doc}, {}, false});
+    table.rows.push_back({{spec.name, default_text(entry, spec), spec.unit, allowed(spec), spec.doc}, {}, false});
   return table;
 }
 
@@ -127,8 +133,9 @@ std::vector<CatalogEntry> catalog() {
   append<render::Figure>(entries);
   append<sim::TrajectoryKind>(entries);
   append_sensors(entries);
-  for (auto& [info, params, notes] : study::recording_formats())
-    entries.push_back({"recording", std::move(info), std::move(params), std::move(notes)});
+  for (auto& format : study::recording_formats())
+    entries.push_back({"recording", std::move(format.info), std::move(format.params), std::move(format.notes),
+                       std::move(format.required)});
   return entries;
 }
 
@@ -200,7 +207,7 @@ std::string catalog_markdown(const std::vector<CatalogEntry>& entries) {
     if (entry.params.empty()) continue;
     out += "\n| parameter | default | unit | allowed | meaning |\n|---|---|---|---|---|\n";
     for (const auto& spec : entry.params)
-      out += fmt::format("| `{}` | {} | {} | {} | {} |\n", spec.name, to_text(spec.default_value), spec.unit,
+      out += fmt::format("| `{}` | {} | {} | {} | {} |\n", spec.name, default_text(entry, spec), spec.unit,
                          allowed(spec), spec.doc);
   }
   return out;
@@ -212,7 +219,7 @@ std::string catalog_json(const std::vector<CatalogEntry>& entries) {
     auto params = nlohmann::ordered_json::array();
     for (const auto& spec : entry.params)
       params.push_back({{"name", spec.name},
-                        {"default", to_text(spec.default_value)},
+                        {"default", default_text(entry, spec)},
                         {"unit", spec.unit},
                         {"type", to_string(spec.type)},
                         {"allowed", allowed(spec)},

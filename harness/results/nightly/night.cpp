@@ -213,6 +213,10 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+std::string all_ok_text(std::size_t cells) {
+  return cells == 1 ? "the one cell is ok" : fmt::format("all {} cells are ok", cells);
+}
+
 /// Stores, judges and shows the night. `unfinished`: the starts of killed nights in this folder, which it replaces.
 NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<std::string>& unfinished) {
   NightInput input;
@@ -263,7 +267,7 @@ NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<s
                                              : "this is the first night of the suite";
     const auto first = std::ranges::find_if(input.now.cells, [](const CellResults& cell) { return !cell.ok(); });
     outcome.sentence =
-        bad == 0 ? fmt::format("PASS: {}, so nothing can be worse; all {} cells are ok.", why, input.now.cells.size())
+        bad == 0 ? fmt::format("PASS: {}, so nothing can be worse; {}.", why, all_ok_text(input.now.cells.size()))
                  : fmt::format("{}: {} of {} cells are not ok, first {}: {}. There is nothing to compare with: {}.",
                                missing ? "INCOMPLETE" : "FAIL", bad, input.now.cells.size(),
                                runs::to_string(first->key), first->status, why);

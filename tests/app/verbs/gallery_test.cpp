@@ -70,6 +70,13 @@ TEST_F(Gallery, IsTheSameForAnyNumberOfJobsAndWhenMadeAgainFromItsOwnRun) {
   EXPECT_EQ(timing, read(folder_ / "one/run/cells/room/iepf/1/status.json")) << "the cell was run again";
 }
 
+TEST_F(Gallery, OfAScenarioSaysWhatFiguresTakes) {
+  const auto outcome = here({"figures", "room.yaml"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("room.yaml: a scenario or suite; allowed: a run folder, which `scanbench run "
+                                     "room.yaml` makes, or a catalogue of figures"));
+}
+
 TEST_F(Gallery, MakesOnlyTheNamedEntries) {
   ASSERT_EQ(here({"figures", "book.yaml", "--entry", "second", "-q", "--out", "some"}).code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "some/second.png"));
