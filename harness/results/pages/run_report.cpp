@@ -107,9 +107,12 @@ std::string first_sentence(const ReportInput& input, const Document& page) {
     if (found != input.results.end() && !found->second.answer.empty()) return found->second.answer;
   }
   std::string text;
-  const auto is_paragraph = [](const Block& block) { return std::holds_alternative<Paragraph>(block.content); };
-  if (const auto first = std::ranges::find_if(page.blocks, is_paragraph); first != page.blocks.end())
-    for (const TextSpan& span : std::get<Paragraph>(first->content).text.spans) text += span.text;
+  for (const Block& block : page.blocks) {
+    const auto* paragraph = std::get_if<Paragraph>(&block);
+    if (paragraph == nullptr) continue;
+    for (const TextSpan& span : paragraph->text.spans) text += span.text;
+    break;
+  }
   return text;
 }
 
