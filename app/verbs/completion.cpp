@@ -150,8 +150,7 @@ std::string zsh_script(const std::vector<VerbDescription>& verbs) {
          value_cases(verbs, "compadd -- {}; return") + with_value +
          "  esac\n"
          "  if [[ ${words[CURRENT]} == -* ]]; then _describe -o option options_; return; fi\n"
-         "  (($#words_)) && _describe word words_\n"
-         "  [[ -z $at ]] || _files\n"
+         "  if (($#words_)); then _describe word words_; else _files; fi\n"
          "}\n"
          "if [[ ${funcstack[1]:-} == _scanbench ]]; then _scanbench \"$@\"; else compdef _scanbench scanbench; fi\n";
 }

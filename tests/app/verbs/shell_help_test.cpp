@@ -45,8 +45,8 @@ Words completed_by_zsh(const std::string& line) {
   const Folder folder;
   folder.write("script", run({"completion", "zsh"}).out);
   const std::string command =
-      "compdef() { :; }; _files() { print files; }; compadd() { shift; print -l $@; }\n"
-      "_describe() { [[ $1 == -o ]] && shift 2 || shift; print -l ${(P)1%%:*}; }\n"
+      "compdef() { :; }; _files() { print files; }; compadd() { shift; print -l -- $@; }\n"
+      "_describe() { [[ $1 == -o ]] && shift 2 || shift; print -l -- ${(P)1%%:*}; }\n"
       "source ./script; words=(" +
       line + "); CURRENT=$#words; _scanbench";
   const auto outcome = Child({"/bin/zsh", "-f", "-c", command}, {}, folder.path()).wait();
