@@ -105,7 +105,7 @@ std::vector<Candidate> candidates_of(const std::vector<study::Scenario>& scenari
   std::vector<Candidate> candidates;
   for (const auto& scenario : scenarios) {
     if (!works.contains(&scenario)) continue;
-    Candidate candidate{.scenario = &scenario, .works = works[&scenario]};
+    Candidate candidate{.scenario = &scenario, .works = works[&scenario], .group = ""};
     for (const PlannedWork* work : candidate.works) candidate.group += signature(*work->pipeline) + "\n\n";
     const std::string key = log_key(scenario);
     const auto known = key.empty() ? logs.end() : logs.find(key);
