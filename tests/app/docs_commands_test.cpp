@@ -62,10 +62,11 @@ TEST(Pages, NameVerbsAndOptionsThatTheProgramHas) {
       const Outcome& help = help_of(path);
       EXPECT_EQ(help.code, 0) << page << ": " << args[0] << "\n" << help.err;
       if (args[0] == "test" || args[0] == "build" || args[0] == "peers") continue;  // of the script
-      for (const std::string& word : args)
-        if (word.starts_with("--"))
-          EXPECT_THAT(help.out, testing::ContainsRegex(word.substr(0, word.find('=')) + "[ \n]"))
-              << page << ": " << args[0];
+      for (const std::string& word : args) {
+        if (!word.starts_with("--")) continue;
+        EXPECT_THAT(help.out, testing::ContainsRegex(word.substr(0, word.find('=')) + "[ \n]"))
+            << page << ": " << args[0];
+      }
     }
   }
   EXPECT_GT(count, 100U);
