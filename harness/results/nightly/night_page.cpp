@@ -238,7 +238,8 @@ std::vector<Section> sections_of(const NightInput& input) {
 }  // namespace
 
 std::string reuse_text(std::size_t cells, std::size_t reused) {
-  if (reused == 0) return fmt::format("{} cells, all run in this night.", cells);
+  if (reused == 0)
+    return cells == 1 ? "1 cell, run in this night." : fmt::format("{} cells, all run in this night.", cells);
   return fmt::format("{} of {} cells were not run again, because nothing in them changed.", reused, cells);
 }
 
