@@ -36,7 +36,7 @@ std::vector<study::ForeignSource> foreign_sources(const ForeignOptions& options)
   std::vector<study::ForeignSource> sources;
   try {
     for (const std::string& plugin : options.plugins) {
-      const io::InputFile file(plugin);  // refuses what is no regular file
+      const io::InputFile file(plugin);  // refuses what is not a regular file
       for (auto& source : study::inspect_library(plugin)) sources.push_back(std::move(source));
     }
     if (!options.program.empty()) {

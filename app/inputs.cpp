@@ -1,11 +1,11 @@
-// Loads scenario and suite files; reads --seed.
+// Loads scenario and suite files.
 #include "app/inputs.hpp"
 
-#include <algorithm>
-#include <charconv>
+#include <cstdint>
 #include <filesystem>
 #include <system_error>
 
+#include "app/seed_list.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "harness/io/files/folder.hpp"
@@ -32,10 +32,6 @@ void check_exists(const std::string& file) {
 }
 
 }  // namespace
-
-void add_seed_option(Verb& verb, std::vector<std::string>& seeds) {
-  verb.option("--seed", seeds, "seeds, separated by commas, that replace the file's").separated_by_commas();
-}
 
 void add_set_option(Verb& verb, std::vector<std::string>& sets) {
   verb.option("--set", sets, "KEY=VALUE: replaces a value of the file (dotted keys)").repeatable();
@@ -98,17 +94,7 @@ std::vector<study::Scenario> scenarios_for(const fs::path& run, const std::vecto
 }
 
 void give_seeds(std::vector<study::Scenario>& scenarios, const std::vector<std::string>& texts) {
-  std::vector<std::uint64_t> seeds;
-  for (const auto& text : texts) {
-    std::uint64_t seed = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, seed);
-    if (text.empty() || error != std::errc() || stop != end || seed > study::kLargestSeed)
-      throw ConfigError("--seed: '" + text + "' is no seed; allowed: whole numbers 0 .. " +
-                        std::to_string(study::kLargestSeed) + ", separated by commas");
-    if (std::ranges::count(seeds, seed) > 0) throw ConfigError("--seed: " + text + " is given twice");
-    seeds.push_back(seed);
-  }
+  const std::vector<std::uint64_t> seeds = seeds_of(texts);
   if (seeds.empty()) return;
   for (auto& scenario : scenarios) scenario.seeds = seeds;
 }

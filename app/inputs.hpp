@@ -11,9 +11,6 @@
 
 namespace scanbench::app {
 
-/// --seed: the texts that give_seeds() reads.
-void add_seed_option(Verb& verb, std::vector<std::string>& seeds);
-
 /// --set: the overrides that load_inputs() applies.
 void add_set_option(Verb& verb, std::vector<std::string>& sets);
 
@@ -35,8 +32,7 @@ void check_run_exists(const std::filesystem::path& run);
 /// The scenarios of a run, or those of files that replace them: to score with other metrics, to draw other figures.
 std::vector<study::Scenario> scenarios_for(const std::filesystem::path& run, const std::vector<std::string>& files);
 
-/// Replaces the scenarios' seeds by those of `--seed`, if there are any. Throws ConfigError for a seed that a scenario
-/// file could not have, and for one that is given twice.
+/// Replaces the scenarios' seeds by those of `--seed`, if there are any. Throws ConfigError as seeds_of() does.
 void give_seeds(std::vector<study::Scenario>& scenarios, const std::vector<std::string>& texts);
 
 }  // namespace scanbench::app

@@ -8,21 +8,9 @@
 #include <new>
 #include <system_error>
 
-#include "app/authoring/conform.hpp"
-#include "app/authoring/new_module.hpp"
+#include "app/drawers.hpp"
 #include "app/options.hpp"
 #include "app/terminal/progress.hpp"
-#include "app/verbs/compare.hpp"
-#include "app/verbs/figures.hpp"
-#include "app/verbs/film.hpp"
-#include "app/verbs/inspection.hpp"
-#include "app/verbs/nightly.hpp"
-#include "app/verbs/recordings.hpp"
-#include "app/verbs/results.hpp"
-#include "app/verbs/run.hpp"
-#include "app/verbs/shell_help.hpp"
-#include "app/verbs/show.hpp"
-#include "app/verbs/sweep.hpp"
 #include "core/error.hpp"
 #include "harness/results/document/plain_text.hpp"
 #include "harness/runs/store/manifest.hpp"
@@ -40,19 +28,7 @@ int run_program(int argc, char** argv) {
       "of the program, 130 "
       "interrupted.",
       runs::version_text());
-  app::add_run(line);
-  app::add_sweep(line);
-  app::add_inspection(line);
-  app::add_recordings(line);
-  app::add_results(line);
-  app::add_figures(line);
-  app::add_film(line);
-  app::add_compare(line);
-  app::add_nightly(line);
-  app::add_new_module(line);
-  app::add_conform(line);
-  app::add_shell_help(line);
-  app::add_show(line);
+  app::add_drawers(line);
   const std::function<int()> action = line.parse();
   if (!action) return app::kGood;  // --help, --version
   const int code = action();

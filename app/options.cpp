@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <charconv>
 #include <deque>
+#include <map>
 #include <system_error>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
+#include "app/parse_fault.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
 
@@ -19,7 +21,6 @@ namespace scanbench::app {
 
 struct OptionState {
   CLI::Option* option;
-  CLI::App* verb;
   Words choices = {};
   std::function<Words()> words = {};
 };
@@ -27,6 +28,8 @@ struct OptionState {
 struct VerbState {
   CLI::App* app;
   CommandLineState* line;
+  std::string details = {};
+  std::map<std::string, std::string> renamed = {};  // options of earlier versions, and what is said of each
 };
 
 struct CommandLineState {
@@ -35,8 +38,10 @@ struct CommandLineState {
   CLI::App app;
   Words argv;
   std::function<int()> action;
-  std::deque<VerbState> verbs;      // a deque, because Verb and Option keep addresses of elements
-  std::deque<OptionState> options;  // those with a value
+  std::string drawer;
+  std::map<std::string, std::string> renamed;  // verbs of earlier versions, and their names now
+  std::deque<VerbState> verbs;                 // a deque, because Verb and Option keep addresses of elements
+  std::deque<OptionState> options;             // those with a value
 };
 
 namespace {
@@ -57,51 +62,12 @@ std::vector<const CLI::App*> verbs_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// The message about the first option that its verb does not have, with the nearest one that it has; empty if there is
-/// none.
-std::string unknown_option(const CLI::App& app, const Words& argv) {
-  const auto chosen = app.get_subcommands();
-  const CLI::App& verb = chosen.empty() ? app : *chosen.front();
-  Words known;
-  for (const CLI::Option* option : verb.get_options())
-    for (const auto& names : {long_option_names(*option), short_option_names(*option)})
-      known.insert(known.end(), names.begin(), names.end());
-  for (std::size_t i = 1; i < argv.size(); ++i) {
-    const std::string name = argv[i].substr(0, argv[i].find('='));
-    if (!name.starts_with("--") || name == "--" || std::ranges::count(known, name) > 0) continue;
-    return (chosen.empty() ? std::string("there") : "'" + verb.get_name() + "'") +
-           (chosen.empty() ? " is no option '" : " has no option '") + name + "'" + known_names(name, known);
-  }
-  return "";
+/// "a format", "an option".
+std::string with_article(const std::string& what) {
+  return (std::string_view("aeiou").find(what.front()) == std::string_view::npos ? "a " : "an ") + what;
 }
 
-/// "'check' needs FILE: scenario or suite files" for the first argument that the chosen verb lacks; empty if none.
-std::string missing_argument(const CLI::App& app) {
-  const auto chosen = app.get_subcommands();
-  if (chosen.empty()) return "";
-  for (const CLI::Option* option : chosen.back()->get_options())
-    if (option->get_required() && option->count() == 0)
-      return "'" + chosen.back()->get_name() + "' needs " + option->get_name() + ": " + option->get_description();
-  return "";
-}
-
-/// CLI11's message for `scanbench rnu` is only that a subcommand is required; this one names the verbs.
-std::string parse_message(const CLI::App& app, const CLI::ParseError& error, const Words& argv) {
-  const bool is_required = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
-  if (is_required || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    // A misspelt option that is required is both unknown and missing: the name that is wrong helps more.
-    if (const std::string option = unknown_option(app, argv); !option.empty()) return option;
-  }
-  if (is_required)
-    if (const std::string argument = missing_argument(app); !argument.empty()) return argument;
-  const std::string first = argv.size() > 1 ? argv[1] : "";
-  if (!is_required || !app.get_subcommands().empty() || first.starts_with('-')) return error.what();
-  Words names;
-  for (const CLI::App* verb : verbs_of(app)) names.push_back(verb->get_name());
-  return (argv.size() > 1 ? "there is no verb '" + first + "'" : "a verb is missing") + known_names(first, names);
-}
-
-/// Refuses what is no number of the type from `low` to `high`.
+/// Refuses what is not a number of the type from `low` to `high`.
 template <class Number>
 CLI::Validator bounded(const std::string& what, const std::string& kind, Number low, Number high) {
   const std::string bounds = fmt::format("{} .. {}", low, high);
@@ -110,7 +76,7 @@ CLI::Validator bounded(const std::string& what, const std::string& kind, Number 
             const char* end = text.data() + text.size();
             const auto [stop, error] = std::from_chars(text.data(), end, value);
             if (error == std::errc() && stop == end && low <= value && value <= high) return std::string();
-            return fmt::format("'{}' is no {}; allowed: {}{}", text, what, kind, bounds);
+            return fmt::format("'{}' is not {}; allowed: {}{}", text, with_article(what), kind, bounds);
           },
           bounds};
 }
@@ -132,14 +98,51 @@ OptionDescription described(const CLI::Option& option, const std::deque<OptionSt
   return text;
 }
 
-VerbDescription described(const CLI::App& verb, const std::deque<OptionState>& states) {
-  VerbDescription text{verb.get_name(), verb.get_description(), {}};
-  for (const CLI::Option* option : verb.get_options()) text.options.push_back(described(*option, states));
+VerbDescription described(const CLI::App& verb, const CommandLineState& line, const std::string& before) {
+  const auto state = std::ranges::find(line.verbs, &verb, &VerbState::app);
+  VerbDescription text{.name = verb.get_name(),
+                       .path = before + verb.get_name(),
+                       .help = verb.get_description(),
+                       .details = state == line.verbs.end() ? "" : state->details,
+                       .options = {},
+                       .verbs = {}};
+  for (const CLI::Option* option : verb.get_options()) text.options.push_back(described(*option, line.options));
+  for (const CLI::App* each : verbs_of(verb)) text.verbs.push_back(described(*each, line, text.path + " "));
   return text;
 }
 
+/// Why the arguments were refused, for message_of().
+ParseFault fault_of(const CommandLineState& line, const CLI::ParseError& error) {
+  const CLI::App* app = &line.app;
+  std::string before;
+  for (auto chosen = app->get_subcommands(); !chosen.empty(); chosen = app->get_subcommands()) {
+    if (app != &line.app) before += app->get_name() + " ";
+    app = chosen.front();
+  }
+  ParseFault fault{
+      .argv = line.argv, .verb = described(*app, line, before), .renamed = {}, .missing = {}, .extras = {}};
+  if (app == &line.app) fault.verb.path.clear();
+  const auto state = std::ranges::find(line.verbs, app, &VerbState::app);
+  if (state != line.verbs.end()) fault.renamed = state->renamed;
+  fault.is_required = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) fault.extras = line.app.remaining(true);
+  for (const CLI::Option* option : app->get_options())
+    if (option->get_required() && option->count() == 0)
+      fault.missing.push_back(option->get_name() + ": " + option->get_description());
+  return fault;
+}
+
+/// A former name is answered with one sentence, which has all that the user needs.
+std::string refusal_text(const CommandLineState& line, const CLI::ParseError& error) {
+  const ParseFault fault = fault_of(line, error);
+  if (const std::string now = renamed_option(fault); !now.empty()) return now;
+  const std::string text = message_of(fault);
+  return (text.empty() ? error.what() : text) +
+         "\n(scanbench --help shows the verbs, scanbench VERB --help its options)";
+}
+
 Option added(const VerbState& verb, CLI::Option* option) {
-  return Option(verb.line->options.emplace_back(OptionState{option, verb.app}));
+  return Option(verb.line->options.emplace_back(OptionState{option}));
 }
 
 }  // namespace
@@ -189,20 +192,10 @@ Option Option::one_of(const std::string& what, const Words& words) {
   const auto check = [=](const std::string& text) {
     if (std::ranges::find(words, text) != words.end()) return std::string();
     const std::string near = nearest_name(text, words);
-    return fmt::format("'{}' is no {}{}; allowed: {}", text, what, near.empty() ? "" : "; did you mean '" + near + "'?",
-                       fmt::join(words, ", "));
+    return fmt::format("'{}' is not {}{}; allowed: {}", text, with_article(what),
+                       near.empty() ? "" : "; did you mean '" + near + "'?", fmt::join(words, ", "));
   };
   state_->option->check(check, fmt::format("{{{}}}", fmt::join(words, ",")));
-  return *this;
-}
-
-Option Option::excludes_all_but(const Words& names) {
-  for (CLI::Option* other : state_->verb->get_options()) {
-    const auto& own = other->get_lnames();
-    const bool is_allowed = !own.empty() && std::ranges::count(names, own.front()) > 0;
-    if (other != state_->option && other != state_->verb->get_help_ptr() && !is_allowed)
-      state_->option->excludes(other);
-  }
   return *this;
 }
 
@@ -263,6 +256,22 @@ void Verb::runs(std::function<int()> action) {
   state_->app->callback([line = state_->line, action = std::move(action)] { line->action = action; });
 }
 
+Verb Verb::add_verb(const std::string& name, const std::string& help) {
+  state_->app->require_subcommand(1);
+  CLI::App* verb = state_->app->add_subcommand(name, help);
+  verb->group("Verbs");  // else it is in the drawer of this one
+  return Verb(state_->line->verbs.emplace_back(VerbState{verb, state_->line}));
+}
+
+void Verb::details(const std::string& text) {
+  state_->details = text;
+  state_->app->footer(text + "\n\n" + state_->line->app.get_footer());
+}
+
+void Verb::renamed(const std::string& option, const std::string& sentence) {
+  state_->renamed[option] = sentence;
+}
+
 CommandLine::CommandLine(int argc, char** argv, const std::string& name, const std::string& about,
                          const std::string& footer, const std::string& version)
     : state_(std::make_unique<CommandLineState>(about)) {
@@ -273,24 +282,36 @@ CommandLine::CommandLine(int argc, char** argv, const std::string& name, const s
   app.require_subcommand(1);
   app.footer(footer);
   app.get_formatter()->column_width(34);
+  app.get_formatter()->label("SUBCOMMAND", "VERB");
 }
 
 CommandLine::~CommandLine() = default;
 
+void CommandLine::drawer(const std::string& name) {
+  state_->drawer = name;
+}
+
 Verb CommandLine::add_verb(const std::string& name, const std::string& help) {
-  return Verb(state_->verbs.emplace_back(VerbState{state_->app.add_subcommand(name, help), state_.get()}));
+  CLI::App* verb = state_->app.add_subcommand(name, help);
+  if (!state_->drawer.empty()) verb->group(state_->drawer);
+  return Verb(state_->verbs.emplace_back(VerbState{verb, state_.get()}));
+}
+
+void CommandLine::renamed(const std::string& verb, const std::string& now) {
+  state_->renamed[verb] = now;
 }
 
 std::function<int()> CommandLine::parse() {
   CLI::App& app = state_->app;
+  if (state_->argv.size() > 1)
+    if (const auto now = state_->renamed.find(state_->argv[1]); now != state_->renamed.end())
+      throw ConfigError("`" + now->first + "` is now `" + now->second + "`");
   try {
     Words reversed(state_->argv.rbegin(), state_->argv.rend());
     if (!reversed.empty()) reversed.pop_back();  // the program's name
     app.parse(std::move(reversed));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0)
-      throw ConfigError(parse_message(app, error, state_->argv) +
-                        "\n(scanbench --help shows the verbs, scanbench VERB --help its options)");
+    if (error.get_exit_code() != 0) throw ConfigError(refusal_text(*state_, error));
     app.exit(error);  // prints the help or the version
     return {};
   }
@@ -302,8 +323,9 @@ const Words& CommandLine::argv() const {
 }
 
 ProgramDescription CommandLine::description() const {
-  ProgramDescription text{described(state_->app, state_->options), state_->app.get_footer(), {}};
-  for (const CLI::App* verb : verbs_of(state_->app)) text.verbs.push_back(described(*verb, state_->options));
+  ProgramDescription text{described(state_->app, *state_, ""), state_->app.get_footer(), {}};
+  text.program.verbs.clear();
+  for (const CLI::App* verb : verbs_of(state_->app)) text.verbs.push_back(described(*verb, *state_, ""));
   return text;
 }
 

@@ -38,17 +38,14 @@ class Option {
   Option one_value_each();
   /// All occurrences together have from `least` to `most` values.
   Option values(int least, int most);
-  /// Refuses what is no whole number from `low` to `high`: "'0' is no number of threads; allowed: a whole number 1 ..
-  /// 9".
+  /// Refuses what is not a whole number from `low` to `high`: "'0' is not a number of threads; allowed: a whole number
+  /// 1 .. 9".
   Option whole_number(const std::string& what, int low, int high);
-  /// Refuses what is no number from `low` to `high`: "'9e9' is no resolution in dpi; allowed: 36 .. 1200".
+  /// Refuses what is not a number from `low` to `high`: "'9e9' is not a resolution in dpi; allowed: 36 .. 1200".
   Option number(const std::string& what, double low, double high);
-  /// Refuses what is none of these words: "'xml' is no format; allowed: carmen, csv". A shell completes them.
+  /// Refuses what is none of these words: "'xml' is not a format; allowed: carmen, csv". A shell completes them.
   Option one_of(const std::string& what, const Words& words);
-  /// Refuses every other option and argument that the verb has by now, except --help and these (long names without
-  /// dashes).
-  Option excludes_all_but(const Words& names);
-  /// What a positional argument that is no file can be; for completion on the command line.
+  /// What a positional argument that is not a file can be; for completion on the command line.
   Option completed_by(std::function<Words()> words);
   /// True if the command line that was read has the option.
   bool given() const;
@@ -77,6 +74,12 @@ class Verb {
   /// Adds an option without a value.
   void flag(const std::string& names, bool& value, const std::string& help);
 
+  /// A verb of this one, like `plan` of `sweep`. A verb that has verbs has neither options nor an action.
+  Verb add_verb(const std::string& name, const std::string& help);
+  /// What the help of the verb says below its options.
+  void details(const std::string& text);
+  /// An option of earlier versions, which is refused with this sentence.
+  void renamed(const std::string& option, const std::string& sentence);
   /// Accepts any other arguments.
   void ignore_other_arguments();
   /// What the program does if the user chooses this verb; returns the exit code.
@@ -99,9 +102,12 @@ struct OptionDescription {
 };
 
 struct VerbDescription {
-  std::string name;
+  std::string name;  ///< "run", "plan"
+  std::string path;  ///< as it is typed: "run", "sweep plan"
   std::string help;
+  std::string details;
   std::vector<OptionDescription> options;
+  std::vector<VerbDescription> verbs;
 };
 
 struct ProgramDescription {
@@ -119,7 +125,11 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
+  /// Begins a drawer: a group of verbs in the help. The verbs that are added next are in it.
+  void drawer(const std::string& name);
   Verb add_verb(const std::string& name, const std::string& help);
+  /// A verb of earlier versions, which is refused: "`nightly` is now `night run`".
+  void renamed(const std::string& verb, const std::string& now);
 
   /// Reads the arguments and returns the action of the verb that the user chose; none after --help and --version, which
   /// are printed. Throws ConfigError for arguments that no verb accepts.

@@ -352,7 +352,7 @@ static inline int sb_serve_kind(const sb_module* module, const sb_matcher* match
     uint64_t count = 0;
     memcpy(&length, head + 4, 4);
     memcpy(&count, head + 8, 8);
-    if (memcmp(head, "SBF1", 4) != 0) sb_fail("this is no frame of the protocol");
+    if (memcmp(head, "SBF1", 4) != 0) sb_fail("this is not a frame of the protocol");
     header = (char*)sb_memory(header, (size_t)length + 1);
     numbers = (double*)sb_memory(numbers, (size_t)count * sizeof(double));
     if (!sb_read(&input, header, length) || !sb_read(&input, numbers, (size_t)count * sizeof(double))) break;

@@ -204,7 +204,7 @@ def _receive(connection, count):
 def _read(connection):
     magic, header_bytes, numbers = _HEAD.unpack(_receive(connection, _HEAD.size))
     if magic != b"SBF1":
-        sys.exit("scanbench.py: this is no frame of the protocol")
+        sys.exit("scanbench.py: this is not a frame of the protocol")
     header = json.loads(_receive(connection, header_bytes))
     data = array.array("d")
     data.frombytes(_receive(connection, 8 * numbers))

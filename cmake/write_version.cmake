@@ -1,10 +1,11 @@
-# Writes the version header. The commit of a tree with local changes gets "-dirty-" and a hash of the code, so that two
+# Writes the version header. The commit is the last one that changed the code: one of a baseline or of a page changes no
+# program, and must link none again. That of a tree with local changes gets "-dirty-" and a hash of the code, so that two
 # such programs can be distinguished. Without Git it is "unknown-" with that hash.
 set(code core sim algorithms metrics render harness app examples/plugin cmake CMakeLists.txt)
-execute_process(COMMAND git -C ${SOURCE_DIR} rev-parse HEAD OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE
-                ERROR_QUIET RESULT_VARIABLE failed)
+execute_process(COMMAND git -C ${SOURCE_DIR} log -1 --format=%H -- ${code} OUTPUT_VARIABLE commit
+                OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
 set(mark "")
-if(failed)
+if(failed OR NOT commit)
   set(commit "unknown")
   set(mark "-")
 else()

@@ -74,7 +74,7 @@ Theme theme_from(std::string_view name) {
   if (name == "paper") return Theme::paper;
   if (name == "slides") return Theme::slides;
   if (name == "dark") return Theme::dark;
-  throw ConfigError("'" + std::string(name) + "' is no style; allowed: paper, slides, dark");
+  throw ConfigError("'" + std::string(name) + "' is not a style; allowed: paper, slides, dark");
 }
 
 }  // namespace scanbench::render

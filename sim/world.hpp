@@ -9,7 +9,7 @@
 
 namespace scanbench::sim {
 
-/// A round distractor: it returns beams, but is no line of the truth.
+/// A round distractor: it returns beams, but is not a line of the truth.
 struct Circle {
   std::string label;
   Vec2 center = Vec2::Zero();

@@ -1,4 +1,4 @@
-// The verb conform: runs the conformance checks on the modules of a library or on a program.
+// The verb `module conform`: runs the conformance checks on the modules of a library or on a program.
 #include "app/authoring/conform.hpp"
 
 #include <fmt/format.h>
@@ -90,7 +90,7 @@ int check_module(const study::ForeignSource& source) {
 
 int conform_verb(const ForeignOptions& options) {
   const auto sources = foreign_sources(options);
-  if (sources.empty()) throw ConfigError("conform needs --plugin FILE or --program WORD...");
+  if (sources.empty()) throw ConfigError("module conform needs --plugin FILE or --program WORD...");
   int failures = 0;
   for (const auto& source : sources) failures += check_module(source);
   if (failures > 0) fmt::print("{} failed\n", counted(static_cast<std::size_t>(failures), "check"));
@@ -99,9 +99,9 @@ int conform_verb(const ForeignOptions& options) {
 
 }  // namespace
 
-void add_conform(CommandLine& line) {
+void add_conform(Verb& module) {
   auto options = std::make_shared<ForeignOptions>();
-  Verb verb = line.add_verb(
+  Verb verb = module.add_verb(
       "conform",
       "Checks the modules of a shared library, or a program, as the tests check the modules of this program");
   add_foreign_options(verb, *options, true);

@@ -1,4 +1,4 @@
-// new: writes the file of a new module, which works and passes the conformance suite, for its author to change.
+// module new: writes the file of a new module, which works and passes the conformance suite, for its author to change.
 #include "app/authoring/new_module.hpp"
 
 #include <fmt/format.h>
@@ -63,9 +63,9 @@ struct NewModuleOptions {
 
 }  // namespace
 
-void add_new_module(CommandLine& line) {
+void add_new_module(Verb& module) {
   auto options = std::make_shared<NewModuleOptions>();
-  Verb verb = line.add_verb("new", "Writes the file of a new module, to be changed by its author");
+  Verb verb = module.add_verb("new", "Writes the file of a new module, to be changed by its author");
   verb.option("KIND", options->kind, join(template_kinds())).required().completed_by(template_kinds);
   verb.option("NAME", options->name, "the module's name in small letters, digits and _").required();
   verb.option("--sources", options->sources, "the folder of scanbench's sources").shows_default();

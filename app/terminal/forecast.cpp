@@ -13,6 +13,27 @@
 #include "harness/runs/execute/forecast.hpp"
 
 namespace scanbench::app {
+namespace {
+
+/// What the estimate rests on, and how it may be wrong.
+std::string basis_text(const runs::Forecast& forecast, bool in_proportion) {
+  std::size_t sample = 0;
+  for (const auto& scenario : forecast.scenarios) sample = std::max(sample, scenario.sample);
+  const std::size_t all = forecast.scenarios.size();
+  std::string text =
+      fmt::format("Bytes and time are estimated from up to {} of {}", counted(sample, "scan"),
+                  forecast.tried == all ? (all == 1 ? "the scenario" : "each scenario")
+                                        : fmt::format("{} of {} scenarios, which the others are taken to "
+                                                      "be like",
+                                                      forecast.tried, all));
+  if (forecast.cut_off > 0)
+    text += fmt::format("; {} did not end on them within the {:.2g} s of the trial",
+                        counted(forecast.cut_off, "pipeline"), runs::kForecastSeconds);
+  if (!in_proportion) text += " (align, map and merge can take far more: their work grows faster than the scans)";
+  return text;
+}
+
+}  // namespace
 
 int print_forecast(const std::vector<study::Scenario>& scenarios, const runs::RunOptions& options, bool quiet) {
   Progress progress(progress_style(quiet));
@@ -32,7 +53,6 @@ int print_forecast(const std::vector<study::Scenario>& scenarios, const runs::Ru
                        {}};
   runs::ScenarioForecast total;
   bool in_proportion = true;
-  std::size_t sample = 0;
   const auto row = [&](const std::string& name, const runs::ScenarioForecast& f) {
     table.rows.push_back({{name},
                           {{std::to_string(f.cells)},
@@ -48,20 +68,18 @@ int print_forecast(const std::vector<study::Scenario>& scenarios, const runs::Ru
     total.bytes += scenario.bytes;
     total.seconds += scenario.seconds;
     in_proportion = in_proportion && scenario.in_proportion;
-    sample = std::max(sample, scenario.sample);
     for (const auto& fault : scenario.faults)
-      fmt::print("note: on {} scans of {}, {}\n", scenario.sample, scenario.scenario, results::plain_line(fault));
+      fmt::print("note: on {} of {}, {}\n", counted(scenario.sample, "scan"), scenario.scenario,
+                 results::plain_line(fault));
   }
   if (forecast.scenarios.size() > 1) row("all", total);
   fmt::print("{}", results::to_terminal(table, use_color()));
   const auto jobs =
       std::min<std::size_t>(static_cast<std::size_t>(options.jobs), std::max<std::size_t>(total.cells, 1));
-  fmt::print(
-      "About {} with {}, and {} in {}, without figures and report. Bytes and time are estimated from {} scans "
-      "of each scenario{}; nothing has been written.\n",
-      duration_text(total.seconds / static_cast<double>(jobs)), counted(jobs, "job"), io::size_text(total.bytes),
-      options.out.string(), sample,
-      in_proportion ? "" : " (align, map and merge can take far more: their work grows faster than the scans)");
+  fmt::print("{} {} with {}, and {} in {}, without figures and report. {}; nothing has been written.\n",
+             forecast.cut_off > 0 ? "At least" : "About", duration_text(total.seconds / static_cast<double>(jobs)),
+             counted(jobs, "job"), io::size_text(total.bytes), options.out.string(),
+             basis_text(forecast, in_proportion));
   return kGood;
 }
 

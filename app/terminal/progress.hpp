@@ -72,7 +72,7 @@ class Progress {
 /// A bar if standard error is a terminal, else lines.
 Progress::Style progress_style(bool quiet);
 
-/// Characters in a line of standard output; 120 if it is no terminal.
+/// Characters in a line of standard output; 120 if it is not a terminal.
 std::size_t terminal_width();
 
 /// Colour on standard output: a terminal, NO_COLOR unset, TERM not "dumb".

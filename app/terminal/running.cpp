@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/drawing.hpp"
 #include "app/exit_code.hpp"
@@ -26,14 +27,13 @@ void note_cell(Progress& progress, FaultNotes& faults, const runs::CellResult& c
   if (const std::string note = faults.note(cell); !note.empty()) progress.note(note);
 }
 
-/// Draws the figures of a run, unless the user wants none, and writes its report. `failure`: why they were not drawn.
-results::ReportInput write_report(const runs::RunResult& result, bool figures, Progress& progress,
-                                  std::string& failure) {
+/// Draws the figures of a run, unless the user wants none, and writes its report.
+void write_report(const runs::RunResult& result, bool figures, Progress& progress, FinishedRun& finished) {
   const auto scenarios = runs::load_run_scenarios(result.out);
-  if (figures) failure = draw_within_limits(result.out, scenarios, {}, progress);
+  if (figures) finished.figure_failure = draw_within_limits(result.out, scenarios, {}, progress);
   auto report = results::load_report_input(result.out, scenarios);
-  results::write_reports(result.out, report);
-  return report;
+  finished.sentence = results::write_reports(result.out, report);
+  finished.report = std::move(report);
 }
 
 /// The message about missing cells: their number, the reason of the first, and whether an earlier run remains.
@@ -48,9 +48,11 @@ std::string missing_text(const runs::RunResult& result) {
 
 }  // namespace
 
-void print_tables(const results::ReportInput& input) {
-  const results::Document closing = results::closing_document(input);
+void print_ending(const FinishedRun& finished) {
+  const results::Document closing = results::closing_document(finished.report.value());
   if (!closing.blocks.empty()) fmt::print("{}\n", results::to_terminal(closing, use_color(), terminal_width()));
+  if (!finished.sentence.empty()) fmt::print("{}\n", results::plain_line(finished.sentence, 2000));
+  fmt::print("{}\n", (finished.result.out / results::kReportPage).string());
 }
 
 void note_absent_figures(const results::ReportInput& report) {
@@ -89,7 +91,7 @@ FinishedRun make_and_report(const MakeRun& make, runs::RunOptions options, const
     options.finish = [&](const runs::RunResult& result) {
       const InterruptGuard guard;
       try {
-        finished.report = write_report(result, presentation.figures, progress, finished.figure_failure);
+        write_report(result, presentation.figures, progress, finished);
       } catch (const ConfigError& error) {
         if (result.exit_code() != kIncomplete) throw;  // else the report fails for the same reason
         say(fmt::format("scanbench: {}\n", error.what()));

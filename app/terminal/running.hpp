@@ -21,6 +21,7 @@ struct Presentation {
 struct FinishedRun {
   runs::RunResult result;
   std::optional<results::ReportInput> report;  ///< none if it could not be written, which has been said
+  std::string sentence;                        ///< with which its page begins; empty if there is no report
   std::string figure_failure;                  ///< why there are no figures; empty if there are
 };
 
@@ -34,8 +35,8 @@ FinishedRun make_and_report(const MakeRun& make, runs::RunOptions options, const
 FinishedRun run_and_report(const std::vector<study::Scenario>& scenarios, const runs::RunOptions& options,
                            const Presentation& presentation);
 
-/// Prints the tables that close a run.
-void print_tables(const results::ReportInput& input);
+/// Prints what closes a run: its tables, the sentence with which its page begins, and the page's name.
+void print_ending(const FinishedRun& finished);
 
 /// Why figures that the scenarios name are absent.
 void note_absent_figures(const results::ReportInput& report);

@@ -15,11 +15,13 @@
 #include "app/drawing.hpp"
 #include "app/inputs.hpp"
 #include "app/options.hpp"
+#include "app/picture_options.hpp"
 #include "app/terminal/progress.hpp"
 #include "app/verbs/gallery.hpp"
 #include "core/error.hpp"
 #include "harness/results/figures/figures.hpp"
 #include "harness/results/figures/requested_figures.hpp"
+#include "harness/results/gallery/catalogue.hpp"
 #include "harness/results/pages/run_report.hpp"
 #include "harness/runs/store/run_folder.hpp"
 #include "harness/runs/store/run_lock.hpp"
@@ -69,7 +71,7 @@ void print_drawn(const std::vector<results::FigureFile>& drawn, const fs::path& 
 /// A catalogue says for each figure which scenario, pipelines and scan it shows.
 int gallery(const FiguresVerbOptions& given, const std::vector<std::string>& argv) {
   if (!given.files.empty() || !given.figures.pipelines.empty() || !given.figures.figures.empty() || given.figures.frame)
-    throw ConfigError("--with, --figure, --pipelines and --frame are for the figures of a run; " + given.run +
+    throw ConfigError("--with, --figure, --pipeline and --frame are for the figures of a run; " + given.run +
                       " is a catalogue, which names them itself");
   results::FigureOptions figures = figure_options(given);
   const bool is_shown = std::ranges::any_of(figures.formats, [](const auto& format) { return format != "pdf"; });
@@ -85,9 +87,14 @@ int gallery(const FiguresVerbOptions& given, const std::vector<std::string>& arg
 }
 
 int figures(const FiguresVerbOptions& given, const std::vector<std::string>& argv) {
-  if (fs::is_regular_file(given.run)) return gallery(given, argv);
+  if (fs::is_regular_file(given.run)) {
+    if (!results::is_catalogue(given.run))
+      throw ConfigError(given.run + ": a scenario or suite; allowed: a run folder, which `scanbench run " + given.run +
+                        "` makes, or a catalogue of figures, like scenarios/figures.yaml");
+    return gallery(given, argv);
+  }
   if (!given.only.empty())
-    throw ConfigError("--only is for the entries of a catalogue; " + given.run +
+    throw ConfigError("--entry is for the entries of a catalogue; " + given.run +
                       " is a run folder, of which --figure names the figures");
   const fs::path run = given.run;
   auto scenarios = scenarios_for(run, given.files);
@@ -124,18 +131,9 @@ void add_style_options(Verb& verb, FiguresVerbOptions& options) {
       .one_of("format", {"svg", "png", "pdf"})
       .shows_default();
   verb.flag("--pdf", options.pdf, "also as PDF: short for --format svg,png,pdf");
-  verb.option("--width-mm", figures.style.width_mm,
-              "width on paper (default: each figure's own, 88.9 mm for a column or 181.9 mm for two)")
-      .number("width in mm", render::kLeastWidthMm, render::kMostWidthMm);
-  verb.option("--dpi", figures.dpi, "resolution of PNG")
-      .number("resolution in dpi", render::kLeastDpi, render::kMostDpi)
-      .shows_default();
+  add_picture_options(verb, options.style, figures.style, figures.dpi);
   verb.option("--font-pt", figures.style.font_pt, "size of the letters (default: 8 pt, 14 pt on slides)")
       .number("font size in pt", render::kLeastFontPt, render::kMostFontPt);
-  verb.option("--style", options.style,
-              "paper; slides: larger letters and wider lines; dark: as paper, on a dark ground")
-      .one_of("style", {"paper", "slides", "dark"})
-      .shows_default();
   verb.flag("--no-title", options.no_title, "without the title over the panels");
 }
 
@@ -156,10 +154,13 @@ void add_figures(CommandLine& line) {
           "only these figures, separated by commas, whether or not the scenarios list them (scanbench list figures); "
           "the folder keeps its others")
       .separated_by_commas();
-  verb.option("--pipelines", options->figures.pipelines, "only these pipelines, separated by commas")
+  verb.option("--pipeline", options->figures.pipelines, "only these pipelines, separated by commas")
       .separated_by_commas();
   verb.option("--frame", options->figures.frame, "number of the scan, from 0, that figures of one scan show");
-  verb.option("--only", options->only, "of a catalogue: only these entries, separated by commas").separated_by_commas();
+  verb.option("--entry", options->only, "of a catalogue: only these entries, separated by commas")
+      .separated_by_commas();
+  verb.renamed("--pipelines", "`figures --pipelines` is now `figures --pipeline`");
+  verb.renamed("--only", "`figures --only` is now `figures --entry`");
   add_jobs_option(verb, options->jobs, "of a catalogue: number of cells that run at the same time");
   verb.flag("-q,--quiet", options->quiet, "print only errors");
   verb.runs([&line, options] { return figures(*options, line.argv()); });

@@ -12,6 +12,7 @@
 #include "app/foreign.hpp"
 #include "app/inputs.hpp"
 #include "app/terminal/progress.hpp"
+#include "app/text_format.hpp"
 #include "harness/results/document/plain_text.hpp"
 #include "harness/results/figures/catalog.hpp"
 #include "harness/results/gallery/catalogue.hpp"
@@ -92,19 +93,21 @@ int list(const ListOptions& options) {
 struct DescribeOptions {
   std::string name;
   ForeignOptions foreign;
-  bool json = false, all = false, markdown = false;
+  TextFormat format;
+  bool all = false;
 };
 
 int describe(const DescribeOptions& options) {
+  const std::string format = format_of(options.format);
   const bool is_foreign = !options.foreign.plugins.empty() || !options.foreign.program.empty();
   if (options.name.empty() && !options.all && !is_foreign)
     throw ConfigError("describe needs a name, or --all (`scanbench list` shows the names)");
   const auto entries = is_foreign    ? foreign_entries(options.foreign)
                        : options.all ? results::catalog()
                                      : results::find_in_catalog(options.name);
-  if (options.json) {
+  if (format == "json") {
     print(results::catalog_json(entries));
-  } else if (options.markdown) {
+  } else if (format == "markdown") {
     print(results::catalog_markdown(entries));
   } else {
     for (const auto& entry : entries) print(results::describe_text(entry) + (&entry == &entries.back() ? "" : "\n"));
@@ -126,6 +129,8 @@ std::vector<std::string> name_words() {
   return words;
 }
 
+}  // namespace
+
 void add_check(CommandLine& line) {
   auto options = std::make_shared<CheckOptions>();
   Verb verb = line.add_verb("check", "Checks scenario or suite files, or catalogues of figures, without running them");
@@ -143,7 +148,7 @@ void add_list(CommandLine& line) {
   verb.option("KIND", options->kind,
               "only this kind: modules, extract, merge, metrics, figures, trajectories, sensors, ...")
       .completed_by(kind_words);
-  verb.flag("--json", options->json, "as JSON");
+  add_json_flag(verb, options->json, "the list");
   verb.runs([options] { return list(*options); });
 }
 
@@ -152,18 +157,10 @@ void add_describe(CommandLine& line) {
   Verb verb = line.add_verb("describe", "Shows what a module does, its parameters, defaults and bounds");
   verb.option("NAME", options->name, "a name from `list`, or a metric, like f1").completed_by(name_words);
   verb.flag("--all", options->all, "describe everything");
-  verb.flag("--markdown", options->markdown, "as Markdown (docs/modules.md is made with --all --markdown)");
+  add_format_options(verb, options->format, {"text", "markdown", "json"}, "the description");
+  verb.renamed("--markdown", "`describe --markdown` is now `describe --format markdown`");
   add_foreign_options(verb, options->foreign, true);
-  verb.flag("--json", options->json, "as JSON");
   verb.runs([options] { return describe(*options); });
-}
-
-}  // namespace
-
-void add_inspection(CommandLine& line) {
-  add_check(line);
-  add_list(line);
-  add_describe(line);
 }
 
 }  // namespace scanbench::app

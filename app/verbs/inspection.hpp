@@ -5,6 +5,8 @@
 
 namespace scanbench::app {
 
-void add_inspection(CommandLine& line);
+void add_check(CommandLine& line);
+void add_list(CommandLine& line);
+void add_describe(CommandLine& line);
 
 }  // namespace scanbench::app

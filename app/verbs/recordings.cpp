@@ -9,6 +9,7 @@
 
 #include "app/inputs.hpp"
 #include "app/options.hpp"
+#include "app/seed_list.hpp"
 #include "app/terminal/progress.hpp"
 #include "harness/io/exchange/export.hpp"
 #include "harness/io/exchange/polygon_files.hpp"
@@ -126,6 +127,8 @@ int export_recordings(const ExportOptions& options) {
   return kGood;
 }
 
+}  // namespace
+
 void add_simulate(CommandLine& line) {
   auto options = std::make_shared<SimulateOptions>();
   Verb verb = line.add_verb("simulate", "Makes only the recordings of a scenario");
@@ -140,10 +143,9 @@ void add_simulate(CommandLine& line) {
 
 void add_export(CommandLine& line) {
   auto options = std::make_shared<ExportOptions>();
-  Verb verb = line.add_verb(
-      "export",
-      "Writes a run's recordings as logs that other programs read, and prints the options that read them back; or the "
-      "lines of its cells as polygons");
+  Verb verb =
+      line.add_verb("export", "Writes a run's recordings as logs that other programs read, or lines as polygons");
+  verb.details("Prints the options with which a scenario reads the logs.");
   verb.option("RUN", options->run, "a run folder").required();
   auto formats = io::export_formats();
   formats.emplace_back(kPolygons);
@@ -153,13 +155,6 @@ void add_export(CommandLine& line) {
   verb.option("-o,--out", options->out, "the folder to write to (default: RUN/export)");
   verb.runs(
       [options] { return options->format == kPolygons ? export_polygons(*options) : export_recordings(*options); });
-}
-
-}  // namespace
-
-void add_recordings(CommandLine& line) {
-  add_simulate(line);
-  add_export(line);
 }
 
 }  // namespace scanbench::app

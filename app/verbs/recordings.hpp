@@ -5,6 +5,7 @@
 
 namespace scanbench::app {
 
-void add_recordings(CommandLine& line);
+void add_simulate(CommandLine& line);
+void add_export(CommandLine& line);
 
 }  // namespace scanbench::app

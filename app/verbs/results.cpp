@@ -1,10 +1,9 @@
-// The verbs score, report and unpack, which work on existing run folders.
+// The verbs score and report, which work on existing run folders.
 #include "app/verbs/results.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 
 #include "app/inputs.hpp"
@@ -16,6 +15,7 @@
 #include "harness/runs/execute/runner.hpp"
 #include "harness/runs/execute/score.hpp"
 #include "harness/runs/store/archived_run.hpp"
+#include "harness/runs/store/manifest.hpp"
 #include "harness/runs/store/run_folder.hpp"
 #include "harness/runs/store/run_lock.hpp"
 #include "harness/runs/store/run_scenarios.hpp"
@@ -57,40 +57,18 @@ int report(const fs::path& run, bool scans) {
   return kGood;
 }
 
-/// "room/iepf/7".
-runs::CellKey cell_from(const std::string& text) {
-  const std::size_t second = text.rfind('/'), first = text.find('/');
-  const char* end = text.data() + text.size();
-  runs::CellKey key;
-  const char* seed = second == std::string::npos ? end : text.data() + second + 1;
-  const auto [stop, error] = std::from_chars(seed, end, key.seed);
-  if (first == second || seed == end || error != std::errc() || stop != end)
-    throw ConfigError("'" + text + "' names no cell; allowed: SCENARIO/PIPELINE/SEED");
-  key.scenario = text.substr(0, first);
-  key.pipeline = text.substr(first + 1, second - first - 1);
-  return key;
-}
-
-int unpack(const fs::path& run, const std::vector<std::string>& names, bool quiet) {
-  check_run_exists(run);
-  std::vector<runs::CellKey> cells;
-  for (const auto& name : names) cells.push_back(cell_from(name));
-  if (names.empty()) cells = runs::RunStore(run).keys();
-  const runs::RunLock lock(run);
-  runs::refuse_linked_folders(run);
-  const InterruptGuard guard;
-  Progress progress(progress_style(quiet));
-  const std::size_t written = runs::unpack_cells(run, cells, [&](double share) { progress.update(share, "unpack"); });
-  progress.finish();
-  if (!quiet) fmt::print("{} unpacked: {}\n", counted(written, "cell"), (run / "cells").string());
-  return kGood;
-}
-
 struct ScoreOptions {
   std::string run;
   std::vector<std::string> files;
   bool quiet = false;
 };
+
+struct ReportVerbOptions {
+  std::string run;
+  bool scans = false;
+};
+
+}  // namespace
 
 void add_score(CommandLine& line) {
   auto options = std::make_shared<ScoreOptions>();
@@ -101,11 +79,6 @@ void add_score(CommandLine& line) {
   verb.runs([options] { return score(options->run, options->files, options->quiet); });
 }
 
-struct ReportVerbOptions {
-  std::string run;
-  bool scans = false;
-};
-
 void add_report(CommandLine& line) {
   auto options = std::make_shared<ReportVerbOptions>();
   Verb verb =
@@ -115,31 +88,6 @@ void add_report(CommandLine& line) {
             "also scans.html, a page that plays the scans with the lines found in them, in order or worst "
             "first; it holds at most 2000 scans of a recording and 24 MiB");
   verb.runs([options] { return report(options->run, options->scans); });
-}
-
-struct UnpackOptions {
-  std::string run;
-  std::vector<std::string> cells;
-  bool quiet = false;
-};
-
-void add_unpack(CommandLine& line) {
-  auto options = std::make_shared<UnpackOptions>();
-  Verb verb =
-      line.add_verb("unpack", "Writes the files of cells that a merged run keeps in archives (docs/cluster.md)");
-  verb.option("RUN", options->run, "a run folder").required();
-  verb.option("CELL", options->cells,
-              "SCENARIO/PIPELINE/SEED: only these; without any all, and the archives are removed");
-  verb.flag("-q,--quiet", options->quiet, "print only errors");
-  verb.runs([options] { return unpack(options->run, options->cells, options->quiet); });
-}
-
-}  // namespace
-
-void add_results(CommandLine& line) {
-  add_score(line);
-  add_report(line);
-  add_unpack(line);
 }
 
 }  // namespace scanbench::app

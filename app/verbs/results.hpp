@@ -5,6 +5,7 @@
 
 namespace scanbench::app {
 
-void add_results(CommandLine& line);
+void add_score(CommandLine& line);
+void add_report(CommandLine& line);
 
 }  // namespace scanbench::app

@@ -10,14 +10,14 @@
 #include "app/foreign.hpp"
 #include "app/inputs.hpp"
 #include "app/options.hpp"
+#include "app/seed_list.hpp"
 #include "app/terminal/forecast.hpp"
 #include "app/terminal/progress.hpp"
 #include "app/terminal/running.hpp"
-#include "app/verbs/sweep.hpp"
+#include "app/text_format.hpp"
 #include "core/error.hpp"
 #include "harness/io/files/json.hpp"
 #include "harness/results/document/plain_text.hpp"
-#include "harness/results/pages/run_report.hpp"
 #include "harness/runs/execute/run_options.hpp"
 #include "harness/runs/store/cell_status.hpp"
 
@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 struct RunVerbOptions {
   std::vector<std::string> files, sets, seeds, only;
-  std::string out, plan, shard;
+  std::string out;
   int jobs = 1;
   bool sandbox = false;
   ForeignOptions foreign;
@@ -49,9 +49,6 @@ void print_json(const runs::RunResult& result) {
 }
 
 int run(const RunVerbOptions& options, const std::vector<std::string>& argv) {
-  if (!options.plan.empty()) return run_shard_of(options.plan, options.shard, options.jobs, options.quiet);
-  if (!options.shard.empty()) throw ConfigError("--shard needs --plan SWEEP, the folder of a sweep");
-  if (options.files.empty()) throw ConfigError("'run' needs FILE: scenario or suite files");
   std::string name;
   runs::RunOptions run_options;
   auto scenarios = load_inputs(options.files, with_foreign(options.sets, options.foreign, options.sandbox), &name,
@@ -68,21 +65,20 @@ int run(const RunVerbOptions& options, const std::vector<std::string>& argv) {
   run_options.journal = options.journal;
   run_options.argv = argv;
   if (options.dry_run) return print_forecast(scenarios, run_options, options.quiet);
-  const auto [result, report, figure_failure] =
+  const FinishedRun finished =
       run_and_report(scenarios, run_options, {.quiet = options.quiet, .figures = !options.no_figures});
+  const runs::RunResult& result = finished.result;
   say(unfinished_text(result));
   if (result.interrupted) return kInterrupted;
   if (options.quiet) say(failed_text(result.cells));
-  if (!figure_failure.empty()) say("scanbench: " + figure_failure + "\n");
+  if (!finished.figure_failure.empty()) say("scanbench: " + finished.figure_failure + "\n");
 
-  if (!options.quiet && report) note_absent_figures(*report);
-  if (options.json) {
+  if (!options.quiet && finished.report) note_absent_figures(*finished.report);
+  if (options.json)
     print_json(result);
-  } else if (!options.quiet && report) {
-    print_tables(*report);
-    fmt::print("{}\n", (result.out / results::kReportPage).string());
-  }
-  return result.exit_code() == kGood && !figure_failure.empty() ? kCellsFailed : result.exit_code();
+  else if (!options.quiet && finished.report)
+    print_ending(finished);
+  return result.exit_code() == kGood && !finished.figure_failure.empty() ? kCellsFailed : result.exit_code();
 }
 
 }  // namespace
@@ -90,10 +86,7 @@ int run(const RunVerbOptions& options, const std::vector<std::string>& argv) {
 void add_run(CommandLine& line) {
   auto options = std::make_shared<RunVerbOptions>();
   Verb verb = line.add_verb("run", "Runs scenario or suite files: scans, algorithms, metrics, figures, report");
-  verb.option("FILE", options->files, "scenario or suite files");
-  Option plan = verb.option("--plan", options->plan, "run one shard of this sweep (a folder that `plan` has made)");
-  verb.option("--shard", options->shard,
-              "its number; default: SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX + 1 or PARALLEL_SEQ");
+  verb.option("FILE", options->files, "scenario or suite files").required();
   verb.option("-o,--out", options->out, "the run folder (default: out/<name of the first file>)");
   add_seed_option(verb, options->seeds);
   add_jobs_option(verb, options->jobs, "number of cells that run at the same time");
@@ -112,8 +105,9 @@ void add_run(CommandLine& line) {
             "run programs under bubblewrap (no network, read-only but for the cell's folder) and libraries without "
             "network");
   verb.flag("-q,--quiet", options->quiet, "print only errors");
-  verb.flag("--json", options->json, "print the cells' outcomes as JSON");
-  plan.excludes_all_but({"shard", "jobs", "quiet"});
+  add_json_flag(verb, options->json, "the outcomes of the cells");
+  verb.renamed("--plan", "`run --plan SWEEP` is now `sweep run SWEEP`");
+  verb.renamed("--shard", "`run --plan SWEEP --shard N` is now `sweep run SWEEP --shard N`");
   verb.runs([&line, options] { return run(*options, line.argv()); });
 }
 

@@ -1,5 +1,5 @@
-// The verbs completion and manual, which print what a shell and `man` need to know of the command line; and build and
-// test, which the script ./scanbench does.
+// The verbs completion and manual, which print what a shell and `man` need to know of the command line; and build, test
+// and peers, which the script ./scanbench does.
 #pragma once
 
 #include <string>
@@ -7,9 +7,6 @@
 #include "app/options.hpp"
 
 namespace scanbench::app {
-
-/// A bash script that completes verbs, options, and names of modules; everything else are files.
-std::string bash_completion(const ProgramDescription& text);
 
 /// A manual page in roff.
 std::string manual_page(const ProgramDescription& text);

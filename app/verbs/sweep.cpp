@@ -1,4 +1,4 @@
-// Plans sweeps, runs their shards, merges them, and submits them to Slurm.
+// Plans sweeps, counts their cells, merges them, and submits them to Slurm.
 #include "app/verbs/sweep.hpp"
 
 #include <fmt/format.h>
@@ -16,9 +16,12 @@
 
 #include "app/inputs.hpp"
 #include "app/options.hpp"
-#include "app/terminal/fault_notes.hpp"
+#include "app/seed_list.hpp"
 #include "app/terminal/progress.hpp"
 #include "app/terminal/running.hpp"
+#include "app/text_format.hpp"
+#include "app/verbs/shard.hpp"
+#include "app/verbs/unpack.hpp"
 #include "core/error.hpp"
 #include "harness/io/files/atomic_file.hpp"
 #include "harness/io/files/descriptor.hpp"
@@ -26,10 +29,8 @@
 #include "harness/io/process/child.hpp"
 #include "harness/io/process/pipe.hpp"
 #include "harness/results/document/plain_text.hpp"
-#include "harness/results/pages/run_report.hpp"
 #include "harness/runs/store/cell_status.hpp"
 #include "harness/runs/store/summary.hpp"
-#include "harness/runs/sweep/shard.hpp"
 #include "harness/runs/sweep/slurm.hpp"
 #include "harness/runs/sweep/sweep_merge.hpp"
 #include "harness/runs/sweep/sweep_plan.hpp"
@@ -150,21 +151,21 @@ int merge(const SweepVerbOptions& options, const std::vector<std::string>& argv)
     return std::move(merged.run);
   };
   const bool has_report = plan.cells.size() <= kMostReportedCells;
-  const auto [result, report, figure_failure] =
+  const FinishedRun finished =
       make_and_report(make, run, {.quiet = options.quiet, .figures = !options.no_figures, .report = has_report});
   if (missing) return report_missing(options.sweep, *missing);
+  const runs::RunResult& result = finished.result;
   say(failed_text(result.cells));
-  if (!figure_failure.empty()) say("scanbench: " + figure_failure + "\n");
-  if (!options.quiet && report) {
-    note_absent_figures(*report);
-    print_tables(*report);
-    fmt::print("{}\n", (result.out / results::kReportPage).string());
+  if (!finished.figure_failure.empty()) say("scanbench: " + finished.figure_failure + "\n");
+  if (!options.quiet && finished.report) {
+    note_absent_figures(*finished.report);
+    print_ending(finished);
   }
   if (!options.quiet && !has_report)
     fmt::print("{}: {}; `scanbench figures {}` draws its figures, `scanbench report {}` writes its report\n",
                (result.out / runs::kSummaryFile).string(), counted(plan.cells.size(), "cell"), result.out.string(),
                result.out.string());
-  return result.exit_code() == kGood && !figure_failure.empty() ? kCellsFailed : result.exit_code();
+  return result.exit_code() == kGood && !finished.figure_failure.empty() ? kCellsFailed : result.exit_code();
 }
 
 constexpr std::size_t kMostPrinted = 1 << 16;  // bytes kept of what sbatch prints
@@ -212,7 +213,8 @@ int submit(const SweepVerbOptions& options) {
   if (status.lost > 0)
     throw ConfigError(options.sweep + " has missing cells without a shard; plan it again, then submit");
   if (status.missing_shards.empty())
-    throw ConfigError(options.sweep + " has no missing cells; `scanbench merge " + options.sweep + "` makes the run");
+    throw ConfigError(options.sweep + " has no missing cells; `scanbench sweep merge " + options.sweep +
+                      "` makes the run");
   const auto scripts = runs::slurm_scripts(
       plan, {.program = fs::read_symlink("/proc/self/exe"), .run = run_folder(options, plan), .jobs = options.jobs});
   const fs::path folder = runs::slurm_folder(options.sweep);
@@ -234,8 +236,9 @@ int submit(const SweepVerbOptions& options) {
   return kGood;
 }
 
-void add_plan(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& options) {
-  Verb verb = line.add_verb(
+void add_plan(Verb& sweep, const CommandLine& line) {
+  auto options = std::make_shared<SweepVerbOptions>();
+  Verb verb = sweep.add_verb(
       "plan", "Divides the cells of scenario or suite files into shards for several machines (docs/cluster.md)");
   verb.option("FILE", options->files, "scenario or suite files").required();
   verb.option("-o,--out", options->out, "the folder of the sweep").required();
@@ -249,30 +252,33 @@ void add_plan(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& option
   verb.runs([&line, options] { return plan(*options, line.argv()); });
 }
 
-void add_status(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& options) {
-  Verb verb = line.add_verb("status", "Counts the committed cells of a sweep, and names missing shards");
+void add_status(Verb& sweep) {
+  auto options = std::make_shared<SweepVerbOptions>();
+  Verb verb = sweep.add_verb("status", "Counts the committed cells of a sweep, and names missing shards");
   verb.option("SWEEP", options->sweep, "the folder of a sweep").required();
-  verb.flag("--json", options->json, "print JSON");
+  add_json_flag(verb, options->json, "the counts");
   verb.flag("--numbers", options->numbers, "print only the numbers of the missing shards, one per line");
   verb.runs([options] { return status(*options); });
 }
 
-void add_merge(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& options) {
-  Verb verb = line.add_verb("merge", "Makes an ordinary run folder from the shards of a sweep");
+void add_merge(Verb& sweep, const CommandLine& line) {
+  auto options = std::make_shared<SweepVerbOptions>();
+  Verb verb = sweep.add_verb("merge", "Makes an ordinary run folder from the shards of a sweep");
   verb.option("SWEEP", options->sweep, "the folder of a sweep").required();
   verb.option("-o,--out", options->out, "the run folder (default: out/<name of the first file>)");
   verb.flag("--no-figures", options->no_figures, "draw no figures");
   verb.option("--cells", options->cells,
               fmt::format("how the run keeps the files of its cells: files, or archives, from which `scanbench "
-                          "unpack` takes them (default: files up to {} cells)",
+                          "sweep unpack` takes them (default: files up to {} cells)",
                           runs::kMostCellsAsFiles))
       .one_of("form", {"files", "archives"});
   verb.flag("-q,--quiet", options->quiet, "print only errors");
   verb.runs([&line, options] { return merge(*options, line.argv()); });
 }
 
-void add_submit(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& options) {
-  Verb verb = line.add_verb("submit", "Submits a sweep to a batch system: missing shards, then the merge");
+void add_submit(Verb& sweep) {
+  auto options = std::make_shared<SweepVerbOptions>();
+  Verb verb = sweep.add_verb("submit", "Submits a sweep to a batch system: missing shards, then the merge");
   verb.option("SYSTEM", "the batch system").required().one_of("batch system", {"slurm"});
   verb.option("SWEEP", options->sweep, "the folder of a sweep").required();
   verb.option("-o,--out", options->out, "folder of the merged run (default: out/<name of the first file>)");
@@ -283,50 +289,17 @@ void add_submit(CommandLine& line, const std::shared_ptr<SweepVerbOptions>& opti
   verb.runs([options] { return submit(*options); });
 }
 
-/// Says how many cells of a shard are missing, and why the first one is. Returns their number.
-std::size_t say_missing(const runs::ShardResult& result, int number) {
-  const auto missing = std::ranges::count(result.cells, false, &runs::CellResult::done);
-  if (missing == 0) return 0;
-  const runs::CellResult& first = *std::ranges::find(result.cells, false, &runs::CellResult::done);
-  say(fmt::format("scanbench: {} of {} of shard {} missing; run it again; {}: {}\n", missing,
-                  counted(result.planned, "cell"), number, runs::to_string(first.key),
-                  results::plain_line(first.record.outcome.message)));
-  return static_cast<std::size_t>(missing);
-}
-
 }  // namespace
 
-int run_shard_of(const fs::path& sweep, const std::string& shard, int jobs, bool quiet) {
-  check_run_exists(sweep);
-  const int number = runs::shard_number(shard);
-  Progress progress(progress_style(quiet));
-  FaultNotes faults;
-  runs::ShardOptions options{.shard = number, .jobs = jobs};
-  options.progress = [&](const runs::RunProgress& now) {
-    if (now.cell != nullptr && now.cell->record.outcome.status != runs::CellStatus::ok) {
-      progress.failure();
-      if (const std::string note = faults.note(*now.cell); !note.empty()) progress.note(note);
-    }
-    progress.update(now.total > 0 ? static_cast<double>(now.done) / static_cast<double>(now.total) : 0.0, now.what);
-  };
-  const runs::ShardResult result = runs::run_shard(sweep, options);
-  for (const auto& line : faults.repeated()) progress.note(line);
-  progress.finish();
-  if (quiet) say(failed_text(result.cells));
-  const std::size_t missing = say_missing(result, number);
-  if (!quiet && result.earlier == result.planned)
-    fmt::print("shard {}: {}, committed already\n", number, counted(result.planned, "cell"));
-  if (!quiet && !result.committed.empty())
-    fmt::print("shard {}: {} in {}\n", number, counted(result.cells.size() - missing, "cell"),
-               result.committed.string());
-  return result.exit_code();
-}
-
 void add_sweep(CommandLine& line) {
-  add_plan(line, std::make_shared<SweepVerbOptions>());
-  add_status(line, std::make_shared<SweepVerbOptions>());
-  add_merge(line, std::make_shared<SweepVerbOptions>());
-  add_submit(line, std::make_shared<SweepVerbOptions>());
+  Verb sweep = line.add_verb("sweep", "A suite on several machines: plan, run, status, merge, submit, unpack");
+  sweep.details("docs/cluster.md is the guide.");
+  add_plan(sweep, line);
+  add_shard(sweep);
+  add_status(sweep);
+  add_merge(sweep, line);
+  add_submit(sweep);
+  add_unpack(sweep);
 }
 
 }  // namespace scanbench::app

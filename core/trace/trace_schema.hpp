@@ -85,7 +85,7 @@ inline bool read_value(double value, int& member) {
 
 }  // namespace detail
 
-/// nullopt if the values do not fit the schema: another number of them, or an index that is no whole number.
+/// nullopt if the values do not fit the schema: another number of them, or an index that is not a whole number.
 template <TraceRowType Row>
 std::optional<Row> row_from(std::span<const double> values) {
   if (values.size() != kColumns<Row>) return std::nullopt;

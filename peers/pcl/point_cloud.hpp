@@ -16,7 +16,7 @@ using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
 /// PCL needs three points for a motion.
 inline constexpr std::size_t kFewestPoints = 3;
 
-/// The returns within the sensor's range. A faulty reading of 1e300 m is no point to PCL, which ends the process.
+/// The returns within the sensor's range. A faulty reading of 1e300 m is not a point to PCL, which ends the process.
 inline PclCloud::Ptr pcl_cloud(const Scan& scan) {
   PclCloud::Ptr cloud(new PclCloud);
   for (const Vec2& p : valid_points(scan).points)

@@ -100,7 +100,7 @@ class TrajectoryError : public Figure {
     return path;
   }
 
-  /// What the poses are compared with. The reference poses of a log are no truth.
+  /// What the poses are compared with. The reference poses of a log are not the truth.
   static std::string standard_name(const Recording& recording) { return recording.truth ? "true" : "reference"; }
 
   std::string motion_text(const std::string& standard) const {

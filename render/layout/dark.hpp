@@ -12,7 +12,7 @@ namespace scanbench::render {
 inline constexpr Color kDarkGround{24, 27, 31};
 
 /// The colour of the same hue with its lightness turned over: white becomes the ground, black nearly white, a tint of a
-/// colour a shade of it. Light colours of methods, which are no tints, stay light.
+/// colour a shade of it. Light colours of methods, which are not tints, stay light.
 Color dark_color(Color color);
 
 /// Turns over every colour of the shapes on paper of this size, in points, and adds the ground behind them.

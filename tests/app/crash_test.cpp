@@ -74,7 +74,7 @@ TEST_F(Crash, ARunOverAnOldOneLosesNeitherItNorOtherFiles) {
 }
 
 TEST_F(Crash, APlanCanBeRepeated) {
-  const Args plan{"plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "2"};
+  const Args plan{"sweep", "plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "2"};
   const auto scenario = [](const Folder& folder) { folder.write("room.yaml", room()); };
   const auto check = [&](const Folder& folder) {
     must(run(plan, {}, folder.path()));
@@ -134,12 +134,12 @@ TEST_F(Crash, AMergeCanBeRepeated) {
 }
 
 TEST_F(Crash, UnpackCanBeRepeated) {
-  const Args unpack{"unpack", "merged"};
+  const Args unpack{"sweep", "unpack", "merged"};
   const auto merged = copy_of([](const Folder& folder) {
     folder.write("room.yaml", room());
-    must(run({"plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "1"}, {}, folder.path()));
-    must(run({"run", "--plan", "sweep", "--shard", "1", "-q"}, {}, folder.path()));
-    must(run({"merge", "sweep", "--out", "merged", "--cells", "archives"}, {}, folder.path()));
+    must(run({"sweep", "plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "1"}, {}, folder.path()));
+    must(run({"sweep", "run", "sweep", "--shard", "1", "-q"}, {}, folder.path()));
+    must(run({"sweep", "merge", "sweep", "--out", "merged", "--cells", "archives"}, {}, folder.path()));
   });
   Folder whole;
   merged(whole);
@@ -154,7 +154,7 @@ TEST_F(Crash, UnpackCanBeRepeated) {
 }
 
 TEST_F(Crash, AcceptLeavesAWholeBaselineOrNone) {
-  const Args accept{"accept", "out", "--reason", "first", "--suite", "s"};
+  const Args accept{"night", "accept", "out", "--reason", "first", "--suite", "s"};
   const auto good_run = copy_of([](const Folder& folder) {
     folder.write("room.yaml", room());
     folder.write("suite.yaml", "schema: 1\nscenarios: [room.yaml]\ngates: {f1: 0.01}\n");
@@ -170,7 +170,7 @@ TEST_F(Crash, AcceptLeavesAWholeBaselineOrNone) {
 }
 
 TEST_F(Crash, ANightIsStoredOnce) {
-  const Args night{"nightly", "room.yaml", "--no-figures", "--store", "nights.sqlite", "--out", "run", "-q"};
+  const Args night{"night", "run", "room.yaml", "--no-figures", "--store", "nights.sqlite", "--out", "run", "-q"};
   const auto second_night = copy_of([&](const Folder& folder) {
     folder.write("room.yaml", room());
     must(run(night, {}, folder.path()));

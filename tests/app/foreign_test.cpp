@@ -52,10 +52,10 @@ TEST_F(ForeignPrograms, CannotControlTheTerminalThatDescribesThem) {
 
 TEST_F(ForeignPrograms, OfTheExamplesConform) {
   for (const std::string name : {"my_lines.py", "split_lines.py", "point_matcher.py"}) {
-    const auto outcome = run({"conform", "--program", "python3", example(name)});
+    const auto outcome = run({"module", "conform", "--program", "python3", example(name)});
     EXPECT_EQ(outcome.code, 0) << name << ": " << outcome.out << outcome.err;
   }
-  EXPECT_EQ(run({"conform"}).code, 2);
+  EXPECT_EQ(run({"module", "conform"}).code, 2);
 }
 
 TEST_F(ForeignPrograms, BadParametersHaveTheirPlace) {

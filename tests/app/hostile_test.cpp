@@ -118,7 +118,8 @@ TEST_F(Plugins, OfAnotherBuildAreRefused) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("library old.so was built for another scanbench"),
                                  HasSubstr("version 9.9.9 instead of ")));
   EXPECT_THAT(run({"describe", "--plugin", places::plugin("no_stamp")}).err, HasSubstr("has no stamp"));
-  EXPECT_THAT(run({"describe", "--plugin", folder_.write("text.so", "hello")}).err, HasSubstr("is no shared library"));
+  EXPECT_THAT(run({"describe", "--plugin", folder_.write("text.so", "hello")}).err,
+              HasSubstr("is not a shared library"));
   EXPECT_THAT(run({"describe", "--plugin", places::plugin("fast_math")}).err,
               HasSubstr("changes the floating-point arithmetic"));
 }
@@ -284,9 +285,9 @@ std::vector<std::string> failed_checks(const std::string& module, const std::str
 }
 
 TEST_F(Plugins, ConformPassesGoodModulesAndNamesTheBrokenChecksOfWrongOnes) {
-  const auto outcome = run({"conform", "--plugin", places::plugin("wrong")});
+  const auto outcome = run({"module", "conform", "--plugin", places::plugin("wrong")});
   EXPECT_EQ(outcome.code, 1) << outcome.err;
-  // Each is a line through all returns, which is no extractor for a room: what it fails without its fault is known.
+  // Each is a line through all returns, which is not an extractor for a room: what it fails without its fault is known.
   const auto with = [](std::vector<std::string> names) { return testing::IsSupersetOf(names); };
   EXPECT_THAT(failed_checks("remembers", outcome.out), with({"TheAnswerIsTheSameTwiceAndTheScanUntouched"}));
   EXPECT_THAT(failed_checks("reverses", outcome.out),
@@ -297,16 +298,16 @@ TEST_F(Plugins, ConformPassesGoodModulesAndNamesTheBrokenChecksOfWrongOnes) {
               with({"AScanWithoutBeamsHasNoLines", "AScanWithoutReturnsHasNoLines"}));
   EXPECT_THAT(failed_checks("reverses", outcome.out),
               testing::Not(testing::Contains("TheAnswerIsTheSameTwiceAndTheScanUntouched")));
-  const auto good = run({"conform", "--plugin", places::plugin("my_lines")});
+  const auto good = run({"module", "conform", "--plugin", places::plugin("my_lines")});
   EXPECT_EQ(good.code, 0) << good.out;
   for (const std::string name : {"my_lines_c", "point_matcher_c"}) {
-    const auto in_c = run({"conform", "--program", places::plugin("my_lines").parent_path() / name});
+    const auto in_c = run({"module", "conform", "--program", places::plugin("my_lines").parent_path() / name});
     EXPECT_EQ(in_c.code, 0) << in_c.out;
   }
 }
 
 TEST_F(Plugins, ConformPassesAGoodModuleOfEachKindAndNamesTheBrokenCheckOfAWrongOne) {
-  const auto outcome = run({"conform", "--plugin", places::plugin("wrong_kinds")});
+  const auto outcome = run({"module", "conform", "--plugin", places::plugin("wrong_kinds")});
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   for (const std::string good : {"leaves", "collects", "unites"}) {
     EXPECT_THAT(outcome.out, HasSubstr(good + " ("));

@@ -49,7 +49,7 @@ struct Program {
     Verb draw = line->add_verb("draw", "Draws files");
     draw.option("FILE", values.files, "what to draw").completed_by([] { return Words{"world", "scan"}; });
     const Option text = draw.option("-t,--text", values.text, "a title").shows_default();
-    Option from = draw.option("--from", values.from, "an earlier drawing");
+    draw.option("--from", values.from, "an earlier drawing");
     draw.option("--path", values.path, "where to");
     draw.option("--set", values.sets, "KEY=VALUE").repeatable();
     draw.option("--names", values.names, "names").separated_by_commas().one_of("name", {"carmen", "csv"});
@@ -60,14 +60,24 @@ struct Program {
     draw.option("--fps", values.fps, "frames per second").whole_number("rate", 1, 60);
     draw.option("--seed", values.seed, "a seed");
     draw.flag("-q,--quiet", values.quiet, "print nothing");
-    from.excludes_all_but({"quiet"});
     draw.runs([this, text] {
       values.text_given = text.given();
       return 3;
     });
+    draw.renamed("--paint", "`draw --paint` is now `draw --text`");
     Verb judge = line->add_verb("judge", "Judges a file");
+    judge.details("By its size.");
     judge.option("FILE", values.from, "the file").required();
     judge.runs([] { return 4; });
+    line->drawer("Shelf");
+    Verb shelf = line->add_verb("shelf", "Keeps drawings");
+    Verb put = shelf.add_verb("put", "Puts a file on it");
+    put.option("FILE", values.from, "the file").required();
+    put.option("--width", values.width, "width").number("age in years", 0, 9);
+    put.flag("--json", values.quiet, "print JSON");
+    put.runs([] { return 5; });
+    shelf.add_verb("take", "Takes a file from it").runs([] { return 6; });
+    line->renamed("keep", "shelf put");
   }
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -137,27 +147,43 @@ TEST(Options, RefuseOtherValuesAndSayWhatIsAllowed) {
     EXPECT_THAT(refusal({"draw", std::string("--jobs=") + jobs}),
                 *jobs == '\0' ? HasSubstr("--jobs")
                               : HasSubstr("--jobs: '" + std::string(jobs) +
-                                          "' is no number of threads; allowed: a whole number 1 .. 9"));
+                                          "' is not a number of threads; allowed: a whole number 1 .. 9"));
   for (const char* width : {"0.4", "1001", "nan", "wide"})
     EXPECT_THAT(refusal({"draw", "--width", width}),
-                HasSubstr("'" + std::string(width) + "' is no width in mm; allowed: 0.5 .. 1000"));
+                HasSubstr("'" + std::string(width) + "' is not a width in mm; allowed: 0.5 .. 1000"));
   EXPECT_THAT(refusal({"draw", "--names", "csv,csw"}),
-              HasSubstr("'csw' is no name; did you mean 'csv'?; allowed: carmen, csv"));
+              HasSubstr("'csw' is not a name; did you mean 'csv'?; allowed: carmen, csv"));
   EXPECT_THAT(refusal({"draw", "--seed", "one"}), HasSubstr("--seed"));
 }
 
-TEST(Options, ThatExcludeOthersAllowTheNamedOnes) {
-  EXPECT_EQ(drawn({"--from", "x", "-q"}).from, "x");
-  EXPECT_THAT(refusal({"draw", "--from", "x", "--jobs", "2"}), AllOf(HasSubstr("--from"), HasSubstr("--jobs")));
-  EXPECT_THAT(refusal({"draw", "--from", "x", "file"}), AllOf(HasSubstr("--from"), HasSubstr("FILE")));
-}
-
 TEST(CommandLine, NamesTheNearestVerbOrOption) {
-  EXPECT_THAT(refusal({}), HasSubstr("a verb is missing; known: draw, judge"));
+  EXPECT_THAT(refusal({}), HasSubstr("a verb is missing; known: draw, judge, shelf"));
   EXPECT_THAT(refusal({"drwa"}), HasSubstr("there is no verb 'drwa'; did you mean 'draw'?"));
   EXPECT_THAT(refusal({"draw", "--job", "2"}), HasSubstr("'draw' has no option '--job'; did you mean '--jobs'?"));
   EXPECT_THAT(refusal({"judge"}), HasSubstr("'judge' needs FILE: the file"));
   EXPECT_THAT(refusal({"judge"}), HasSubstr("\n(scanbench --help shows the verbs"));
+}
+
+TEST(CommandLine, SaysInOneSentenceWhatAFormerNameIsNow) {
+  EXPECT_EQ(refusal({"keep", "a", "--width", "3"}), "`keep` is now `shelf put`");
+  EXPECT_EQ(refusal({"keep", "--help"}), "`keep` is now `shelf put`");
+  EXPECT_EQ(refusal({"draw", "--paint", "x"}), "`draw --paint` is now `draw --text`");
+  EXPECT_EQ(refusal({"draw", "--paint=x"}), "`draw --paint` is now `draw --text`");
+  EXPECT_THAT(refusal({"judge", "--paint", "x"}), HasSubstr("'judge' has no option '--paint'"));
+}
+
+TEST(CommandLine, HasVerbsBelowVerbs) {
+  Program program({"shelf", "put", "a"});
+  EXPECT_EQ(program.line->parse()(), 5);
+  EXPECT_EQ(program.values.from, "a");
+  EXPECT_THAT(refusal({"shelf"}), HasSubstr("'shelf': a verb is missing; known: put, take"));
+  EXPECT_THAT(refusal({"shelf", "putt"}), HasSubstr("'shelf': there is no verb 'putt'; did you mean 'put'?"));
+  EXPECT_THAT(refusal({"shelf", "put"}), HasSubstr("'shelf put' needs FILE: the file"));
+  EXPECT_THAT(refusal({"shelf", "put", "a", "--wdth", "1"}), HasSubstr("'shelf put' has no option '--wdth'; did you"));
+  EXPECT_THAT(refusal({"shelf", "put", "a", "b"}), HasSubstr("'shelf put' takes no further argument 'b'"));
+  EXPECT_THAT(refusal({"shelf", "put", "a", "--json", "c.json"}),
+              HasSubstr("takes no further argument 'c.json'; --json has no value"));
+  EXPECT_THAT(refusal({"shelf", "put", "a", "--width", "10"}), HasSubstr("'10' is not an age in years"));
 }
 
 TEST(CommandLine, RunsTheVerbThatWasChosen) {
@@ -167,7 +193,8 @@ TEST(CommandLine, RunsTheVerbThatWasChosen) {
 }
 
 TEST(CommandLine, PrintsHelpAndVersionInsteadOfAnAction) {
-  for (const Words& words : {Words{"--help"}, Words{"--version"}, Words{"draw", "--help"}}) {
+  for (const Words& words :
+       {Words{"--help"}, Words{"--version"}, Words{"draw", "--help"}, Words{"shelf", "put", "--help"}}) {
     testing::internal::CaptureStdout();
     Program program(words);
     EXPECT_FALSE(program.line->parse());
@@ -179,13 +206,25 @@ TEST(CommandLine, PrintsHelpAndVersionInsteadOfAnAction) {
   }
 }
 
+TEST(CommandLine, HelpHasItsVerbsInDrawersAndTheDetailsOfOne) {
+  testing::internal::CaptureStdout();
+  Program({"--help"}).line->parse();
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), AllOf(HasSubstr("\nShelf:\n  shelf "), HasSubstr("\n  draw ")));
+  testing::internal::CaptureStdout();
+  Program({"judge", "--help"}).line->parse();
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), AllOf(HasSubstr("By its size."), HasSubstr("The end.")));
+}
+
 TEST(CommandLine, DescribesItsVerbsAndOptions) {
   const Program program({});
   const app::ProgramDescription text = program.line->description();
   EXPECT_EQ(text.program.name, "prog");
   EXPECT_EQ(text.footer, "The end.");
-  ASSERT_EQ(text.verbs.size(), 2U);
+  ASSERT_EQ(text.verbs.size(), 3U);
   EXPECT_EQ(text.verbs[1].help, "Judges a file");
+  EXPECT_EQ(text.verbs[1].details, "By its size.");
+  ASSERT_EQ(text.verbs[2].verbs.size(), 2U);
+  EXPECT_EQ(text.verbs[2].verbs[0].path, "shelf put");
   const auto& options = text.verbs[0].options;
   ASSERT_EQ(options.size(), 14U);  // and --help
   EXPECT_THAT(options[0].long_names, ElementsAre("--help"));

@@ -56,7 +56,7 @@ TEST(Refusals, OfTheCommandLineSayWhatIsAllowed) {
         refusal_in(folder, {"run", "room.yaml", "--jobs", jobs}),
         AllOf(HasSubstr(std::string("--jobs: '") + jobs + "'"), HasSubstr("allowed: a whole number 1 .. 1024")));
   EXPECT_THAT(refusal_in(folder, {"export", "out", "--format", "csw"}),
-              AllOf(HasSubstr("'csw' is no format; did you mean 'csv'?"), HasSubstr("allowed: carmen, csv")));
+              AllOf(HasSubstr("'csw' is not a format; did you mean 'csv'?"), HasSubstr("allowed: carmen, csv")));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--only", "smf"}),
               AllOf(HasSubstr("'smf'"), HasSubstr("known: room, iepf")));
   EXPECT_THAT(refusal_in(folder, {"run", "room.yaml", "--set", "trajectory.scan=3"}),

@@ -225,6 +225,31 @@ esac)");
   EXPECT_THAT(outcome.out, Not(HasSubstr("the program")));
 }
 
+TEST_F(Script, AModuleThatDoesNotCompileIsBadInputAndAnythingElseABug) {
+  folder_.write("algorithms/extract/mine.cpp", "int mine() { return; }\n");
+  folder_.write(".gitignore", "build\nbin\ncalls\n");
+  const auto git = [&](const std::string& command) {
+    return std::system(("cd " + folder_.path().string() + " && git -c user.name=a -c user.email=a@b " + command).c_str());
+  };
+  ASSERT_EQ(git("init -q && git add . && git rm -r -q --cached algorithms"), 0);
+  ASSERT_EQ(git("commit -q -m first"), 0);
+  const std::string failing = R"(
+case " $* " in
+  *" build.ninja "*) ;;
+  *) echo "[1/1] Building CXX object mine.o"; echo "mine.cpp:1:14: error: return-statement with no value"; exit 1 ;;
+esac)";
+  program("bin/ninja", failing);
+  const auto own = call({"list"});
+  EXPECT_EQ(own.code, 2);
+  EXPECT_THAT(own.err, AllOf(HasSubstr("return-statement with no value"),
+                             HasSubstr("not those of the last commit: algorithms/extract/mine.cpp")));
+  ASSERT_EQ(git("add algorithms && git -c user.name=a -c user.email=a@b commit -q -m second"), 0);
+  EXPECT_EQ(call({"list"}).code, 70);  // the sources are those of the commit
+  folder_.write("algorithms/extract/mine.cpp", "int mine() { return 1; }\n");
+  program("bin/ninja", "echo 'ninja: fatal: no space left on device'; exit 1");
+  EXPECT_EQ(call({"list"}).code, 70);  // not of the compiler
+}
+
 TEST_F(Script, AnInterruptWhileItLooksWhetherToBuildIsAnInterrupt) {
   program("bin/ninja", "kill -INT $PPID; sleep 0.2; exit 2");
   const auto outcome = call({"list"});
@@ -234,8 +259,13 @@ TEST_F(Script, AnInterruptWhileItLooksWhetherToBuildIsAnInterrupt) {
 
 TEST_F(Script, WritesNewModulesIntoItsOwnTree) {
   program("bin/ninja", "");
-  EXPECT_EQ(call({"new", "extract", "mine"}).out,
-            "the program: new extract mine --sources " + folder_.path().string() + "\n");
+  EXPECT_EQ(call({"module", "new", "extract", "mine"}).out,
+            "the program: module new extract mine --sources " + folder_.path().string() + "\n");
+}
+
+TEST_F(Script, LeavesFormerVerbsToTheProgramWhichSaysTheirNewNames) {
+  program("bin/ninja", "");
+  EXPECT_EQ(call({"new", "extract", "mine"}).out, "the program: new extract mine\n");
 }
 
 }  // namespace

@@ -52,6 +52,13 @@ TEST(Catalog, ListsEveryKindAndDescribesEveryName) {
   EXPECT_THAT(run({"--help"}).out, HasSubstr("compare"));
 }
 
+TEST(Catalog, SaysWhichParametersMustBeGiven) {
+  const auto text = run({"describe", "carmen"});
+  EXPECT_THAT(text.out, testing::ContainsRegex("no_return_m +required +m"));
+  EXPECT_THAT(text.out, testing::ContainsRegex("range_min_m +0 +m"));
+  EXPECT_THAT(run({"describe", "csv"}).out, testing::ContainsRegex("no_return_m +0 +m"));
+}
+
 TEST(Catalog, TakesPluralsModulesAndSingleMetrics) {
   EXPECT_EQ(run({"list", "sensors"}).out, run({"list", "sensor"}).out);
   EXPECT_EQ(run({"list", "metric"}).out, run({"list", "metrics"}).out);
@@ -110,8 +117,8 @@ TEST_F(Verbs, CompareIsGoodWithItselfAndFailsWithAWorseOne) {
                   "pipelines.iepf.extract.params.threshold_m=2"})
                 .code,
             0);
-  const auto worse = here(
-      {"compare", "run", "worse", "--csv", "rows.csv", "--json", "c.json", "--markdown", "c.md", "--junit", "c.xml"});
+  const auto worse =
+      here({"compare", "run", "worse", "--out", "rows.csv", "--out", "c.json", "-o", "c.md", "-o", "c.xml"});
   EXPECT_EQ(worse.code, 1) << worse.out << worse.err;
   EXPECT_THAT(worse.out, testing::StartsWith("FAIL: "));
   EXPECT_THAT(worse.out, HasSubstr("room: pipelines.iepf.extract.params.threshold_m: 0.1 -> 2"));
@@ -119,6 +126,10 @@ TEST_F(Verbs, CompareIsGoodWithItselfAndFailsWithAWorseOne) {
   EXPECT_EQ(nlohmann::json::parse(read(folder_ / "c.json")).at("verdict"), "FAIL");
   EXPECT_THAT(read(folder_ / "c.md"), testing::StartsWith("**FAIL: "));
   EXPECT_THAT(read(folder_ / "c.xml"), HasSubstr("<failure message="));
+  const auto printed = here({"compare", "run", "worse", "--json"});
+  EXPECT_EQ(printed.code, 1);
+  EXPECT_EQ(printed.out, read(folder_ / "c.json"));
+  EXPECT_EQ(here({"compare", "run", "worse", "--format", "markdown"}).out, read(folder_ / "c.md"));
 }
 
 TEST_F(Verbs, AnExportedLogReadsBackToTheSameRangesAndLines) {

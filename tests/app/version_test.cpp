@@ -56,5 +56,23 @@ TEST(Version, OfAChangedTreeHasAHashOfItsCode) {
   EXPECT_THAT(stated_commit(folder), HasSubstr("-dirty-"));
 }
 
+TEST(Version, StaysWhereACommitChangesNoCode) {
+  const Folder folder;
+  folder.write("tree/core/a.cpp", "int a;\n");
+  const std::string go = "cd " + (folder / "tree").string() + " && ";
+  const std::string commit = "git add . && git -c user.name=a -c user.email=a@b commit -q -m next";
+  ASSERT_EQ(std::system((go + "git init -q && " + commit).c_str()), 0);
+  const std::string first = stated_commit(folder);
+  const auto written = fs::last_write_time(folder / "version.hpp");
+  folder.write("tree/baselines/nightly/0001.json", "{}\n");
+  ASSERT_EQ(std::system((go + commit).c_str()), 0);
+  EXPECT_EQ(stated_commit(folder), first);
+  EXPECT_EQ(fs::last_write_time(folder / "version.hpp"), written);  // nothing is compiled or linked again
+  folder.write("tree/core/a.cpp", "int b;\n");
+  ASSERT_EQ(std::system((go + commit).c_str()), 0);
+  EXPECT_NE(stated_commit(folder), first);
+  EXPECT_EQ(stated_commit(folder).size(), 40U);
+}
+
 }  // namespace
 }  // namespace scanbench::app_test

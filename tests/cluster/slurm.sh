@@ -101,8 +101,8 @@ metrics: [segments]
 figures: []
 SUITE
 cd "$work"
-"$program" plan suite.yaml --out sweep --shards 8
-"$program" submit slurm sweep --out merged
+"$program" sweep plan suite.yaml --out sweep --shards 8
+"$program" sweep submit slurm sweep --out merged
 say "submitted"
 
 # The second node is killed while it runs a shard: its unfinished folder exists.
@@ -117,7 +117,7 @@ kill -9 "$pid_n2"
 say "killed node n2, which was running shard $shard"
 sleep 1
 compgen -G "sweep/shards/.$shard.tmp-*" >/dev/null || fail "shard $shard had ended before its node was killed"
-"$program" status sweep || true
+"$program" sweep status sweep || true
 
 for ((i = 0; ; ++i)); do
   [[ -z $(squeue -h -o %i) ]] && break
@@ -125,7 +125,7 @@ for ((i = 0; ; ++i)); do
   sleep 0.2
 done
 say "the queue is empty"
-"$program" status sweep
+"$program" sweep status sweep
 tail -n 1 sweep/slurm/merge_*.log
 grep -i "requeue" "$work/slurmctld.log" || fail "Slurm has not requeued the shard of the killed node"
 

@@ -1,5 +1,5 @@
-// Every registered line extractor, with its defaults, passes the checks of `scanbench conform`. New modules are tested
-// as soon as they register themselves.
+// Every registered line extractor, with its defaults, passes the checks of `scanbench module conform`. New modules are
+// tested as soon as they register themselves.
 #include <gtest/gtest.h>
 
 #include <map>

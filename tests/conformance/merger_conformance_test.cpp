@@ -1,4 +1,4 @@
-// Every registered segment merger, with its defaults, passes the checks of `scanbench conform`.
+// Every registered segment merger, with its defaults, passes the checks of `scanbench module conform`.
 #include <gtest/gtest.h>
 
 #include <map>

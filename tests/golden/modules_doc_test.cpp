@@ -33,7 +33,7 @@ std::set<std::string> names_in(const std::string& text, const std::string& patte
 
 TEST(ModulesDocument, IsWhatDescribeAllPrints) {
   EXPECT_EQ(text_of("docs/modules.md"), results::catalog_markdown(results::catalog()))
-      << "write it again: ./scanbench describe --all --markdown > docs/modules.md";
+      << "write it again: ./scanbench describe --all --format markdown > docs/modules.md";
 }
 
 TEST(GuideToModules, NamesEveryHelperForParameters) {

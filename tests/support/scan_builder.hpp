@@ -1,4 +1,4 @@
-// The scans that `scanbench conform` uses, for tests.
+// The scans that `scanbench module conform` uses, for tests.
 #pragma once
 
 #include "core/special_values.hpp"

@@ -125,7 +125,7 @@ class Programme {
   GridChains run(double vertex_cost) {
     for (std::size_t m = 0; m < levels_; ++m) done_[m] = 0.0;
     for (std::size_t p = 0; p < places_.size(); ++p) {
-      close(p);  // before a chain begins here, because a single vertex is no chain
+      close(p);  // before a chain begins here, because a single vertex is not a chain
       for (std::size_t a = 0; a < width_; ++a)
         for (std::size_t m = step_; m < levels_; ++m)
           relax(open(p, a, m), done_[p * levels_ + m - step_] + begin_cost(p, a) + vertex_cost_);

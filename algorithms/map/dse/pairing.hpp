@@ -15,7 +15,7 @@ struct PairingRule {
   double threshold_m = 0.002;  ///< T_p: only pairs that cost less have a child
   int most_children = 3;       ///< of one segment
   Placement placement = Placement::by_length;
-  bool same_side = true;  ///< segments that were seen from opposite sides are no pair
+  bool same_side = true;  ///< segments that were seen from opposite sides are not a pair
 };
 
 /// Two parents, by index, and their child.
@@ -32,8 +32,8 @@ std::vector<Pairing> pairings(std::span<const Stroke> map, std::span<const Strok
                               std::span<const Vec2> directions, const PairingRule& rule);
 
 /// A_t = C1' and C2', the segments of both that are nobody's parents, and all children. A child was created at `now`;
-/// parents share their evidence equally among their children. Neighbouring pieces of a stroke that are no parents are
-/// one stroke again: a vertex that made no child is of no use, and pieces in a direction that is no main direction
+/// parents share their evidence equally among their children. Neighbouring pieces of a stroke that are not parents are
+/// one stroke again: a vertex that made no child is of no use, and pieces in a direction that is not a main direction
 /// would never be joined.
 std::vector<Stroke> paired(std::span<const Stroke> map, std::span<const Stroke> scan, std::span<const Pairing> pairs,
                            int now);

@@ -14,7 +14,7 @@ struct SimplificationRule {
   MergeRule merge{};
   double threshold_m = 0.001;  ///< T_s
   Placement placement = Placement::by_length;
-  bool same_side = true;  ///< segments that were seen from opposite sides are no pair
+  bool same_side = true;  ///< segments that were seen from opposite sides are not a pair
 };
 
 /// The strokes after all merges: those that were not merged in their order, then the remaining children in the order of

@@ -69,7 +69,7 @@ std::vector<MeasuredLine> extracted_lines(const Observation& observation) {
 
 constexpr std::size_t kFewestReadings = 3;
 constexpr std::size_t kLongestRun = 48;     // of returns looked at together; what is longer is cut
-constexpr double kLargestAngleSigma = 0.3;  // rad; beyond, a line is no wall with a direction
+constexpr double kLargestAngleSigma = 0.3;  // rad; beyond, a line is not a wall with a direction
 
 /// A line with the sum of squared residuals in standard deviations.
 struct Explained {

@@ -14,7 +14,7 @@ namespace scanbench::matching {
 namespace {
 
 constexpr double kWallGate = 13.8;         // 99.9 % of chi-square with 2 degrees of freedom
-constexpr double kLeastWallCosine = 0.8;   // lines that differ by more are no measurements of one angle
+constexpr double kLeastWallCosine = 0.8;   // lines that differ by more are not measurements of one angle
 constexpr double kLeastOverlap = 0.25;     // of the shorter line
 constexpr double kAlike = 0.5;             // share of walls whose lines are moved alike by what they doubt
 constexpr double kStrayWalls = 0.02;       // share of pairs that are not one wall ...

@@ -36,7 +36,7 @@ class NearestReturn {
   NearestReturn& operator=(const NearestReturn&) = delete;
 
   /// The return nearest to p (sensor frame) within `gate_m`; absent if there is none. `hint` is an index near the
-  /// answer; an index out of range is no hint.
+  /// answer; an index out of range is not a hint.
   std::optional<Nearest> find(const Vec2& p, double gate_m, std::size_t hint);
 
   /// Index of the same return. A point that has moved by m since its last search keeps its partner, without a new

@@ -7,7 +7,7 @@ namespace scanbench::merge {
 namespace {
 
 constexpr double kPolishGradientGoal = 1e-10;
-constexpr double kGradientFlat = 1e-6;          // with a smaller gradient, a place that is no maximum is a saddle
+constexpr double kGradientFlat = 1e-6;          // with a smaller gradient, a place that is not a maximum is a saddle
 constexpr double kNewtonCurvatureFloor = 1e-4;  // Newton's divisor on plateaus, where the curvature is rounding errors
 constexpr double kLongestStep = 0.5;
 constexpr double kSaddleStep = 0.01;

@@ -24,8 +24,8 @@ using Neighbours = std::function<void(const Vec3& centre, std::vector<Vec3>& dif
 inline constexpr double kPolishBox = 0.25;
 
 /// The mode uphill from `start`, in units of the standard deviation. Its gradient is zero to 1e-6 (to 1e-10 if rounding
-/// permits), and it is no saddle. The density never falls along the path. `period` as in PointGrid. Needs at least one
-/// point within the cut-off.
+/// permits), and it is not a saddle. The density never falls along the path. `period` as in PointGrid. Needs at least
+/// one point within the cut-off.
 PolishedMode polish_mode(const Vec3& start, double period, const Neighbours& neighbours);
 
 }  // namespace scanbench::merge

@@ -31,7 +31,8 @@ struct Format {
 constexpr std::string_view kAngleRule =
     "beam angles: first_angle_deg and step_deg (or span_deg / n) if one of them is given; else -90 deg + i * 180/n for "
     "n = 180 and 360 beams, -90 deg + i * 180/(n-1) for 181 and 361; other numbers of beams need step_deg or span_deg";
-constexpr std::string_view kNoReturn = "no_return_m must be given: the log does not state it";
+constexpr std::string_view kNoReturn = "the log does not state which readings mean that nothing is in range: no_return_m "
+                                       "does, and must be given";
 
 const std::array<Format, 3>& formats() {
   static const std::array<Format, 3> all = {
@@ -113,6 +114,12 @@ std::vector<ParamSpec> log_param_specs(std::string_view format) {
   std::erase_if(specs,
                 [&](const ParamSpec& spec) { return std::ranges::find(f.options, spec.name) == f.options.end(); });
   return specs;
+}
+
+std::vector<std::string> required_log_params(std::string_view format) {
+  const auto& notes = format_of(format).notes;
+  if (std::ranges::count(notes, kNoReturn) == 0) return {};
+  return {"no_return_m"};
 }
 
 void check_log_params(std::string_view format, const ParamSet& params) {

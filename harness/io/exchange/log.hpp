@@ -35,6 +35,9 @@ std::vector<std::string> log_formats();
 /// The options of a format, with units, bounds and docs. Throws ConfigError for an unknown format.
 std::vector<ParamSpec> log_param_specs(std::string_view format);
 
+/// The options that a scenario must give, because neither the log nor the format has them.
+std::vector<std::string> required_log_params(std::string_view format);
+
 /// Throws ParamError for options that fit no log of the format: wrong `columns`, no `step_deg`.
 void check_log_params(std::string_view format, const ParamSet& params);
 
@@ -50,9 +53,9 @@ Pose2 sensor_place(std::string_view format, const ParamSet& params);
 
 /// The scans of a log. `sensor` gives name, noise and timing; beam angles and range limits come from the log and its
 /// options. Stamps are the log's, or one scan period of the sensor apart if it has none. The recording has no truth.
-/// Throws ConfigError with file:line:col for a truncated line, fields that are no numbers, beams that change unless the
-/// options allow it, and a log without scans. A log that needs more than max_bytes is refused before any of its text is
-/// kept. Throws as read_text_file() does.
+/// Throws ConfigError with file:line:col for a truncated line, fields that are not numbers, beams that change unless
+/// the options allow it, and a log without scans. A log that needs more than max_bytes is refused before any of its
+/// text is kept. Throws as read_text_file() does.
 Recording read_log(const std::filesystem::path& path, std::string_view format, const ParamSet& params,
                    const SensorModel& sensor, double max_bytes);
 

@@ -113,7 +113,7 @@ Row edge_row(const LogLines& lines, const std::vector<std::string_view>& words, 
   const auto scan = [&](std::string_view word) {
     const auto number = parse_integer(word);
     if (!number || *number < 0 || static_cast<std::size_t>(*number) >= scans.count())
-      lines.refuse(word, fmt::format("{} is no scan of the log; allowed: 0 to {}", quoted_excerpt(word),
+      lines.refuse(word, fmt::format("{} is not a scan of the log; allowed: 0 to {}", quoted_excerpt(word),
                                      static_cast<long long>(scans.count()) - 1));
     return static_cast<std::size_t>(*number);
   };

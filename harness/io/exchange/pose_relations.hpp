@@ -27,8 +27,8 @@ struct RelatedScans {
   std::size_t frames = 0;                ///< number of frames
 };
 
-/// The relations between frames. A stamp is that of the nearest scan within 1 ms. A relation of a scan that is no frame
-/// moves to the nearest one that is, by the poses of the log: between scans so near, their errors are those of a
+/// The relations between frames. A stamp is that of the nearest scan within 1 ms. A relation of a scan that is not a
+/// frame moves to the nearest one that is, by the poses of the log: between scans so near, their errors are those of a
 /// relation. In a log whose poses are all equal it is skipped. Skipped are also relations that then join a frame with
 /// itself, and stamps that no scan has. `robot_from_sensor` is the place of the sensor on the robot. Throws ConfigError
 /// with file:line:col for other rows, for motions that leave the plane and for scans beyond the last, and with the

@@ -24,7 +24,7 @@ bool write_new_file(const std::filesystem::path& path, std::string_view bytes);
 /// Writes a file inside a StagedFolder, which is flushed and renamed as a whole later. Throws ConfigError.
 void write_staged_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Removes a file. A file that does not exist is no error. Throws ConfigError.
+/// Removes a file. A file that does not exist is not an error. Throws ConfigError.
 void remove_file(const std::filesystem::path& path);
 
 /// Writes the entries of a folder to disk: the names of what was made or renamed in it. Throws SystemError.

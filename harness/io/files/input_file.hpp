@@ -11,7 +11,7 @@ namespace scanbench::io {
 /// A regular file, open for reading.
 class InputFile {
  public:
-  /// Throws ConfigError for a missing or unreadable file, and for a path that is no regular file.
+  /// Throws ConfigError for a missing or unreadable file, and for a path that is not a regular file.
   explicit InputFile(std::filesystem::path path);
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;

@@ -8,7 +8,7 @@
 namespace scanbench::io {
 namespace {
 
-constexpr double kLongestPoll = 24 * 3600.0;  // of one ppoll(), s: infinity is no timespec
+constexpr double kLongestPoll = 24 * 3600.0;  // of one ppoll(), s: infinity is not a timespec
 
 }  // namespace
 

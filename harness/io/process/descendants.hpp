@@ -31,7 +31,7 @@ class NothingStays {
   int adopted_before_ = 0;
 };
 
-/// The child of this process that `pid` descends from, or is; 0 if it is no descendant or does not exist any more.
+/// The child of this process that `pid` descends from, or is; 0 if it is not a descendant or does not exist any more.
 pid_t branch_of(pid_t pid);
 
 /// How many processes the kernel has killed since the machine started because memory ran out; 0 if it does not say.

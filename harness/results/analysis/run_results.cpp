@@ -16,6 +16,7 @@ RunResults load_run_results(const std::filesystem::path& run) {
   results.provenance = runs::load_provenance(run);
   results.settings = runs::load_run_settings(run);
   results.folder = run;
+  results.overrides = overrides_of(manifest);
   const runs::RunStore store(run);
   for (const auto& key : manifest.cells) {
     CellResults& cell = results.cells.emplace_back();

@@ -34,7 +34,8 @@ struct RunResults {
   runs::Provenance provenance;
   /// By scenario, every effective setting by its path: "pipelines.iepf.extract.params.threshold_m" -> "0.1".
   std::map<std::string, std::map<std::string, std::string>> settings;
-  std::vector<CellResults> cells;  ///< in the order of summary.csv
+  std::vector<CellResults> cells;      ///< in the order of summary.csv
+  std::vector<std::string> overrides;  ///< "key=value" of --set
 };
 
 /// Throws ConfigError unless the folder is that of a run. Reads nothing outside it. The rows of a run with archives

@@ -6,7 +6,7 @@ namespace {
 
 /// Why two lists of values cannot be paired; nullptr if they can.
 const char* obstacle(const std::optional<ScanValues>& before, const std::optional<ScanValues>& after) {
-  if (!before || !after || before->mean != after->mean) return "it is no mean over scans";
+  if (!before || !after || before->mean != after->mean) return "it is not a mean over scans";
   return before->values.size() == after->values.size() ? nullptr : "the runs have different numbers of scans";
 }
 

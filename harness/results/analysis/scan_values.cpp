@@ -93,7 +93,7 @@ std::map<std::string, ScanValues> means_over(std::size_t parts, const char* of, 
   std::map<std::string, ScanValues> means;
   if (parts < kLeastScans) return means;
   const Rows whole = rows_between(std::size_t{0}, parts);
-  // Two halves refuse most metrics that are no means, before every part is evaluated.
+  // Two halves refuse most metrics that are not means, before every part is evaluated.
   std::map<std::string, Pool> halves;
   for (const auto& [first, count] : {std::pair(std::size_t{0}, parts / 2), std::pair(parts / 2, parts - parts / 2)})
     for (const auto& [metric, row] : rows_between(first, count))

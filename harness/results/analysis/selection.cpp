@@ -1,4 +1,4 @@
-// Reads --only from the command line in the manifest.
+// Reads --only and --set from the command line in the manifest.
 #include "harness/results/analysis/selection.hpp"
 
 #include <algorithm>
@@ -18,33 +18,34 @@ void add_names(std::string_view list, std::vector<std::string>& names) {
   }
 }
 
-/// The names after --only, as the command line takes them: one or more words, each a list with commas.
-std::vector<std::string> only_names(const std::vector<std::string>& argv) {
-  constexpr std::string_view kOption = "--only";
-  std::vector<std::string> names;
+/// What stands after an option, as the command line takes it: one or more words each time.
+std::vector<std::string> words_after(const std::string& option, const std::vector<std::string>& argv) {
+  std::vector<std::string> words;
   bool in_option = false;
-  for (const std::string_view word : argv) {
+  for (const std::string& word : argv) {
     if (word.starts_with('-')) {
-      in_option = word == kOption;
-      if (word.starts_with("--only=")) {
-        add_names(word.substr(kOption.size() + 1), names);
-        in_option = true;
-      }
+      in_option = word == option || word.starts_with(option + "=");
+      if (in_option && word != option) words.push_back(word.substr(option.size() + 1));
     } else if (in_option) {
-      add_names(word, names);
+      words.push_back(word);
     }
   }
-  return names;
+  return words;
 }
 
 }  // namespace
 
 bool was_selected(const runs::Manifest& manifest, const runs::CellKey& key) {
-  const std::vector<std::string> only = only_names(manifest.argv);
+  std::vector<std::string> only;
+  for (const auto& list : words_after("--only", manifest.argv)) add_names(list, only);
   if (only.empty()) return true;
   for (const auto& name : only)
     if (name == key.scenario || name == key.pipeline || name == key.scenario + "/" + key.pipeline) return true;
   return false;
+}
+
+std::vector<std::string> overrides_of(const runs::Manifest& manifest) {
+  return words_after("--set", manifest.argv);
 }
 
 }  // namespace scanbench::results

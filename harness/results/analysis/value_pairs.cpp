@@ -16,7 +16,7 @@ using metrics::Direction;
 using metrics::MetricDescription;
 using metrics::MetricRow;
 
-/// An infinite value is no result: in either direction it is not better than any other.
+/// An infinite value is not a result: in either direction it is not better than any other.
 std::string_view judge(const MetricDescription& description, double a, double b) {
   if (description.timing) return "timing";
   if (a == b || (std::isnan(a) && std::isnan(b))) return "same";

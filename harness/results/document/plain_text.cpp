@@ -74,7 +74,7 @@ std::string markdown_escaped(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    // "]" ends the text of a link only if its target follows; "[cm]" is no link.
+    // "]" ends the text of a link only if its target follows; "[cm]" is not a link.
     const char next = i + 1 < text.size() ? text[i + 1] : ' ';
     if (c == ']' && (next == '(' || next == '[' || next == ':')) out += '\\';
     switch (c) {

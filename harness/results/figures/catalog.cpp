@@ -56,12 +56,13 @@ std::string direction_text(const metrics::MetricDescription& metric) {
 /// What a comparison of two runs does with it.
 std::string gate_text(const metrics::MetricDescription& metric) {
   if (metric.timing) return "gate: only if a suite says so, because it depends on the machine";
-  if (metric.direction == metrics::Direction::neither) return "gate: no, compare and nightly only show changes";
+  if (metric.direction == metrics::Direction::neither) return "gate: no, compare and night run only show changes";
   if (!is_headline(metric.metric))
-    return fmt::format("gate: only if a suite says so; compare and nightly show a change of more than {:g}",
+    return fmt::format("gate: only if a suite says so; compare and night run show a change of more than {:g}",
                        metric.tolerance);
-  return fmt::format("gate: compare and nightly fail if it is worse by more than {:g}, unless a suite has other gates",
-                     metric.tolerance);
+  return fmt::format(
+      "gate: compare and night run fail if it is worse by more than {:g}, unless a suite has other gates",
+      metric.tolerance);
 }
 
 /// An entry for every metric of every family.
@@ -106,10 +107,16 @@ std::string allowed(const ParamSpec& spec) {
   return std::string(to_string(spec.type)) + (bounds.empty() ? "" : " " + bounds);
 }
 
+/// "required" instead of a default that is unused.
+std::string default_text(const CatalogEntry& entry, const ParamSpec& spec) {
+  const bool is_required = std::ranges::count(entry.required, spec.name) > 0;
+  return is_required ? "required" : to_text(spec.default_value);
+}
+
 Table param_table(const CatalogEntry& entry) {
   Table table{entry.info.name, "parameters", "", {"parameter", "default", "unit", "allowed", "meaning"}, {}, {}};
   for (const auto& spec : entry.params)
-    table.rows.push_back({{spec.name, to_text(spec.default_value), spec.unit, allowed(spec), spec.doc}, {}, false});
+    table.rows.push_back({{spec.name, default_text(entry, spec), spec.unit, allowed(spec), spec.doc}, {}, false});
   return table;
 }
 
@@ -126,8 +133,9 @@ std::vector<CatalogEntry> catalog() {
   append<render::Figure>(entries);
   append<sim::TrajectoryKind>(entries);
   append_sensors(entries);
-  for (auto& [info, params, notes] : study::recording_formats())
-    entries.push_back({"recording", std::move(info), std::move(params), std::move(notes)});
+  for (auto& format : study::recording_formats())
+    entries.push_back({"recording", std::move(format.info), std::move(format.params), std::move(format.notes),
+                       std::move(format.required)});
   return entries;
 }
 
@@ -188,7 +196,7 @@ std::string catalog_text(const std::vector<CatalogEntry>& entries) {
 }
 
 std::string catalog_markdown(const std::vector<CatalogEntry>& entries) {
-  std::string out = "# Modules\n\nWritten by `scanbench describe --all --markdown`.\n";
+  std::string out = "# Modules\n\nWritten by `scanbench describe --all --format markdown`.\n";
   std::string kind;
   for (const auto& entry : entries) {
     if (entry.kind != kind) out += "\n## " + entry.kind + "\n";
@@ -199,7 +207,7 @@ std::string catalog_markdown(const std::vector<CatalogEntry>& entries) {
     if (entry.params.empty()) continue;
     out += "\n| parameter | default | unit | allowed | meaning |\n|---|---|---|---|---|\n";
     for (const auto& spec : entry.params)
-      out += fmt::format("| `{}` | {} | {} | {} | {} |\n", spec.name, to_text(spec.default_value), spec.unit,
+      out += fmt::format("| `{}` | {} | {} | {} | {} |\n", spec.name, default_text(entry, spec), spec.unit,
                          allowed(spec), spec.doc);
   }
   return out;
@@ -211,7 +219,7 @@ std::string catalog_json(const std::vector<CatalogEntry>& entries) {
     auto params = nlohmann::ordered_json::array();
     for (const auto& spec : entry.params)
       params.push_back({{"name", spec.name},
-                        {"default", to_text(spec.default_value)},
+                        {"default", default_text(entry, spec)},
                         {"unit", spec.unit},
                         {"type", to_string(spec.type)},
                         {"allowed", allowed(spec)},

@@ -13,7 +13,8 @@ struct CatalogEntry {
   std::string kind;  ///< extract, merge, match, align, map, metrics, figure, trajectory, sensor, recording
   ModuleInfo info;
   std::vector<ParamSpec> params;
-  std::vector<std::string> notes;  ///< further lines: the rows of a metric family
+  std::vector<std::string> notes;          ///< further lines: the rows of a metric family
+  std::vector<std::string> required = {};  ///< parameters that must be given: their defaults are unused
 };
 
 /// By kind, then by name.

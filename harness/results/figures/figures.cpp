@@ -126,7 +126,7 @@ void check_figure_options(const FigureOptions& options, const std::vector<study:
   }
   for (const std::string& name : options.pipelines)
     if (std::ranges::count(known, name) == 0)
-      throw ConfigError("--pipelines: the run has no pipeline " + io::quoted_excerpt(name) + known_names(name, known));
+      throw ConfigError("--pipeline: the run has no pipeline " + io::quoted_excerpt(name) + known_names(name, known));
   if (options.frame && !has_frame)
     throw ConfigError("--frame: none of the figures shows a single scan; scan_overlay and environment do");
   check_size(options);

@@ -178,9 +178,9 @@ std::optional<ShownScan> show_scan_in_both(const fs::path& before, const fs::pat
   return shown;
 }
 
-std::string picture_bytes(const render::Scene& scene, const fs::path& path) {
+std::string picture_bytes(const render::Scene& scene, const fs::path& path, double dpi) {
   const std::string ending = path.extension().string();
-  if (ending == ".png") return render::to_png(scene);
+  if (ending == ".png") return render::to_png(scene, dpi);
   if (ending == ".svg") return render::to_svg(scene);
   if (ending == ".pdf") return render::to_pdf(scene);
   throw ConfigError(path.string() + ": a picture's name ends in .png, .svg or .pdf");

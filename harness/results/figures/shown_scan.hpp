@@ -34,7 +34,8 @@ ShownScan show_scan(const std::filesystem::path& run, const ScanChoice& choice);
 std::optional<ShownScan> show_scan_in_both(const std::filesystem::path& before, const std::filesystem::path& now,
                                            const ScanChoice& choice);
 
-/// The scene as PNG, SVG or PDF, as the ending of the path says. Throws ConfigError for other endings.
-std::string picture_bytes(const render::Scene& scene, const std::filesystem::path& path);
+/// The scene as PNG, SVG or PDF, as the ending of the path says; `dpi` is the resolution of PNG. Throws ConfigError for
+/// other endings.
+std::string picture_bytes(const render::Scene& scene, const std::filesystem::path& path, double dpi = 200.0);
 
 }  // namespace scanbench::results

@@ -49,7 +49,7 @@ class CatalogueReader {
       }
     for (const std::string& name : only_)
       if (std::ranges::count(names_, name) == 0)
-        throw ConfigError("--only: the catalogue has no figure " + io::quoted_excerpt(name) +
+        throw ConfigError("--entry: the catalogue has no figure " + io::quoted_excerpt(name) +
                           known_names(name, names_));
     if (catalogue_.entries.empty())
       throw io::PlacedError(figures.mark, "figures is empty; allowed: at least one figure");

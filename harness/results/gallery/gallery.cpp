@@ -127,7 +127,7 @@ std::vector<MadeEntry> make_entries(const fs::path& run, const Catalogue& catalo
 }
 
 std::string command_of(const Catalogue& catalogue, const CatalogueEntry& entry) {
-  return fmt::format("scanbench figures {} --only {}", catalogue.path.generic_string(), entry.name);
+  return fmt::format("scanbench figures {} --entry {}", catalogue.path.generic_string(), entry.name);
 }
 
 Document gallery_document(const Catalogue& catalogue, const std::vector<MadeEntry>& made, const FigureOptions& options,

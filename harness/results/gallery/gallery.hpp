@@ -27,7 +27,7 @@ std::vector<MadeEntry> make_entries(const std::filesystem::path& run, const Cata
                                     const FigureOptions& options,
                                     const std::function<void(double, const std::string&)>& progress);
 
-/// "scanbench figures scenarios/figures.yaml --only NAME": makes one entry again.
+/// "scanbench figures scenarios/figures.yaml --entry NAME": makes one entry again.
 std::string command_of(const Catalogue& catalogue, const CatalogueEntry& entry);
 
 /// The page of the folder: thumbnail, the paper's number, caption and command of each entry in the order of the

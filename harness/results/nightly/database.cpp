@@ -54,7 +54,7 @@ void Database::refuse(const std::string& reason) const {
 void Database::refuse_last() const {
   const int code = handle_ ? sqlite3_errcode(handle_.get()) : SQLITE_NOMEM;
   if (code == SQLITE_NOTADB) refuse("not a store of scanbench: no SQLite file");
-  if (code == SQLITE_CORRUPT) refuse("the store is damaged; rebuild it from the run folders (scanbench store)");
+  if (code == SQLITE_CORRUPT) refuse("the store is damaged; rebuild it from the run folders (scanbench night store)");
   if (code == SQLITE_BUSY || code == SQLITE_LOCKED) refuse("another program is writing to the store; try again later");
   refuse(handle_ ? sqlite3_errmsg(handle_.get()) : "out of memory");
 }

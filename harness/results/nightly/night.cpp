@@ -88,11 +88,12 @@ RunResults night_results(const Store& store, const Night& night, const fs::path&
   return results;
 }
 
-/// The nights of the suite but those of this folder that began at `unfinished`.
+/// The nights of the suite but those with overrides and those of this folder that began at `unfinished`.
 std::vector<Night> earlier_nights(const NightPlan& plan, const Store& store,
                                   const std::vector<std::string>& unfinished) {
   std::vector<Night> nights = store.nights(plan.suite);
   std::erase_if(nights, [&](const Night& night) {
+    if (!night.overrides.empty()) return true;
     return night.folder == folder_in_store(plan.run) && std::ranges::find(unfinished, night.start) != unfinished.end();
   });
   return nights;
@@ -212,6 +213,10 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+std::string all_ok_text(std::size_t cells) {
+  return cells == 1 ? "the one cell is ok" : fmt::format("all {} cells are ok", cells);
+}
+
 /// Stores, judges and shows the night. `unfinished`: the starts of killed nights in this folder, which it replaces.
 NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<std::string>& unfinished) {
   NightInput input;
@@ -237,9 +242,11 @@ NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<s
     outcome.exit_code = comparison.exit_code();
     store.add(plan.suite, plan.run, input.now, {verdict_word(comparison), outcome.sentence}, unfinished);
     input.reference = reference->text;
-    for (const MetricChange* change : listed_changes(comparison))
+    for (const MetricChange* change : listed_changes(comparison)) {
+      if (!input.now.overrides.empty()) break;  // this night is in no trend
       input.trends[change->scenario + "/" + change->pipeline + "/" + change->metric.metric] =
           store.trend(plan.suite, change->scenario, change->pipeline, change->metric.metric, kTrendNights);
+    }
     const fs::path before = reference->results.folder.empty() ? last_good_folder(plan.run) : reference->results.folder;
     input.pictures = pictures_of(plan.run, before, comparison);
     input.figures = figures_of(plan.run, before, comparison);
@@ -260,7 +267,7 @@ NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<s
                                              : "this is the first night of the suite";
     const auto first = std::ranges::find_if(input.now.cells, [](const CellResults& cell) { return !cell.ok(); });
     outcome.sentence =
-        bad == 0 ? fmt::format("PASS: {}, so nothing can be worse; all {} cells are ok.", why, input.now.cells.size())
+        bad == 0 ? fmt::format("PASS: {}, so nothing can be worse; {}.", why, all_ok_text(input.now.cells.size()))
                  : fmt::format("{}: {} of {} cells are not ok, first {}: {}. There is nothing to compare with: {}.",
                                missing ? "INCOMPLETE" : "FAIL", bad, input.now.cells.size(),
                                runs::to_string(first->key), first->status, why);
@@ -281,7 +288,7 @@ NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<s
   outcome.page = plan.run / kNightPage;
   io::write_file_atomically(outcome.page, to_html(night_document(input)));
   runs::refresh_manifest(plan.run);
-  if (outcome.exit_code == 0) keep_good_night(plan.run);
+  if (outcome.exit_code == 0 && input.now.overrides.empty()) keep_good_night(plan.run);
   return outcome;
 }
 

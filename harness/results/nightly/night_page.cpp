@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "core/names.hpp"
 #include "harness/io/files/base64.hpp"
 #include "harness/results/analysis/gates.hpp"
 #include "harness/results/analysis/verdict.hpp"
@@ -26,6 +27,11 @@ namespace {
 
 Blocks verdict_blocks(const NightInput& input) {
   Blocks blocks;
+  if (!input.now.overrides.empty())
+    blocks.push_back(
+        Paragraph{fmt::format("This night ran with --set {}. It is in no trend, and no later night is "
+                              "compared with it.",
+                              join(input.now.overrides))});
   if (input.comparison) blocks.push_back(Paragraph{"Compared with " + input.reference + "."});
   if (input.drift)
     blocks.push_back(Paragraph{
@@ -127,7 +133,8 @@ Blocks history_blocks(const NightInput& input) {
   Table table{"nights", "", "", {"start (UTC)", "commit", "verdict"}, {}, {}};
   for (std::size_t i = input.nights.size(); i-- > 0 && table.rows.size() < kShown;) {
     const Night& night = input.nights[i];
-    table.rows.push_back({{night.start, commit_text(night.commit), night.sentence}, {}, false});
+    const std::string mark = night.overrides.empty() ? "" : "with --set " + night.overrides + ": ";
+    table.rows.push_back({{night.start, commit_text(night.commit), mark + night.sentence}, {}, false});
   }
   if (table.rows.size() < 2) return {};
   return {BlockGroup{"nights", {std::move(table)}}};
@@ -232,7 +239,8 @@ std::vector<Section> sections_of(const NightInput& input) {
 }  // namespace
 
 std::string reuse_text(std::size_t cells, std::size_t reused) {
-  if (reused == 0) return fmt::format("{} cells, all run in this night.", cells);
+  if (reused == 0)
+    return cells == 1 ? "1 cell, run in this night." : fmt::format("{} cells, all run in this night.", cells);
   return fmt::format("{} of {} cells were not run again, because nothing in them changed.", reused, cells);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 
 namespace scanbench::results {
 namespace {
@@ -17,7 +18,7 @@ constexpr const char* kTables = R"sql(
 CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL);
 CREATE TABLE nights(night INTEGER PRIMARY KEY, suite TEXT NOT NULL, start TEXT NOT NULL, commit_hash TEXT NOT NULL,
   compiler TEXT NOT NULL, libraries TEXT NOT NULL, processor TEXT NOT NULL, command TEXT NOT NULL, folder TEXT NOT NULL,
-  verdict TEXT NOT NULL DEFAULT '', sentence TEXT NOT NULL DEFAULT '');
+  verdict TEXT NOT NULL DEFAULT '', sentence TEXT NOT NULL DEFAULT '', overrides TEXT NOT NULL DEFAULT '');
 CREATE TABLE settings(night INTEGER NOT NULL REFERENCES nights ON DELETE CASCADE, scenario TEXT NOT NULL,
   path TEXT NOT NULL, value TEXT NOT NULL, PRIMARY KEY(night, scenario, path)) WITHOUT ROWID;
 CREATE TABLE cells(cell INTEGER PRIMARY KEY, night INTEGER NOT NULL REFERENCES nights ON DELETE CASCADE,
@@ -85,6 +86,24 @@ Store::Store(const fs::path& file) : database_(file, Database::Access::write) {
   database_.execute("PRAGMA foreign_keys = ON; PRAGMA synchronous = FULL");
   if (is_empty()) create();
   check_schema();
+  add_overrides();
+}
+
+/// A store of an earlier version has no column for overrides; the nights that had some say so in their command.
+void Store::add_overrides() {
+  const auto is_missing = [&] {
+    Statement column(database_, "SELECT count(*) FROM pragma_table_info('nights') WHERE name = 'overrides'");
+    column.step();
+    return column.integer(0) == 0;
+  };
+  if (!is_missing()) return;
+  Transaction transaction(database_);
+  if (is_missing())  // another night may have added it since
+    database_.execute(
+        "ALTER TABLE nights ADD COLUMN overrides TEXT NOT NULL DEFAULT ''; "
+        "UPDATE nights SET overrides = substr(command, instr(command, ' --set') + 7) WHERE command LIKE '% --set %' OR "
+        "command LIKE '% --set=%'");
+  transaction.commit();
 }
 
 bool Store::is_empty() const {
@@ -110,7 +129,7 @@ void Store::check_schema() const {
   if (values["program"] != "scanbench") database_.refuse("another program wrote this database");
   if (values["schema"] != kSchemaVersion)
     database_.refuse("the store has schema " + values["schema"] + "; this program reads " + kSchemaVersion +
-                     " (a store can be made again from the run folders: scanbench store)");
+                     " (a store can be made again from the run folders: scanbench night store)");
 }
 
 std::int64_t Store::add(const std::string& suite, const fs::path& folder, const RunResults& results,
@@ -139,11 +158,11 @@ std::int64_t Store::insert(const std::string& suite, const std::string& place, c
                            const StoredVerdict& verdict) {
   Statement head(database_,
                  "INSERT INTO nights(suite, start, commit_hash, compiler, libraries, processor, command, folder, "
-                 "verdict, sentence) VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                 "verdict, sentence, overrides) VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   const runs::Provenance& by = results.provenance;
   head.bind(0, suite).bind(1, by.start).bind(2, by.commit).bind(3, by.compiler).bind(4, by.libraries);
   head.bind(5, by.processor).bind(6, by.command).bind(7, place);
-  head.bind(8, verdict.word).bind(9, verdict.sentence).run();
+  head.bind(8, verdict.word).bind(9, verdict.sentence).bind(10, join(results.overrides)).run();
   const std::int64_t night = database_.last_id();
   Statement setting(database_, "INSERT INTO settings VALUES(?, ?, ?, ?)");
   for (const auto& [scenario, settings] : results.settings)
@@ -154,14 +173,15 @@ std::int64_t Store::insert(const std::string& suite, const std::string& place, c
 }
 
 std::vector<Night> Store::nights(const std::string& suite) const {
-  Statement rows(database_,
-                 "SELECT night, suite, start, commit_hash, folder, verdict, sentence FROM nights WHERE suite = ? "
-                 "ORDER BY start, night");
+  Statement rows(
+      database_,
+      "SELECT night, suite, start, commit_hash, folder, verdict, sentence, overrides FROM nights WHERE suite = ? "
+      "ORDER BY start, night");
   rows.bind(0, suite);
   std::vector<Night> nights;
   while (rows.step())
-    nights.push_back(
-        {rows.integer(0), rows.text(1), rows.text(2), rows.text(3), rows.text(4), rows.text(5), rows.text(6)});
+    nights.push_back({rows.integer(0), rows.text(1), rows.text(2), rows.text(3), rows.text(4), rows.text(5),
+                      rows.text(6), rows.text(7)});
   return nights;
 }
 
@@ -209,14 +229,15 @@ RunResults Store::load(std::int64_t night) const {
 
 std::vector<TrendPoint> Store::trend(const std::string& suite, const std::string& scenario, const std::string& pipeline,
                                      const std::string& metric, std::size_t count) const {
-  Statement rows(database_,
-                 "SELECT n.night, n.start, n.commit_hash, avg(r.value) FROM "
-                 "(SELECT * FROM nights WHERE suite = ?1 ORDER BY start DESC, night DESC LIMIT ?5) n "
-                 "JOIN cells c ON c.night = n.night AND c.scenario = ?2 AND c.pipeline = ?3 "
-                 "JOIN metric_rows r ON r.cell = c.cell JOIN metrics m ON m.metric = r.metric AND m.name = ?4 "
-                 "WHERE r.value IS NOT NULL AND (r.subject = 'all' OR NOT EXISTS (SELECT 1 FROM metric_rows a WHERE "
-                 "a.cell = r.cell AND a.metric = r.metric AND a.subject = 'all')) "
-                 "GROUP BY n.night ORDER BY n.start, n.night");
+  Statement rows(
+      database_,
+      "SELECT n.night, n.start, n.commit_hash, avg(r.value) FROM "
+      "(SELECT * FROM nights WHERE suite = ?1 AND overrides = '' ORDER BY start DESC, night DESC LIMIT ?5) n "
+      "JOIN cells c ON c.night = n.night AND c.scenario = ?2 AND c.pipeline = ?3 "
+      "JOIN metric_rows r ON r.cell = c.cell JOIN metrics m ON m.metric = r.metric AND m.name = ?4 "
+      "WHERE r.value IS NOT NULL AND (r.subject = 'all' OR NOT EXISTS (SELECT 1 FROM metric_rows a WHERE "
+      "a.cell = r.cell AND a.metric = r.metric AND a.subject = 'all')) "
+      "GROUP BY n.night ORDER BY n.start, n.night");
   rows.bind(0, suite).bind(1, scenario).bind(2, pipeline).bind(3, metric).bind(4, static_cast<std::int64_t>(count));
   std::vector<TrendPoint> points;
   while (rows.step()) points.push_back({rows.integer(0), rows.text(1), rows.text(2), rows.number(3)});

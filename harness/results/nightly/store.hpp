@@ -3,7 +3,8 @@
 //
 // Schema 1 (docs/formats.md):
 //   meta(key, value)                                  program = scanbench, schema = 1
-//   nights(night, suite, start, commit_hash, compiler, libraries, processor, command, folder, verdict, sentence)
+//   nights(night, suite, start, commit_hash, compiler, libraries, processor, command, folder, verdict, sentence,
+//          overrides)                              overrides: those of --set; a store of an earlier version gets them
 //   settings(night, scenario, path, value)            effective settings (harness/study/scenario/effective.hpp)
 //   cells(cell, night, scenario, pipeline, seed, status, message, recording, requested)
 //   metrics(metric, name, unit)
@@ -30,6 +31,8 @@ struct Night {
   std::string folder;    ///< of the run
   std::string verdict;   ///< PASS, FAIL, INCOMPLETE; empty: not judged
   std::string sentence;  ///< the verdict's sentence
+  /// "key=value, ..." of --set; empty: a night like the others. A night with overrides is in no trend.
+  std::string overrides;
 };
 
 struct StoredVerdict {
@@ -64,13 +67,14 @@ class Store {
   std::vector<Night> nights(const std::string& suite) const;  ///< oldest first
   RunResults load(std::int64_t night) const;
 
-  /// The last `count` nights of a suite, oldest first; nights without a value are left out.
+  /// The last `count` nights of a suite, oldest first; nights without a value, and those with overrides, are left out.
   std::vector<TrendPoint> trend(const std::string& suite, const std::string& scenario, const std::string& pipeline,
                                 const std::string& metric, std::size_t count) const;
 
  private:
   bool is_empty() const;
   void create();
+  void add_overrides();
   std::int64_t insert(const std::string& suite, const std::string& place, const RunResults& results,
                       const StoredVerdict& verdict);
   void remove(const std::string& place, const std::string& start);

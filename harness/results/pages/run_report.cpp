@@ -102,6 +102,22 @@ std::map<std::string, MethodRanking> rankings_by_scenario(const runs::RunStore& 
   return rankings;
 }
 
+/// The answer of a benchmark or of the only scenario, else how the cells ended.
+std::string first_sentence(const ReportInput& input, const Document& page) {
+  if (!input.benchmark && input.scenarios.size() == 1) {
+    const auto found = input.results.find(input.scenarios.front().name);
+    if (found != input.results.end() && !found->second.answer.empty()) return found->second.answer;
+  }
+  std::string text;
+  for (const Block& block : page.blocks) {
+    const auto* paragraph = std::get_if<Paragraph>(&block);
+    if (paragraph == nullptr) continue;
+    for (const TextSpan& span : paragraph->text.spans) text += span.text;
+    break;
+  }
+  return text;
+}
+
 }  // namespace
 
 ReportInput load_report_input(const fs::path& run, const std::vector<study::Scenario>& scenarios) {
@@ -171,12 +187,13 @@ Document closing_document(const ReportInput& input) {
   return document;
 }
 
-void write_reports(const fs::path& run, const ReportInput& input) {
+std::string write_reports(const fs::path& run, const ReportInput& input) {
   write_agreement(run, input);  // before the page, which links to it
   const Document page = input.benchmark ? benchmark_document(input) : report_document(input);
   io::write_file_atomically(run / kReportPage, to_html(page));
   io::write_file_atomically(run / kReportMarkdown, to_markdown(page));
   runs::refresh_manifest(run);
+  return first_sentence(input, page);
 }
 
 }  // namespace scanbench::results

@@ -27,7 +27,8 @@ void draw_run_figures(const std::filesystem::path& run, const std::vector<study:
 /// What a run prints at its end: the ranking of a benchmark, else the tables of every scenario.
 Document closing_document(const ReportInput& input);
 
-/// Writes report.html and report.md and the manifest's list of files.
-void write_reports(const std::filesystem::path& run, const ReportInput& input);
+/// Writes report.html and report.md and the manifest's list of files. Returns the sentence with which the pages begin,
+/// in one line.
+std::string write_reports(const std::filesystem::path& run, const ReportInput& input);
 
 }  // namespace scanbench::results

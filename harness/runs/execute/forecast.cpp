@@ -1,150 +1,89 @@
-// Small trial runs, extended to all scans.
+// Tries cells on a few scans of some scenarios, and extends the results to all scans, seeds and scenarios.
 #include "harness/runs/execute/forecast.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <optional>
+#include <cmath>
+#include <limits>
+#include <map>
 #include <set>
-#include <system_error>
+#include <utility>
 #include <variant>
 
-#include "harness/io/files/system_error.hpp"
-#include "harness/runs/execute/make_recording.hpp"
+#include "harness/runs/execute/cell_trial.hpp"
 #include "harness/runs/execute/run_plan.hpp"
-#include "harness/runs/execute/runner.hpp"
-#include "harness/runs/store/cell_status.hpp"
-#include "harness/study/scenario/effective.hpp"
-#include "harness/study/scenario/simulation_input.hpp"
-#include "sim/simulate.hpp"
+#include "harness/runs/execute/scan_source.hpp"
 
 namespace scanbench::runs {
-namespace fs = std::filesystem;
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kSmallSample = 2;
 constexpr std::size_t kLargeSample = 12;
+constexpr std::size_t kVisits = 6;      // scenarios that are tried at least, if there are so many
+constexpr double kLeastSeconds = 0.05;  // that a cell gets
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// A new folder, removed with all that is in it.
-class TrialFolder {
- public:
-  TrialFolder() {
-    std::string name = (fs::temp_directory_path() / "scanbench-forecast-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw io::SystemError("cannot make a folder in " + name);
-    path_ = name;
-  }
-  ~TrialFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TrialFolder(const TrialFolder&) = delete;
-  TrialFolder& operator=(const TrialFolder&) = delete;
-  const fs::path& path() const { return path_; }
+/// Seconds and bytes of a part of a run as a line over the number of scans.
+struct CostLine {
+  TrialCost at_zero, each;
 
- private:
-  fs::path path_;
+  TrialCost at(double scans) const {
+    return {at_zero.seconds + each.seconds * scans, at_zero.bytes + each.bytes * scans};
+  }
 };
 
-double bytes_below(const fs::path& folder) {
-  double bytes = 0.0;
-  std::error_code error;
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (entry->is_regular_file()) bytes += static_cast<double>(entry->file_size());
-  return bytes;
+/// Through (n, cost) and the origin: of one sample.
+CostLine through_origin(double n, const TrialCost& cost) {
+  return {{}, {cost.seconds / std::max(n, 1.0), cost.bytes / std::max(n, 1.0)}};
 }
 
-/// The scans of a scenario, and how to make a recording of some that follow each other in the middle.
-class Source {
- public:
-  explicit Source(const study::Scenario& scenario) {
-    const std::uint64_t seed = scenario.seeds.front();
-    if (std::holds_alternative<study::SimulatedInput>(scenario.input)) {
-      check_scenario(scenario);
-      input_ = study::simulation_input(scenario, seed);
-      scans_ = input_.trajectory.poses.size();
-      rays_ = static_cast<double>(scans_) * input_.sensor.geometry.beams();
-      return;
-    }
-    const auto start = Clock::now();
-    recording_ = make_recording(scenario, seed, 1);
-    reading_seconds_ = seconds_since(start);
-    scans_ = recording_->observed.frames.size();
-    for (const Frame& frame : recording_->observed.frames) rays_ += static_cast<double>(frame.ranges.size());
-  }
-
-  std::size_t scans() const { return scans_; }
-  double rays() const { return rays_; }
-  double reading_seconds() const { return reading_seconds_; }
-
-  Recording sample(std::size_t count, int threads) const {
-    const auto first = static_cast<std::ptrdiff_t>((scans_ - count) / 2);
-    const auto last = first + static_cast<std::ptrdiff_t>(count);
-    if (!recording_) {
-      sim::SimulationInput part = input_;
-      const auto& poses = input_.trajectory.poses;
-      part.trajectory.poses.assign(poses.begin() + first, poses.begin() + last);
-      return sim::simulate(part, threads);
-    }
-    Recording part = *recording_;
-    part.observed.frames.assign(recording_->observed.frames.begin() + first,
-                                recording_->observed.frames.begin() + last);
-    if (part.truth) {
-      const auto beams = static_cast<std::ptrdiff_t>(part.observed.sensor.geometry.beams());
-      const Truth& whole = *recording_->truth;
-      part.truth->world_from_sensor.assign(whole.world_from_sensor.begin() + first,
-                                           whole.world_from_sensor.begin() + last);
-      part.truth->ranges.assign(whole.ranges.begin() + first * beams, whole.ranges.begin() + last * beams);
-      part.truth->wall_ids.assign(whole.wall_ids.begin() + first * beams, whole.wall_ids.begin() + last * beams);
-    }
-    return part;
-  }
-
- private:
-  sim::SimulationInput input_{};
-  std::optional<Recording> recording_;  ///< of a log or of lines
-  std::size_t scans_ = 0;
-  double rays_ = 0.0;
-  double reading_seconds_ = 0.0;
-};
-
-/// What one seed of a scenario takes on a number of scans.
-struct Cost {
-  double seconds = 0.0;
-  double bytes = 0.0;
-};
-
-Cost try_scans(const study::Scenario& scenario, const Source& source, std::size_t count, ScenarioForecast& forecast,
-               bool& interrupted) {
-  const TrialFolder folder;
-  RunOptions options;
-  options.out = folder.path() / "run";
-  const auto start = Clock::now();
-  const RunResult result = run_with(
-      {scenario}, options,
-      {.recording = [&](const study::Scenario&, std::uint64_t, int threads) { return source.sample(count, threads); },
-       .effective_yaml = study::effective_yaml});
-  interrupted = result.interrupted;
-  forecast.faults.clear();
-  for (const CellResult& cell : result.cells)
-    if (cell.record.outcome.status != CellStatus::ok)
-      forecast.faults.push_back(fmt::format("{}: {}: {}", cell.key.pipeline, to_string(cell.record.outcome.status),
-                                            cell.record.outcome.message));
-  return {seconds_since(start), bytes_below(options.out / "recordings") + bytes_below(options.out / "cells")};
+/// Through two samples; it never falls, and ends at the larger one if they are of equal size.
+CostLine through(double small, const TrialCost& a, double large, const TrialCost& b) {
+  if (large <= small) return {b, {}};
+  const TrialCost each{std::max(0.0, b.seconds - a.seconds) / (large - small),
+                       std::max(0.0, b.bytes - a.bytes) / (large - small)};
+  return {{std::max(0.0, b.seconds - each.seconds * large), std::max(0.0, b.bytes - each.bytes * large)}, each};
 }
 
-/// On the line through two samples; no less than the larger.
-double extended(double small, double large, double scans_between, double scans_beyond) {
-  const double each = scans_between > 0 ? std::max(0.0, large - small) / scans_between : 0.0;
-  return large + each * scans_beyond;
+/// A part of a run that was tried: a cell, or the recording of a scenario.
+struct Tried {
+  std::size_t scenario = 0;
+  CostLine cost;
+  bool cut_off = false;
+};
+
+/// What is known of a scenario without running it, and its selected cells.
+struct Candidate {
+  const study::Scenario* scenario = nullptr;
+  std::vector<const PlannedWork*> works;  // selected
+  std::size_t scans = 0;
+  double rays = 0.0;
+  double reading_seconds = 0.0;
+  std::string group;  // scenarios with the same pipelines are alike
+
+  double beams() const { return scans > 0 ? rays / static_cast<double>(scans) : 0.0; }
+};
+
+std::string signature(const study::PipelineSpec& pipeline) {
+  std::string text = pipeline.name;
+  for (const auto& slot : pipeline.slots) text += "\n" + slot.kind + " " + slot.module;
+  return text;
+}
+
+/// What a log is read with; two scenarios with the same have the same scans.
+std::string log_key(const study::Scenario& scenario) {
+  const auto* recorded = std::get_if<study::RecordedInput>(&scenario.input);
+  if (recorded == nullptr) return "";
+  std::string key = recorded->log.string() + "\n" + recorded->format;
+  for (const auto& [name, value] : recorded->params) key += "\n" + name + "=" + to_text(value);
+  return key;
 }
 
 bool grows_in_proportion(const study::Scenario& scenario) {
@@ -155,52 +94,213 @@ bool grows_in_proportion(const study::Scenario& scenario) {
                               [&](const study::PipelineSpec& p) { return std::ranges::any_of(p.slots, of_all_scans); });
 }
 
-/// The scenario with one seed and the selected pipelines; its figures are not drawn.
-study::Scenario reduced(const study::Scenario& scenario, const std::set<std::string>& pipelines) {
-  study::Scenario one = scenario;
-  one.seeds = {scenario.seeds.front()};
-  one.figures.clear();
-  std::erase_if(one.pipelines, [&](const study::PipelineSpec& p) { return !pipelines.contains(p.name); });
-  return one;
+/// The scenarios with selected cells, in their order.
+std::vector<Candidate> candidates_of(const std::vector<study::Scenario>& scenarios, const RunPlan& plan,
+                                     const RunOptions& options) {
+  std::map<const study::Scenario*, std::vector<const PlannedWork*>> works;
+  for (const PlannedWork& work : plan.works)
+    if (selected(options, {work.scenario->name, work.pipeline->name, work.scenario->seeds.front()}))
+      works[work.scenario].push_back(&work);
+  std::map<std::string, Candidate> logs;
+  std::vector<Candidate> candidates;
+  for (const auto& scenario : scenarios) {
+    if (!works.contains(&scenario)) continue;
+    Candidate candidate{.scenario = &scenario, .works = works[&scenario], .group = ""};
+    for (const PlannedWork* work : candidate.works) candidate.group += signature(*work->pipeline) + "\n\n";
+    const std::string key = log_key(scenario);
+    const auto known = key.empty() ? logs.end() : logs.find(key);
+    if (known == logs.end()) {
+      const ScanSource source(scenario);
+      candidate.scans = source.scans();
+      candidate.rays = source.rays();
+      candidate.reading_seconds = source.reading_seconds();
+      if (!key.empty()) logs.emplace(key, candidate);
+    } else {
+      candidate.scans = known->second.scans;
+      candidate.rays = known->second.rays;
+      candidate.reading_seconds = known->second.reading_seconds;
+    }
+    candidates.push_back(std::move(candidate));
+  }
+  return candidates;
 }
 
-ScenarioForecast forecast_of(const study::Scenario& scenario, std::size_t seeds, bool& interrupted) {
-  const Source source(scenario);
-  ScenarioForecast forecast;
-  forecast.scenario = scenario.name;
-  forecast.cells = seeds * scenario.pipelines.size();
-  forecast.scans = source.scans();
-  forecast.rays = source.rays() * static_cast<double>(seeds);
-  forecast.in_proportion = grows_in_proportion(scenario);
-  const std::size_t small = std::min(kSmallSample, source.scans());
-  forecast.sample = std::min(kLargeSample, source.scans());
-  const Cost a = try_scans(scenario, source, small, forecast, interrupted);
-  if (interrupted) return forecast;
-  const Cost b = try_scans(scenario, source, forecast.sample, forecast, interrupted);
-  const auto between = static_cast<double>(forecast.sample - small);
-  const auto beyond = static_cast<double>(source.scans() - forecast.sample);
-  const auto times = static_cast<double>(seeds);
-  forecast.bytes = times * extended(a.bytes, b.bytes, between, beyond);
-  forecast.seconds = times * (extended(a.seconds, b.seconds, between, beyond) + source.reading_seconds());
-  return forecast;
+/// The order in which scenarios are tried: one of each group, then a second one of each, and so on. Steps of the golden
+/// section spread those of a group over its list, in which neighbours differ in one factor only.
+std::vector<std::size_t> visiting_order(const std::vector<Candidate>& candidates) {
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!groups.contains(candidates[i].group)) names.push_back(candidates[i].group);
+    groups[candidates[i].group].push_back(i);
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> order;  // round, scenario
+  for (const auto& name : names) {
+    std::vector<std::size_t> left = groups[name];
+    double at = 0.5;
+    for (std::size_t round = 0; !left.empty(); ++round) {
+      const auto next = left.begin() + static_cast<std::ptrdiff_t>(at * static_cast<double>(left.size()));
+      order.emplace_back(round, *next);
+      left.erase(next);
+      at = std::fmod(at + 0.6180339887498949, 1.0);
+    }
+  }
+  std::ranges::stable_sort(order, {}, &std::pair<std::size_t, std::size_t>::first);
+  std::vector<std::size_t> scenarios;
+  for (const auto& [round, scenario] : order) scenarios.push_back(scenario);
+  return scenarios;
 }
+
+class Forecaster {
+ public:
+  Forecaster(std::vector<Candidate> candidates, const RunOptions& options)
+      : candidates_(std::move(candidates)), options_(options), faults_(candidates_.size()) {}
+
+  Forecast run() {
+    Forecast forecast;
+    try_scenarios();
+    forecast.interrupted = trials_.interrupted();
+    if (forecast.interrupted) return forecast;
+    forecast.tried = recordings_.size();
+    for (std::size_t i = 0; i < candidates_.size(); ++i) forecast.scenarios.push_back(forecast_of(i, forecast));
+    return forecast;
+  }
+
+ private:
+  double left() const { return kForecastSeconds - seconds_since(start_); }
+
+  void try_scenarios() {
+    const std::vector<std::size_t> order = visiting_order(candidates_);
+    std::set<std::string> groups;
+    for (const auto& candidate : candidates_) groups.insert(candidate.group);
+    const std::size_t wanted = std::min(order.size(), std::max(groups.size(), kVisits));
+    for (std::size_t i = 0; i < order.size() && !trials_.interrupted(); ++i) {
+      if (left() <= 0.0 && i >= 1) break;
+      const double share = left() / static_cast<double>(i < wanted ? wanted - i : 1);
+      if (options_.progress)
+        options_.progress({static_cast<std::size_t>(1000.0 * (1.0 - left() / kForecastSeconds)), 1000,
+                           "trying " + candidates_[order[i]].scenario->name, nullptr});
+      try_scenario(order[i], share);
+    }
+  }
+
+  /// Tries the recording and the cells of a scenario, for about `seconds`.
+  void try_scenario(std::size_t index, double seconds) {
+    const Candidate& candidate = candidates_[index];
+    const auto start = Clock::now();
+    const ScanSource source(*candidate.scenario);
+    const std::size_t n = std::min(kSmallSample, candidate.scans), m = std::min(kLargeSample, candidate.scans);
+    std::vector<Recording> samples;
+    std::vector<TrialCost> costs;
+    for (const std::size_t count : {n, m}) {
+      const auto begin = Clock::now();
+      samples.push_back(source.sample(count, 1));
+      const double making = seconds_since(begin);
+      costs.push_back(trials_.write(samples.back()));
+      costs.back().seconds += making;
+    }
+    const auto small = static_cast<double>(n), large = static_cast<double>(m);
+    recordings_.push_back({index, through(small, costs[0], large, costs[1])});
+    for (std::size_t k = 0; k < candidate.works.size(); ++k) {
+      const double rest = seconds - seconds_since(start);
+      if (rest <= 0.0 && k > 0) return;
+      try_cell(index, *candidate.works[k], samples, rest, rest / static_cast<double>(candidate.works.size() - k));
+      if (trials_.interrupted()) return;
+    }
+  }
+
+  /// `rest`: the seconds that are left for all cells of the scenario; `share`: of these, the part of this cell.
+  void try_cell(std::size_t index, const PlannedWork& work, const std::vector<Recording>& samples, double rest,
+                double share) {
+    const auto small = static_cast<double>(samples[0].observed.frames.size());
+    const auto large = static_cast<double>(samples[1].observed.frames.size());
+    const CellTrial first = trials_.run(work, samples[0], std::max(kLeastSeconds, rest / 2));
+    if (trials_.interrupted()) return;
+    Tried tried{index, through_origin(small, first.cost), first.cut_off};
+    std::string fault = first.fault;
+    if (!first.cut_off && first.cost.seconds * large <= share * std::max(small, 1.0)) {
+      const CellTrial second = trials_.run(work, samples[1], std::max(kLeastSeconds, rest / 2));
+      if (trials_.interrupted()) return;
+      fault = second.fault;
+      if (!second.cut_off) tried.cost = through(small, first.cost, large, second.cost);
+    }
+    if (!fault.empty()) faults_[index].push_back(work.pipeline->name + ": " + fault);
+    cells_[signature(*work.pipeline)].push_back(tried);
+  }
+
+  /// Of those that were tried, the scenario itself, else those of its group, else all: with the nearest number of
+  /// beams.
+  std::vector<const Tried*> nearest(std::size_t index, const std::vector<Tried>& tried) const {
+    const auto distance = [&](const Tried& other) {
+      const Candidate& a = candidates_[index];
+      const Candidate& b = candidates_[other.scenario];
+      const double beams = a.beams() > 0 && b.beams() > 0 ? std::abs(std::log(a.beams() / b.beams())) : 0.0;
+      return std::tuple(other.scenario != index, a.group != b.group, beams);
+    };
+    std::vector<const Tried*> found;
+    for (const Tried& each : tried) {
+      if (!found.empty() && distance(each) < distance(*found.front())) found.clear();
+      if (found.empty() || distance(each) == distance(*found.front())) found.push_back(&each);
+    }
+    return found;
+  }
+
+  /// The mean over some that were tried, for a recording of the scenario; time and bytes of a scan grow with its beams.
+  TrialCost cost_of(std::size_t index, const std::vector<const Tried*>& tried) const {
+    TrialCost sum;
+    const auto count = static_cast<double>(tried.size());
+    for (const Tried* each : tried) {
+      const double own = candidates_[index].beams(), other = candidates_[each->scenario].beams();
+      const double scans = static_cast<double>(candidates_[index].scans) * (own > 0 && other > 0 ? own / other : 1.0);
+      const TrialCost cost = each->cost.at(scans);
+      sum = {sum.seconds + cost.seconds / count, sum.bytes + cost.bytes / count};
+    }
+    return sum;
+  }
+
+  ScenarioForecast forecast_of(std::size_t index, Forecast& all) const {
+    const Candidate& candidate = candidates_[index];
+    const auto seeds = static_cast<double>(candidate.scenario->seeds.size());
+    ScenarioForecast forecast{.scenario = candidate.scenario->name,
+                              .cells = candidate.scenario->seeds.size() * candidate.works.size(),
+                              .scans = candidate.scans,
+                              .rays = candidate.rays * seeds,
+                              .in_proportion = grows_in_proportion(*candidate.scenario),
+                              .faults = faults_[index]};
+    const bool is_tried = std::ranges::count(recordings_, index, &Tried::scenario) > 0;
+    forecast.sample = is_tried ? std::min(kLargeSample, candidate.scans) : 0;
+    TrialCost sum = cost_of(index, nearest(index, recordings_));
+    sum.seconds += candidate.reading_seconds;
+    for (const PlannedWork* work : candidate.works) {
+      const auto known = cells_.find(signature(*work->pipeline));
+      if (known == cells_.end()) {
+        ++all.cut_off;  // there was no time for it anywhere
+        continue;
+      }
+      const auto tried = nearest(index, known->second);
+      const TrialCost cost = cost_of(index, tried);
+      sum = {sum.seconds + cost.seconds, sum.bytes + cost.bytes};
+      all.cut_off += std::ranges::any_of(tried, &Tried::cut_off) ? 1 : 0;
+    }
+    forecast.seconds = seeds * sum.seconds;
+    forecast.bytes = seeds * sum.bytes;
+    return forecast;
+  }
+
+  std::vector<Candidate> candidates_;
+  const RunOptions& options_;
+  std::vector<std::vector<std::string>> faults_;  // by scenario
+  std::vector<Tried> recordings_;
+  std::map<std::string, std::vector<Tried>> cells_;  // by signature
+  CellTrials trials_;
+  Clock::time_point start_ = Clock::now();
+};
 
 }  // namespace
 
 Forecast forecast_run(const std::vector<study::Scenario>& scenarios, const RunOptions& options) {
   const RunPlan plan = plan_run(scenarios, options);
-  Forecast forecast;
-  for (std::size_t i = 0; i < scenarios.size() && !forecast.interrupted; ++i) {
-    if (options.progress) options.progress({i, scenarios.size(), "trying " + scenarios[i].name, nullptr});
-    std::set<std::string> pipelines;
-    for (const PlannedCell& cell : plan.cells)
-      if (plan.works[cell.work].scenario == &scenarios[i] && selected(options, plan.key(cell)))
-        pipelines.insert(plan.works[cell.work].pipeline->name);
-    if (pipelines.empty()) continue;
-    forecast.scenarios.push_back(
-        forecast_of(reduced(scenarios[i], pipelines), scenarios[i].seeds.size(), forecast.interrupted));
-  }
-  return forecast;
+  return Forecaster(candidates_of(scenarios, plan, options), options).run();
 }
 
 }  // namespace scanbench::runs

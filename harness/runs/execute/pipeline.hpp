@@ -18,7 +18,7 @@ struct PipelineRun {
 /// `extract` runs on every frame, unless the scan set has lines instead of scans; the chain then begins after it.
 /// `align` gets all scans and their odometry; `match` chains consecutive scans, with the odometry between them as the
 /// guess (and as the result if the matcher returns no_match). Without odometry, if all scans have one odometry pose,
-/// the guess is the step before; the first one is no motion. `map` gets one scan after the other with its pose;
+/// the guess is the step before; the first one is not a motion. `map` gets one scan after the other with its pose;
 /// `merge` gets the lines and the valid points placed in the world. Poses are those of the
 /// last slot that estimates them (`map`, else `align` or `match`), else the odometry.
 ///

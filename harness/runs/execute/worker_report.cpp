@@ -70,7 +70,7 @@ WorkerReport perform(const std::function<TaskOutput()>& task) {
   } catch (const std::exception& e) {
     return failure(CellStatus::failed, e.what());
   } catch (...) {
-    return failure(CellStatus::failed, "an exception that is no std::exception");
+    return failure(CellStatus::failed, "an exception that is not a std::exception");
   }
 }
 

@@ -108,7 +108,7 @@ Pose2 exact_pose_from(const io::CsvTable& csv, std::size_t row) {
   const Vec2 place(csv.number(row, "x_m"), csv.number(row, "y_m"));
   const Vec2 rotation(csv.number(row, "yaw_cos"), csv.number(row, "yaw_sin"));
   if (!place.allFinite() || !(std::abs(rotation.norm() - 1.0) < 1e-9))
-    csv.refuse(row, "the pose is no finite place with a unit vector");
+    csv.refuse(row, "the pose is not a finite place with a unit vector");
   return Pose2::from_unit(place, rotation);
 }
 

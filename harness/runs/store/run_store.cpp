@@ -125,7 +125,7 @@ const RunStore::RecordingFacts& RunStore::facts_of(const RecordingKey& key) cons
 
 void RunStore::require_folders() const {
   if (!archives_) return;
-  throw ConfigError(run_.string() + " keeps its cells in archives; `scanbench unpack " + run_.string() +
+  throw ConfigError(run_.string() + " keeps its cells in archives; `scanbench sweep unpack " + run_.string() +
                     "` writes all of their files");
 }
 

@@ -159,9 +159,8 @@ int shard_number(const std::string& option) {
   for (const auto& [name, first] : variables)
     if (const char* value = std::getenv(name)) return number_of(value, name, first);
   throw ConfigError(
-      "--plan needs the number of a shard: --shard N, or one of the variables SLURM_ARRAY_TASK_ID, "
-      "JOB_COMPLETION_INDEX "
-      "and PARALLEL_SEQ");
+      "sweep run needs the number of a shard: --shard N, or one of the variables SLURM_ARRAY_TASK_ID, "
+      "JOB_COMPLETION_INDEX and PARALLEL_SEQ");
 }
 
 }  // namespace scanbench::runs

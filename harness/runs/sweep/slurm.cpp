@@ -40,14 +40,14 @@ SlurmScripts slurm_scripts(const SweepPlan& plan, const SlurmOptions& options) {
       "#SBATCH --open-mode=append\n"
       "#SBATCH --requeue\n"
       "#SBATCH --signal=B:TERM@60\n"
-      "exec {2} run --plan {3} --jobs {1} --quiet\n",
+      "exec {2} sweep run {3} --jobs {1} --quiet\n",
       log, options.jobs, program, sweep);
   scripts.merge = fmt::format(
       "#!/bin/bash\n"
       "#SBATCH --job-name=scanbench-merge\n"
       "#SBATCH --ntasks=1\n"
       "#SBATCH --output=\"{0}/merge_%j.log\"\n"
-      "exec {1} merge {2} --out {3}\n",
+      "exec {1} sweep merge {2} --out {3}\n",
       log, program, sweep, absolute_word(options.run));
   return scripts;
 }

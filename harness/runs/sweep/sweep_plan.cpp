@@ -103,9 +103,10 @@ void write_plan(const SweepPlan& plan, const SweepOptions& options) {
 }
 
 [[noreturn]] void refuse_changed(const fs::path& file) {
-  throw ConfigError(file.string() +
-                    " has been changed since the sweep was planned; `scanbench plan` writes it again, and committed "
-                    "cells stay");
+  throw ConfigError(
+      file.string() +
+      " has been changed since the sweep was planned; `scanbench sweep plan` writes it again, and committed "
+      "cells stay");
 }
 
 void load_cells(SweepPlan& plan) {

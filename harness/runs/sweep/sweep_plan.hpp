@@ -45,10 +45,10 @@ struct SweepOptions {
 
 /// Writes the folder of a sweep: the effective scenarios with copies of their files as in a run folder, cells.csv and
 /// sweep.json. Cells that shards of an earlier plan in the folder have committed, undamaged, get no shard. Throws
-/// ConfigError for a folder that is no sweep, for shards outside 1 .. 1000, and what plan_run() throws.
+/// ConfigError for a folder that is not a sweep, for shards outside 1 .. 1000, and what plan_run() throws.
 SweepPlan plan_sweep(const std::vector<study::Scenario>& scenarios, const SweepOptions& options);
 
-/// Loads a plan. Throws ConfigError if the folder is no sweep or a file of the plan is not as it was written.
+/// Loads a plan. Throws ConfigError if the folder is not a sweep or a file of the plan is not as it was written.
 SweepPlan load_sweep(const std::filesystem::path& folder);
 
 /// Throws ConfigError if another program than this one made the plan.

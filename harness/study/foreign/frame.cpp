@@ -78,7 +78,7 @@ Answer::Answer(std::string_view header, std::vector<double> numbers)
   std::size_t used = 0;
   const auto arrays = header_.find("arrays");
   if (arrays != header_.end()) {
-    if (!arrays->is_array()) throw ForeignFault("sent a header whose `arrays` is no list");
+    if (!arrays->is_array()) throw ForeignFault("sent a header whose `arrays` is not a list");
     for (const auto& entry : *arrays) {
       const bool good = entry.is_array() && entry.size() == 2 && entry[0].is_string() && entry[1].is_number_unsigned();
       if (!good) throw ForeignFault("sent an array that is not [name, length]");
@@ -120,7 +120,7 @@ std::vector<int> Answer::integers(const std::string& name) const {
 std::string Answer::text(const std::string& key) const {
   const auto found = header_.find(key);
   if (found == header_.end()) return "";
-  if (!found->is_string()) throw InvalidResult("`" + key + "` of the answer is no text");
+  if (!found->is_string()) throw InvalidResult("`" + key + "` of the answer is not a text");
   return found->get<std::string>();
 }
 

@@ -39,7 +39,7 @@ nlohmann::json parsed_foreign_json(std::string_view text);
 
 std::array<char, kFrameHead> encode_head(const FrameHead& head);
 
-/// Throws ForeignFault for bytes that are no head, and for a frame that would be too large.
+/// Throws ForeignFault for bytes that are not a head, and for a frame that would be too large.
 FrameHead decode_head(std::span<const char, kFrameHead> bytes);
 
 /// An answer of a program.
@@ -53,7 +53,7 @@ class Answer {
   bool has(const std::string& array) const { return arrays_.contains(array); }
   /// Throws InvalidResult if there is no such array.
   std::span<const double> array(const std::string& name) const;
-  /// The array as rows of `columns` numbers. Throws InvalidResult if its length is no multiple.
+  /// The array as rows of `columns` numbers. Throws InvalidResult if its length is not a multiple.
   std::span<const double> rows(const std::string& name, std::size_t columns) const;
   /// The array as whole numbers. Throws InvalidResult for a number that is none.
   std::vector<int> integers(const std::string& name) const;

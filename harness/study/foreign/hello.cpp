@@ -120,7 +120,7 @@ ParamValue default_of(const json& object, const ParamSpec& spec) {
 }
 
 ParamSpec read_spec(const json& object) {
-  if (!object.is_object()) refuse("a parameter is no object");
+  if (!object.is_object()) refuse("a parameter is not an object");
   ParamSpec spec;
   spec.name = text_of(object, "name", "a parameter", true);
   if (!is_name(spec.name))

@@ -71,7 +71,7 @@ std::string named(const fs::path& library) {
 void check_stamp(const fs::path& library) {
   const std::string bytes = io::read_file(library);
   const std::string_view found = stamp_in(bytes);
-  if (!bytes.starts_with("\177ELF")) throw ForeignFault(named(library) + " is no shared library");
+  if (!bytes.starts_with("\177ELF")) throw ForeignFault(named(library) + " is not a shared library");
   if (found.empty())
     throw ForeignFault(named(library) +
                        " has no stamp; build it with the function scanbench_plugin() of find_package(scanbench)");

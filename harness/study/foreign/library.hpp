@@ -9,8 +9,8 @@
 
 namespace scanbench::study {
 
-/// Throws ForeignFault if the file is no library of modules, or if its stamp (core/plugin_stamp.hpp) differs from that
-/// of this program; the message names what differs. No code of the library runs.
+/// Throws ForeignFault if the file is not a library of modules, or if its stamp (core/plugin_stamp.hpp) differs from
+/// that of this program; the message names what differs. No code of the library runs.
 void check_stamp(const std::filesystem::path& library);
 
 /// Loads a library, whose modules then are in the registries of this process, and returns these modules. Loading it a

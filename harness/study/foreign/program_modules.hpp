@@ -9,7 +9,7 @@
 namespace scanbench::study {
 
 /// Starts the program and gives it its parameters. Interface is the one of source.module.kind. The module throws
-/// ForeignFault where the program fails, InvalidResult for an answer that is no result; what is wrong with a result
+/// ForeignFault where the program fails, InvalidResult for an answer that is not a result; what is wrong with a result
 /// that can be read is the caller's to check, as for any module.
 template <class Interface>
 std::unique_ptr<Interface> run_program(const ForeignSource& source, const ParamSet& params,

@@ -29,7 +29,7 @@ struct ForeignSource {
   std::vector<std::string> program;     ///< its arguments, the program itself first; empty: a library
   std::filesystem::path library;        ///< empty: a program
   std::vector<HashedFile> files;        ///< the library; of a program the arguments that are files, and further ones
-  std::vector<std::string> more_files;  ///< of `files` those that are no arguments
+  std::vector<std::string> more_files;  ///< of `files` those that are not arguments
   double scan_seconds = 10.0;           ///< of a program: wall time of a call about one scan
   ForeignModule module;
 

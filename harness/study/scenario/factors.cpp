@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <sstream>
 
+#include "core/number_text.hpp"
 #include "harness/io/files/placed_error.hpp"
 #include "harness/io/yaml/writer.hpp"
 #include "harness/study/scenario/shared_keys.hpp"
@@ -31,6 +34,26 @@ std::string value_text(const io::YamlNode& value, const std::string& key) {
 
 bool in_section(const std::string& set, std::string_view section) {
   return set.starts_with(std::string(section) + ".");
+}
+
+/// The parts of "pipelines.0.extract" or "pipelines.0.extract=..."; an element's number becomes its name.
+std::vector<std::string> path_of(const std::string& set, const ListNames& names) {
+  std::vector<std::string> parts;
+  std::istringstream key(set.substr(0, set.find('=')));
+  for (std::string part; std::getline(key, part, '.');) parts.push_back(part);
+  if (parts.size() < 2) return parts;
+  const auto list = names.find(parts[0]);
+  const auto index = parse_integer(parts[1]);
+  const bool is_number = list != names.end() && index && *index >= 0 &&
+                         static_cast<std::size_t>(*index) < list->second.size() &&
+                         std::ranges::count(list->second, parts[1]) == 0;
+  if (is_number) parts[1] = list->second[static_cast<std::size_t>(*index)];
+  return parts;
+}
+
+/// True if one path is the other or leads to it.
+bool overlap(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  return std::equal(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());
 }
 
 std::vector<Variant> read_levels(const io::YamlEntry& factor) {
@@ -65,6 +88,19 @@ std::vector<Variant> read_variants(const io::YamlNode& factors) {
     variants = std::move(more);
   }
   return variants;
+}
+
+void refuse_sets_over_factors(const io::YamlNode& factors, const std::vector<std::string>& sets,
+                              const ListNames& names) {
+  for (const auto& factor : factors.entries)
+    for (const auto& level : factor.value.entries)
+      for (const auto& entry : level.value.entries)
+        for (const auto& set : sets)
+          if (overlap(path_of(set, names), path_of(entry.key, names)))
+            throw io::PlacedError(
+                entry.mark, fmt::format("the factor {} sets {}, and --set {} would give all of its levels one value; "
+                                        "leave out --set, or the factor",
+                                        factor.key, entry.key, set));
 }
 
 std::vector<std::string> sets_of_section(const std::vector<std::string>& sets, std::string_view section) {

@@ -5,6 +5,7 @@
 //     noise: {1cm: {sensor.sigma_m: 0.01}, 5cm: {sensor.sigma_m: 0.05, pipelines.iepf.extract.params.threshold_m: 0.2}}
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,14 @@ struct Variant {
 
 /// All combinations, the last factor varying fastest. Throws PlacedError.
 std::vector<Variant> read_variants(const io::YamlNode& factors);
+
+/// The names of the elements of lists that overrides may select by number: {"pipelines", {"sef", "iepf"}}.
+using ListNames = std::map<std::string, std::vector<std::string>>;
+
+/// Throws PlacedError, with the place of the factor's key, if an override replaces a value that a level sets, or a part
+/// or the whole of it: every level would have the same value, under different names.
+void refuse_sets_over_factors(const io::YamlNode& factors, const std::vector<std::string>& sets,
+                              const ListNames& names);
 
 /// The overrides whose keys begin with `section` and a dot.
 std::vector<std::string> sets_of_section(const std::vector<std::string>& sets, std::string_view section);

@@ -14,7 +14,7 @@ struct GateSpec {
   std::map<std::string, double> tolerances;  ///< by metric; empty: the metric families decide
 };
 
-/// Throws PlacedError for an unknown metric, one without a better direction, and a tolerance that is no number >= 0.
+/// Throws PlacedError for an unknown metric, one without a better direction, and a tolerance that is not a number >= 0.
 GateSpec read_gates(const io::YamlNode& node);
 
 /// The text of gates.json.

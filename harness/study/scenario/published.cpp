@@ -87,8 +87,8 @@ void check_published(const Scenario& scenario) {
   }
   for (const auto& pipeline : scenario.pipelines)
     if (!pipeline.published.empty() && !methods.contains(pipeline.published))
-      throw ConfigError(fmt::format("{}: pipeline {} reproduces {}, which is no method of {}{}", scenario.path.string(),
-                                    pipeline.name, io::quoted_excerpt(pipeline.published),
+      throw ConfigError(fmt::format("{}: pipeline {} reproduces {}, which is not a method of {}{}",
+                                    scenario.path.string(), pipeline.name, io::quoted_excerpt(pipeline.published),
                                     scenario.published_file.string(),
                                     known_names(pipeline.published, {methods.begin(), methods.end()})));
 }

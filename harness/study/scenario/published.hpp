@@ -26,7 +26,7 @@ struct PublishedValue {
 };
 
 /// Reads a file `metric,subject,method,value,unit` with an optional column `table`; centimetres become metres. Throws
-/// ConfigError with file and line for values that are no numbers, for a second value of the same metric, subject and
+/// ConfigError with file and line for values that are not numbers, for a second value of the same metric, subject and
 /// method, and for a file without values.
 std::vector<PublishedValue> load_published(const std::filesystem::path& path);
 

@@ -171,9 +171,8 @@ class ScenarioReader {
         map.require("format", fmt::format("one of {}", fmt::join(io::log_formats(), ", ")));
     input.format = map.text("format", "a name");
     const auto specs = at_param(format_node, [&] { return io::log_param_specs(input.format); });
-    if (input.format != "csv")
-      map.require("no_return_m",
-                  "the reading in m that means nothing in range, as do all greater ones; 0 if there is none");
+    for (const auto& name : io::required_log_params(input.format))
+      map.require(name, "the reading in m that means nothing in range, as do all greater ones; 0 if there is none");
     const io::YamlNode* relations = map.find("relations");
     if (relations != nullptr) input.relations_as_written = map.text("relations", "a file's path");
     input.odometry_params = read_optional<sim::OdometryNoise>(map, "odometry");

@@ -29,6 +29,7 @@ struct RecordingFormat {
   ModuleInfo info;
   std::vector<ParamSpec> params;
   std::vector<std::string> notes;
+  std::vector<std::string> required;  ///< parameters that must be given
 };
 std::vector<RecordingFormat> recording_formats();
 

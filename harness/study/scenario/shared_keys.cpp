@@ -17,8 +17,6 @@
 namespace scanbench::study {
 namespace {
 
-constexpr std::size_t kMostSeeds = 100000;
-
 ParamSpec seed_spec(std::string name, Bounds bounds) {
   ParamSpec spec;
   spec.name = std::move(name);

@@ -1,6 +1,7 @@
 // Readers of the keys that scenarios, suites and worlds share.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "harness/study/scenario/foreign_slot.hpp"
 
 namespace scanbench::study {
+
+/// Of one scenario.
+inline constexpr std::size_t kMostSeeds = 100000;
 
 /// Checks the key `schema`: present, and 1. Throws PlacedError.
 void read_schema(io::YamlMap& map);

@@ -53,6 +53,7 @@ class SuiteReader {
         add(std::move(plain), node.mark);
         continue;
       }
+      refuse_sets_over_factors(*factors, sets_, list_names(plain));
       for (const Variant& variant : variants) {
         add(load_variant(path, plain.name, variant), node.mark);
         add_levels(plain.name, variant);
@@ -67,6 +68,14 @@ class SuiteReader {
   }
 
  private:
+  static ListNames list_names(const Scenario& scenario) {
+    ListNames names;
+    for (const auto& pipeline : scenario.pipelines) names["pipelines"].push_back(pipeline.name);
+    for (const auto& metric : scenario.metrics) names["metrics"].push_back(metric.module);
+    for (const auto& figure : scenario.figures) names["figures"].push_back(figure.module);
+    return names;
+  }
+
   /// The libraries of the suite, and those of overrides.
   void read_libraries() {
     const io::YamlNode* node = map_.find("plugins");

@@ -26,7 +26,7 @@ inline constexpr std::string_view kWallLabels = "a label of 1 to 64 characters w
 /// Labels appear in CSV tables and as subjects of metrics.
 bool is_wall_label(std::string_view label);
 
-/// Throws ConfigError with file:line for unknown or missing columns, fields that are no numbers, labels that are too
+/// Throws ConfigError with file:line for unknown or missing columns, fields that are not numbers, labels that are too
 /// long or occur twice, walls without length, and too many walls.
 std::vector<Wall> load_wall_table(const std::filesystem::path& file);
 

@@ -278,7 +278,7 @@ LoadedWorld parse_vector_map(std::string_view text, const std::string& file) {
       double v[4];
       for (std::size_t i = 0; i < 4; ++i) {
         const auto parsed = parse_number(fields[i]);
-        if (!parsed) refuse(fields[i], io::quoted_excerpt(fields[i]) + " is no number");
+        if (!parsed) refuse(fields[i], io::quoted_excerpt(fields[i]) + " is not a number");
         v[i] = *parsed;
       }
       const Segment segment{{v[0], v[1]}, {v[2], v[3]}};

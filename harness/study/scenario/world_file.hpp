@@ -10,7 +10,7 @@
 //     fence: [[0, 0], [6, 0], [6, 4]]
 //   polygons:                                         # the same, closed
 //     box: [[2, 1], [3, 1], [3, 2]]
-//   circles:                                          # return beams but are no lines of the truth
+//   circles:                                          # return beams but are not lines of the truth
 //     - [pillar, 5, 3, 0.2]                           # [label, x, y, radius]
 //   moving:                                           # round bodies that move; in metres, independent of unit_m
 //     - {label: person, radius_m: 0.2, path_m: [[1, 1], [5, 1]], speed_mps: 1.2, loop: true}

@@ -18,7 +18,7 @@ class NewModule : public testing::Test {
 };
 
 TEST_F(NewModule, TheExtractorIsTheOneThatTheReadmeShows) {
-  const auto outcome = here({"new", "extract", "my_lines"});
+  const auto outcome = here({"module", "new", "extract", "my_lines"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("./scanbench test --module my_lines"));
   const std::string readme = read(places::source_dir() / "README.md");
@@ -28,7 +28,7 @@ TEST_F(NewModule, TheExtractorIsTheOneThatTheReadmeShows) {
 
 TEST_F(NewModule, TheClassOfEachKindIsNamedAfterTheModule) {
   for (const std::string kind : {"extract", "match", "align", "merge"}) {
-    ASSERT_EQ(here({"new", kind, "two_words"}).code, 0) << kind;
+    ASSERT_EQ(here({"module", "new", kind, "two_words"}).code, 0) << kind;
     const std::string text = read(folder_ / ("algorithms/" + kind + "/two_words.cpp"));
     EXPECT_THAT(text, testing::AllOf(HasSubstr("class TwoWords final"), HasSubstr(".name = \"two_words\""),
                                      testing::Not(HasSubstr("my_")), testing::Not(HasSubstr("My")),
@@ -38,7 +38,7 @@ TEST_F(NewModule, TheClassOfEachKindIsNamedAfterTheModule) {
 
 TEST_F(NewModule, SaysThatAKindHasNoTemplate) {
   fs::create_directories(folder_ / "algorithms/map");
-  const auto outcome = here({"new", "map", "mine"});
+  const auto outcome = here({"module", "new", "map", "mine"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("there is no template for modules of the kind map; there are: extract, match, "
                                      "align, merge; begin with a copy of a file of algorithms/map"));
@@ -46,14 +46,14 @@ TEST_F(NewModule, SaysThatAKindHasNoTemplate) {
 
 TEST_F(NewModule, RefusesWhatCannotBeAModuleAndKeepsWhatIsThere) {
   for (const std::string name : {"", "Big", "9lives", "my-lines", "a__b", "trailing_", "../x", "a b"})
-    EXPECT_EQ(here({"new", "extract", name}).code, 2) << name;
-  EXPECT_THAT(here({"new", "extrakt", "my_lines"}).err, HasSubstr("did you mean 'extract'?"));
-  EXPECT_THAT(here({"new", "extract", "iepf"}).err, HasSubstr("there is a module 'iepf'"));
+    EXPECT_EQ(here({"module", "new", "extract", name}).code, 2) << name;
+  EXPECT_THAT(here({"module", "new", "extrakt", "my_lines"}).err, HasSubstr("did you mean 'extract'?"));
+  EXPECT_THAT(here({"module", "new", "extract", "iepf"}).err, HasSubstr("there is a module 'iepf'"));
   folder_.write("algorithms/extract/mine.cpp", "hours of work");
-  EXPECT_THAT(here({"new", "extract", "mine"}).err, HasSubstr("exists already"));
+  EXPECT_THAT(here({"module", "new", "extract", "mine"}).err, HasSubstr("exists already"));
   EXPECT_EQ(read(folder_ / "algorithms/extract/mine.cpp"), "hours of work");
   const Folder elsewhere;
-  const auto outcome = run({"new", "extract", "mine"}, {}, elsewhere.path());
+  const auto outcome = run({"module", "new", "extract", "mine"}, {}, elsewhere.path());
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("--sources"));
 }

@@ -94,7 +94,7 @@ TEST_F(Figures, PdfHasAFixedDateAndCarriesItsFonts) {
 
 TEST_F(Figures, ShowOnlyTheNamedPipelinesAndTheNamedScanWithoutATitle) {
   make_run();
-  const auto outcome = figures({"--format", "svg", "--pipelines", "lt", "--frame", "3", "--no-title", "--out", "lt"});
+  const auto outcome = figures({"--format", "svg", "--pipeline", "lt", "--frame", "3", "--no-title", "--out", "lt"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(read(folder_ / "lt/room_scan_overlay.caption.txt"), HasSubstr("the points of scan 3, "));
   ASSERT_EQ(figures({"--format", "svg", "--frame", "3", "--out", "both"}).code, 0);
@@ -131,16 +131,16 @@ TEST_F(Figures, RefuseSizesThatNoFigureHas) {
     EXPECT_EQ(outcome.code, 2) << outcome.out;
     return outcome.err;
   };
-  EXPECT_THAT(refusal({"--dpi", "0"}), HasSubstr("'0' is no resolution in dpi; allowed: 36 .. 1200"));
+  EXPECT_THAT(refusal({"--dpi", "0"}), HasSubstr("'0' is not a resolution in dpi; allowed: 36 .. 1200"));
   EXPECT_THAT(refusal({"--dpi", "1e9"}), HasSubstr("allowed: 36 .. 1200"));
   EXPECT_THAT(refusal({"--dpi", "nan"}), HasSubstr("allowed: 36 .. 1200"));
-  EXPECT_THAT(refusal({"--width-mm", "5"}), HasSubstr("'5' is no width in mm; allowed: 30 .. 1000"));
+  EXPECT_THAT(refusal({"--width-mm", "5"}), HasSubstr("'5' is not a width in mm; allowed: 30 .. 1000"));
   EXPECT_THAT(refusal({"--width-mm", "1000", "--dpi", "1200"}),
               AllOf(HasSubstr("47244 pixels"), HasSubstr("allowed: up to 20000"), HasSubstr("508 dpi")));
   EXPECT_THAT(refusal({"--font-pt", "99"}), HasSubstr("allowed: 4 .. 36"));
-  EXPECT_THAT(refusal({"--format", "png,gif"}), HasSubstr("'gif' is no format"));
+  EXPECT_THAT(refusal({"--format", "png,gif"}), HasSubstr("'gif' is not a format"));
   EXPECT_THAT(refusal({"--style", "drak"}), HasSubstr("did you mean 'dark'?"));
-  EXPECT_THAT(refusal({"--pipelines", "iefp"}), HasSubstr("did you mean 'iepf'?"));
+  EXPECT_THAT(refusal({"--pipeline", "iefp"}), HasSubstr("did you mean 'iepf'?"));
   EXPECT_THAT(refusal({"--frame", "5"}), HasSubstr("room has no scan 5; allowed: 0 to 4"));
   EXPECT_FALSE(fs::exists(folder_ / "run/figures"));
 }

@@ -48,13 +48,13 @@ TEST_F(Gallery, HasAPictureACaptionAndACommandForEachFigureAndSaysWhatIsAbsent) 
     EXPECT_TRUE(fs::exists(folder_ / "out/book" / file)) << file;
   const std::string page = read(folder_ / "out/book/index.html");
   EXPECT_THAT(page, AllOf(HasSubstr("Somebody 2000, figure 1"), HasSubstr("src=\"first.png\""),
-                          HasSubstr("scanbench figures book.yaml --only second"), HasSubstr("a photograph"),
+                          HasSubstr("scanbench figures book.yaml --entry second"), HasSubstr("a photograph"),
                           HasSubstr("lines in a &lt;room&gt;"), HasSubstr("the points of scan 2,")));
   EXPECT_THAT(read(folder_ / "out/book/gallery.md"), HasSubstr("![Somebody 2000, figure 1](first.png)"));
 }
 
 TEST_F(Gallery, WithPdfAloneStillShowsPicturesOnItsPage) {
-  ASSERT_EQ(here({"figures", "book.yaml", "--format", "pdf", "--only", "first", "-q"}).code, 0);
+  ASSERT_EQ(here({"figures", "book.yaml", "--format", "pdf", "--entry", "first", "-q"}).code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "out/book/first.pdf"));
   EXPECT_THAT(read(folder_ / "out/book/index.html"), AllOf(HasSubstr("src=\"first.png\""), HasSubstr("first.pdf")));
 }
@@ -70,11 +70,18 @@ TEST_F(Gallery, IsTheSameForAnyNumberOfJobsAndWhenMadeAgainFromItsOwnRun) {
   EXPECT_EQ(timing, read(folder_ / "one/run/cells/room/iepf/1/status.json")) << "the cell was run again";
 }
 
+TEST_F(Gallery, OfAScenarioSaysWhatFiguresTakes) {
+  const auto outcome = here({"figures", "room.yaml"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("room.yaml: a scenario or suite; allowed: a run folder, which `scanbench run "
+                                     "room.yaml` makes, or a catalogue of figures"));
+}
+
 TEST_F(Gallery, MakesOnlyTheNamedEntries) {
-  ASSERT_EQ(here({"figures", "book.yaml", "--only", "second", "-q", "--out", "some"}).code, 0);
+  ASSERT_EQ(here({"figures", "book.yaml", "--entry", "second", "-q", "--out", "some"}).code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "some/second.png"));
   EXPECT_FALSE(fs::exists(folder_ / "some/first.png"));
-  const auto wrong = here({"figures", "book.yaml", "--only", "secnd"});
+  const auto wrong = here({"figures", "book.yaml", "--entry", "secnd"});
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("did you mean 'second'?"));
 }

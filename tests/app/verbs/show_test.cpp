@@ -76,6 +76,22 @@ TEST_F(Show, DrawsANumberedScanToAChosenFileAndLeavesTheRunAsItIs) {
   EXPECT_EQ(files(folder_ / "run"), before);
 }
 
+TEST_F(Show, HasTheLookOfFigures) {
+  const auto drawn = [&](const std::string& file, const Args& more) {
+    Args args{"show", "run", "--frame", "3", "--out", file};
+    args.insert(args.end(), more.begin(), more.end());
+    const auto outcome = here(args);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return read(folder_ / file);
+  };
+  const std::string narrow = drawn("narrow.png", {"--width-mm", "84", "--dpi", "300"});
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(narrow.at(i)); };
+  EXPECT_EQ(byte(18) * 256 + byte(19), 992);  // the width in IHDR: 84 / 25.4 * 300 = 992.1
+  const std::string plain = drawn("plain.svg", {});
+  EXPECT_EQ(drawn("paper.svg", {"--style", "paper"}), plain);
+  EXPECT_NE(drawn("dark.svg", {"--style", "dark"}), plain);
+}
+
 TEST_F(Show, RefusesWhatTheRunDoesNotHave) {
   const auto refused = [&](const Args& more, const std::string& message) {
     Args args{"show", "run"};
@@ -89,6 +105,7 @@ TEST_F(Show, RefusesWhatTheRunDoesNotHave) {
   refused({"--frame", "-1"}, "allowed: 0 to 4, or worst");
   refused({"--frame", "1e1"}, "allowed: 0 to 4, or worst");
   refused({"--seed", "9"}, "room/iepf/9 is missing");
+  refused({"--seed", "1-2"}, "show draws one scan of one seed, and 2 are given");
   refused({"--scenario", "rom"}, "did you mean 'room'?");
   refused({"--out", "x.jpg"}, "ends in .png, .svg or .pdf");
   fs::remove(folder_ / "run/cells/room/iepf/1/scans.csv");

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 void plan_room(const Folder& folder) {
   folder.write("room.yaml", room());
   const auto planned =
-      run({"plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "2"}, {}, folder.path());
+      run({"sweep", "plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "2"}, {}, folder.path());
   ASSERT_EQ(planned.code, 0) << planned.err;
   ASSERT_THAT(planned.out, HasSubstr("sweep: 2 cells in 2 shards"));
 }
@@ -35,12 +35,12 @@ TEST(SweepVerbs, ShardsThatRunAtOnceMergeToTheRun) {
   const Folder folder;
   plan_room(folder);
   {
-    Child first(command({"run", "--plan", "sweep", "--shard", "1"}), {}, folder.path());
-    Child again(command({"run", "--plan", "sweep", "--shard", "1"}), {}, folder.path());
-    Child second(command({"run", "--plan", "sweep"}), {{"SLURM_ARRAY_TASK_ID", "2"}}, folder.path());
+    Child first(command({"sweep", "run", "sweep", "--shard", "1"}), {}, folder.path());
+    Child again(command({"sweep", "run", "sweep", "--shard", "1"}), {}, folder.path());
+    Child second(command({"sweep", "run", "sweep"}), {{"SLURM_ARRAY_TASK_ID", "2"}}, folder.path());
     for (Child* child : {&first, &again, &second}) EXPECT_EQ(child->wait().code, 0);
   }
-  const auto merged = run({"merge", "sweep", "--out", "merged"}, {}, folder.path());
+  const auto merged = run({"sweep", "merge", "sweep", "--out", "merged"}, {}, folder.path());
   EXPECT_EQ(merged.code, 0) << merged.err;
   EXPECT_THAT(merged.out, HasSubstr("merged/report.html"));
   ASSERT_EQ(run({"run", "room.yaml", "--seed", "1,2", "--out", "local", "-q"}, {}, folder.path()).code, 0);
@@ -54,15 +54,15 @@ TEST(SweepVerbs, ShardsThatRunAtOnceMergeToTheRun) {
 TEST(SweepVerbs, StatusAndMergeNameTheMissingShards) {
   const Folder folder;
   plan_room(folder);
-  ASSERT_EQ(run({"run", "--plan", "sweep", "--shard", "2", "-q"}, {}, folder.path()).code, 0);
-  const auto status = run({"status", "sweep", "--json"}, {}, folder.path());
+  ASSERT_EQ(run({"sweep", "run", "sweep", "--shard", "2", "-q"}, {}, folder.path()).code, 0);
+  const auto status = run({"sweep", "status", "sweep", "--json"}, {}, folder.path());
   EXPECT_EQ(status.code, 4);
   const auto json = nlohmann::json::parse(status.out);
   EXPECT_EQ(json["missing_shards"], nlohmann::json({1}));
   EXPECT_EQ(json["array"], "1");
   EXPECT_EQ(json["ok"], 1);
-  EXPECT_EQ(run({"status", "sweep", "--numbers"}, {}, folder.path()).out, "1\n");
-  const auto merged = run({"merge", "sweep"}, {}, folder.path());
+  EXPECT_EQ(run({"sweep", "status", "sweep", "--numbers"}, {}, folder.path()).out, "1\n");
+  const auto merged = run({"sweep", "merge", "sweep"}, {}, folder.path());
   EXPECT_EQ(merged.code, 4);
   EXPECT_THAT(merged.err, HasSubstr("run these shards again: 1\n"));
   EXPECT_FALSE(fs::exists(folder / "out"));
@@ -98,16 +98,19 @@ TEST(SweepVerbs, RefusalsSayWhatIsAllowed) {
   const Folder folder;
   plan_room(folder);
   const std::pair<Args, std::string> cases[] = {
-      {{"run", "--plan", "sweep", "--shard", "3"}, "has no shard 3; allowed: 1 .. 2"},
-      {{"run", "--plan", "sweep", "--shard", "two"}, "--shard is 'two'"},
-      {{"run", "--plan", "swep", "--shard", "1"}, "did you mean 'sweep'?"},
-      {{"run", "--plan", "sweep", "--shard", "1", "--out", "x"}, "--plan excludes --out"},
-      {{"run", "--plan", "sweep", "--shard", "1", "room.yaml"}, "FILE excludes --plan"},
-      {{"run", "room.yaml", "--shard", "1"}, "--shard needs --plan"},
+      {{"sweep", "run", "sweep", "--shard", "3"}, "has no shard 3; allowed: 1 .. 2"},
+      {{"sweep", "run", "sweep", "--shard", "two"}, "--shard is 'two'"},
+      {{"sweep", "run", "swep", "--shard", "1"}, "did you mean 'sweep'?"},
+      {{"sweep", "run", "sweep", "--shard", "1", "--out", "x"}, "'sweep run' has no option '--out'"},
+      {{"sweep", "run", "sweep", "--shard", "1", "room.yaml"}, "'sweep run' takes no further argument 'room.yaml'"},
+      {{"sweep", "run"}, "'sweep run' needs SWEEP: the folder of a sweep"},
+      {{"sweep"}, "'sweep': a verb is missing; known: plan, run, status, merge, submit, unpack"},
+      {{"sweep", "mrege", "sweep"}, "'sweep': there is no verb 'mrege'; did you mean 'merge'?"},
+      {{"run", "--plan", "sweep", "--shard", "1"}, "`run --plan SWEEP` is now `sweep run SWEEP`"},
       {{"run"}, "'run' needs FILE: scenario or suite files"},
-      {{"plan", "room.yaml", "--out", "s", "--shards", "1001"}, "allowed: a whole number 1 .. 1000"},
-      {{"status", "."}, "it has no sweep.json"},
-      {{"submit", "pbs", "sweep"}, "'pbs' is no batch system; allowed: slurm"}};
+      {{"sweep", "plan", "room.yaml", "--out", "s", "--shards", "1001"}, "allowed: a whole number 1 .. 1000"},
+      {{"sweep", "status", "."}, "it has no sweep.json"},
+      {{"sweep", "submit", "pbs", "sweep"}, "'pbs' is not a batch system; allowed: slurm"}};
   for (const auto& [args, message] : cases) {
     const auto outcome = run(args, {}, folder.path());
     EXPECT_EQ(outcome.code, 2) << args[0];
@@ -118,7 +121,7 @@ TEST(SweepVerbs, RefusalsSayWhatIsAllowed) {
 TEST(SweepVerbs, WithoutSlurmSubmitSaysWhatElseRunsASweep) {
   const Folder folder;
   plan_room(folder);
-  const auto outcome = run({"submit", "slurm", "sweep"}, {{"PATH", "/nowhere"}}, folder.path());
+  const auto outcome = run({"sweep", "submit", "slurm", "sweep"}, {{"PATH", "/nowhere"}}, folder.path());
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("cannot start sbatch"));
   EXPECT_THAT(outcome.err, HasSubstr("docs/cluster.md"));
@@ -136,11 +139,11 @@ std::string without(const std::string& text, const std::string& word) {
 TEST(SweepVerbs, AnArchivedRunIsReportedComparedAndUnpacked) {
   const Folder folder;
   folder.write("room.yaml", room());
-  ASSERT_EQ(run({"plan", "room.yaml", "--seed", "1,2,3", "--out", "sweep", "-q"}, {}, folder.path()).code, 0);
+  ASSERT_EQ(run({"sweep", "plan", "room.yaml", "--seed", "1,2,3", "--out", "sweep", "-q"}, {}, folder.path()).code, 0);
   for (const char* shard : {"1", "2", "3"})
-    ASSERT_EQ(run({"run", "--plan", "sweep", "--shard", shard, "-q"}, {}, folder.path()).code, 0);
-  const auto as_files = run({"merge", "sweep", "--out", "files", "--cells", "files"}, {}, folder.path());
-  const auto archived = run({"merge", "sweep", "--out", "archived", "--cells", "archives"}, {}, folder.path());
+    ASSERT_EQ(run({"sweep", "run", "sweep", "--shard", shard, "-q"}, {}, folder.path()).code, 0);
+  const auto as_files = run({"sweep", "merge", "sweep", "--out", "files", "--cells", "files"}, {}, folder.path());
+  const auto archived = run({"sweep", "merge", "sweep", "--out", "archived", "--cells", "archives"}, {}, folder.path());
   ASSERT_EQ(archived.code, 0) << archived.err;
   EXPECT_EQ(without(archived.out, "report.html"), without(as_files.out, "report.html"));
   for (const char* file : {"summary.csv", "figures/room_environment.svg"})
@@ -189,17 +192,17 @@ TEST(SweepVerbs, AnArchivedRunIsReportedComparedAndUnpacked) {
   }
 
   const std::pair<Args, std::string> refused[] = {
-      {{"score", "archived"}, "`scanbench unpack archived`"},
-      {{"run", "room.yaml", "--seed", "1,2,3", "--out", "archived", "--resume"}, "`scanbench unpack "},
-      {{"unpack", "archived", "room"}, "allowed: SCENARIO/PIPELINE/SEED"},
-      {{"unpack", "archived", "room/none/1"}, "archived has no cell room/none/1"},
-      {{"unpack", "files"}, "files has no archives"}};
+      {{"score", "archived"}, "`scanbench sweep unpack archived`"},
+      {{"run", "room.yaml", "--seed", "1,2,3", "--out", "archived", "--resume"}, "`scanbench sweep unpack "},
+      {{"sweep", "unpack", "archived", "room"}, "allowed: SCENARIO/PIPELINE/SEED"},
+      {{"sweep", "unpack", "archived", "room/none/1"}, "archived has no cell room/none/1"},
+      {{"sweep", "unpack", "files"}, "files has no archives"}};
   for (const auto& [args, message] : refused) {
     const auto outcome = run(args, {}, folder.path());
     EXPECT_EQ(outcome.code, 2) << args[0];
     EXPECT_THAT(outcome.err, HasSubstr(message));
   }
-  const auto unpacked = run({"unpack", "archived"}, {}, folder.path());
+  const auto unpacked = run({"sweep", "unpack", "archived"}, {}, folder.path());
   EXPECT_EQ(unpacked.code, 0) << unpacked.err;
   EXPECT_FALSE(fs::exists(folder / "archived/archives"));
   EXPECT_EQ(run({"score", "archived", "-q"}, {}, folder.path()).code, 0);
@@ -230,11 +233,11 @@ TEST(SweepVerbs, CommandsOfThePageAboutClustersRunAsWritten) {
   for (const auto& line : commands) {
     if (!has_parallel && line.find("| parallel") != std::string::npos) {
       for (const char* shard : {"1", "2", "3", "4"})
-        EXPECT_EQ(run({"run", "--plan", "sweep-parallel", "--shard", shard, "-q"}, {}, folder.path()).code, 0);
+        EXPECT_EQ(run({"sweep", "run", "sweep-parallel", "--shard", shard, "-q"}, {}, folder.path()).code, 0);
       continue;
     }
     const auto outcome = Child({"/bin/sh", "-c", line}, {{"PATH", path}}, folder.path()).wait();
-    const bool is_incomplete = line.starts_with("scanbench status");  // two shards are missing, as the page says
+    const bool is_incomplete = line.starts_with("scanbench sweep status");  // two shards are missing, as the page says
     EXPECT_EQ(outcome.code, is_incomplete && line.find('|') == std::string::npos ? 4 : 0) << line << "\n"
                                                                                           << outcome.err;
   }

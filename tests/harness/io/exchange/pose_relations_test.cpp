@@ -112,7 +112,7 @@ TEST(PoseRelations, OutOfThePlaneCutShortOrOfAnotherLogAreRefused) {
   EXPECT_THAT(refusal("10 11 1 2 0 0 0.01 0.5\n"), HasSubstr("pitch is 0.01"));
   EXPECT_THAT(refusal("10 11 1 2 0 0 0\n"), HasSubstr("r.txt:1:1: 7 fields in a row"));
   EXPECT_THAT(refusal("10 11 1 2 0 0 0 nan\n"), HasSubstr("r.txt:1:17: yaw"));
-  EXPECT_THAT(refusal("EDGE2 0 3 1 2 0\n"), HasSubstr("r.txt:1:9: '3' is no scan of the log; allowed: 0 to 2"));
+  EXPECT_THAT(refusal("EDGE2 0 3 1 2 0\n"), HasSubstr("r.txt:1:9: '3' is not a scan of the log; allowed: 0 to 2"));
   EXPECT_THAT(refusal("EDGE2 0 1 1 2\n"), HasSubstr("an EDGE2 row of 5 words"));
   EXPECT_THAT(refusal("EDGE2 0 1 1 oops 0\n"), HasSubstr("r.txt:1:13: y"));
   EXPECT_THAT(refusal("20 21 1 2 0 0 0 0\n"), HasSubstr("none of its 1 relations is between two scans of the log"));

@@ -1,4 +1,4 @@
-// Paths that are no regular file, and files that are too large, are refused before they can block a run or fill the
+// Paths that are not regular files, and files that are too large, are refused before they can block a run or fill the
 // memory.
 #include "harness/io/files/input_file.hpp"
 

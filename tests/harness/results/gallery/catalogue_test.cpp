@@ -68,7 +68,7 @@ TEST(Catalogue, OnlySomeEntriesNeedOnlyTheirScenarios) {
   const Catalogue one = parse(two, {"b"});
   ASSERT_EQ(one.scenarios.size(), 1U);
   EXPECT_EQ(one.scenarios[0].name, "lakaemper2010_four_rooms");
-  EXPECT_THAT(refusal(two, {"c"}), AllOf(HasSubstr("--only"), HasSubstr("'c'"), HasSubstr("a, b")));
+  EXPECT_THAT(refusal(two, {"c"}), AllOf(HasSubstr("--entry"), HasSubstr("'c'"), HasSubstr("a, b")));
 }
 
 TEST(Catalogue, DrawsOneKindOfFigureTwiceOnlyFromTheSameTraces) {

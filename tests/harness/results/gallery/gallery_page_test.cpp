@@ -21,7 +21,7 @@ TEST(GalleryPage, NamesEveryEntryOfTheCatalogueAndShowsPicturesThatExist) {
   const Catalogue catalogue = load_catalogue(places::source_dir() / "scenarios/figures.yaml");
   std::size_t drawn = 0;
   for (const CatalogueEntry& entry : catalogue.entries) {
-    EXPECT_TRUE(page.find("--only " + entry.name + "`") != std::string::npos) << entry.name;
+    EXPECT_TRUE(page.find("--entry " + entry.name + "`") != std::string::npos) << entry.name;
     drawn += entry.figure.size();
   }
   for (const AbsentEntry& entry : catalogue.absent)

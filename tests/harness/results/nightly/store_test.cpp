@@ -1,4 +1,4 @@
-// The store of nights: what goes in comes out, and files that are no stores are refused.
+// The store of nights: what goes in comes out, and files that are not stores are refused.
 #include "harness/results/nightly/store.hpp"
 
 #include <gmock/gmock.h>
@@ -88,6 +88,39 @@ TEST(Store, ListsTheNightsOfASuiteAndTheirTrend) {
   std::vector<double> values;
   for (const auto& point : store.trend("suite", "room", "iepf", "f1", 3)) values.push_back(point.value);
   EXPECT_THAT(values, ElementsAre(::testing::DoubleEq(0.21), ::testing::DoubleEq(0.41), ::testing::DoubleEq(0.51)));
+}
+
+TEST(Store, KeepsNightsWithOverridesOutOfTheTrend) {
+  const support::TemporaryFolder folder;
+  Store store(folder.path() / "nights.sqlite");
+  store.add("suite", "run", night_of("2026-01-01", {0.1}));
+  RunResults other = night_of("2026-01-02", {0.9});
+  other.overrides = {"sensor.sigma_m=0.02", "caster=box2d"};
+  store.add("suite", "run", other);
+  store.add("suite", "run", night_of("2026-01-03", {0.2}));
+  std::vector<double> values;
+  for (const TrendPoint& point : store.trend("suite", "room", "iepf", "f1", 2)) values.push_back(point.value);
+  EXPECT_THAT(values, ElementsAre(0.1, 0.2));
+  ASSERT_EQ(store.nights("suite").size(), 3U);
+  EXPECT_EQ(store.nights("suite")[1].overrides, "sensor.sigma_m=0.02, caster=box2d");
+}
+
+TEST(Store, OfAnEarlierVersionGetsTheOverridesOfItsCommands) {
+  const support::TemporaryFolder folder;
+  const auto file = folder.path() / "nights.sqlite";
+  {
+    Store store(file);
+    for (const char* command : {"scanbench nightly s.yaml", "scanbench nightly s.yaml --set a=1 --store n",
+                                "scanbench nightly s.yaml --set=b=2", "scanbench nightly my --settings.yaml"}) {
+      RunResults night = night_of("2026-01-01", {0.1});
+      night.provenance.command = command;
+      store.add("suite", "run", night);
+    }
+  }
+  Database(file, Database::Access::write).execute("ALTER TABLE nights DROP COLUMN overrides");
+  std::vector<std::string> overrides;
+  for (const Night& night : Store(file).nights("suite")) overrides.push_back(night.overrides);
+  EXPECT_THAT(overrides, ElementsAre("", "a=1 --store n", "b=2", ""));
 }
 
 TEST(Store, ReplacesTheKilledNightsOfTheSameFolder) {

@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "harness/runs/execute/runner.hpp"
 #include "harness/study/scenario/scenario_file.hpp"
@@ -79,6 +82,48 @@ TEST(Forecast, OfFewScansIsTheirRun) {
   EXPECT_EQ(forecast.scans, 3U);
   EXPECT_EQ(forecast.rays, 0);
   EXPECT_EQ(forecast.sample, 3U);
+}
+
+/// Many scenarios that differ in their number of beams, with the same pipelines.
+std::vector<study::Scenario> rooms_of_many_sizes(const std::string& pipelines) {
+  std::vector<study::Scenario> rooms;
+  for (int i = 0; i < 60; ++i) {
+    rooms.push_back(room(pipelines));
+    rooms.back().name += std::to_string(i);
+    rooms.back().seeds = {1};
+  }
+  return rooms;
+}
+
+TEST(Forecast, OfManyScenariosTriesSomeAndForetellsAll) {
+  const auto rooms = rooms_of_many_sizes("{name: a, extract: {module: iepf}}, {name: b, extract: {module: polyline}}");
+  const auto start = std::chrono::steady_clock::now();
+  const Forecast forecast = forecast_run(rooms, {.out = "unused"});
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_LT(seconds, 2 * kForecastSeconds);
+  ASSERT_EQ(forecast.scenarios.size(), 60U);
+  EXPECT_GE(forecast.tried, 6U);
+  for (const ScenarioForecast& one : forecast.scenarios) {
+    EXPECT_EQ(one.cells, 2U);
+    EXPECT_EQ(one.rays, 60 * 361);
+    EXPECT_GT(one.seconds, 0);
+    EXPECT_NEAR(one.bytes, forecast.scenarios[0].bytes, 0.1 * one.bytes);  // all rooms are equal
+  }
+}
+
+TEST(Forecast, OfAPipelineThatDoesNotEndIsCutOff) {
+  // Nine scenarios whose second pipeline never ends.
+  std::vector<study::Scenario> rooms;
+  for (int i = 0; i < 9; ++i) {
+    rooms.push_back(
+        room("{name: a, extract: {module: iepf}}, {name: b" + std::to_string(i) + ", extract: {module: test_hang}}"));
+    rooms.back().name += std::to_string(i);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const Forecast forecast = forecast_run(rooms, {.out = "unused"});
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 2 * kForecastSeconds);
+  EXPECT_EQ(forecast.cut_off, 9U);
+  for (const ScenarioForecast& one : forecast.scenarios) EXPECT_TRUE(one.faults.empty());
 }
 
 }  // namespace

@@ -98,7 +98,8 @@ TEST_F(StoredRun, SaysWhatIsMissing) {
                 HasSubstr("cells/s/a/9/other.csv"));
   }
   EXPECT_NO_THROW(RunStore(folders_).require_folders());
-  EXPECT_THAT(support::config_refusal([&] { RunStore(archived_).require_folders(); }), HasSubstr("`scanbench unpack"));
+  EXPECT_THAT(support::config_refusal([&] { RunStore(archived_).require_folders(); }),
+              HasSubstr("`scanbench sweep unpack"));
 }
 
 TEST_F(StoredRun, TakesAFolderThatWasUnpackedBeforeTheArchive) {

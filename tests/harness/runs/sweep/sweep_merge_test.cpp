@@ -238,7 +238,7 @@ TEST(SweepMerge, MergedAsArchivesBecomesTheRunWhenItIsUnpacked) {
   EXPECT_TRUE(has_archives(merged));
   EXPECT_TRUE(fs::exists(cell_path(merged, {"one", "line", 1})));
   EXPECT_THAT(support::config_refusal([&] { RunStore(merged).require_folders(); }),
-              HasSubstr("`scanbench unpack " + merged.string() + "` writes all of their files"));
+              HasSubstr("`scanbench sweep unpack " + merged.string() + "` writes all of their files"));
   EXPECT_EQ(unpack_cells(merged, load_manifest(merged).cells), 4u);
   EXPECT_FALSE(has_archives(merged));
   EXPECT_EQ(fixtures::artefacts(merged), fixtures::artefacts(folder.path() / "local"));
@@ -281,7 +281,7 @@ TEST(SweepMerge, UnpackingRefusesDamagedArchivesAndUnknownCells) {
               HasSubstr("is cut off or has been changed"));
   EXPECT_FALSE(fs::exists(cell_path(merged, cell.key)));
   EXPECT_THAT(support::config_refusal([&] { run({room("one", "[1, 2]", kLine)}, {.out = merged, .resume = true}); }),
-              HasSubstr("`scanbench unpack"));
+              HasSubstr("`scanbench sweep unpack"));
 }
 
 /// No file that this process and its children write may have more bytes, while it exists.

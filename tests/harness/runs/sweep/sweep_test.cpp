@@ -287,9 +287,9 @@ TEST(Sweep, SlurmScriptsQuotePathsAndMergeAfterAnyOutcome) {
   SweepPlan plan;
   plan.folder = "/data/my sweep";
   const SlurmScripts scripts = slurm_scripts(plan, {.program = "/opt/scanbench", .run = "/r", .jobs = 3});
-  EXPECT_THAT(scripts.array, HasSubstr("exec /opt/scanbench run --plan '/data/my sweep' --jobs 3 --quiet\n"));
+  EXPECT_THAT(scripts.array, HasSubstr("exec /opt/scanbench sweep run '/data/my sweep' --jobs 3 --quiet\n"));
   EXPECT_THAT(scripts.array, HasSubstr("#SBATCH --cpus-per-task=3\n"));
-  EXPECT_THAT(scripts.merge, HasSubstr("exec /opt/scanbench merge '/data/my sweep' --out /r\n"));
+  EXPECT_THAT(scripts.merge, HasSubstr("exec /opt/scanbench sweep merge '/data/my sweep' --out /r\n"));
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ TEST_F(Published, WrongFilesAreRefusedWhenTheScenarioIsRead) {
               HasSubstr("paper.csv:2: unit is 'furlong'; allowed for n_lines"));
   EXPECT_THAT(refusal(head_ + "n_lines,a,LT,1,\nn_lines,a,LT,2,\n"),
               HasSubstr("paper.csv:3: a second value for n_lines, a, LT; the first is in line 2"));
-  EXPECT_THAT(refusal(head_ + "n_lines,a,IEPF,1,\n"), HasSubstr("pipeline lt reproduces 'LT', which is no method of"));
+  EXPECT_THAT(refusal(head_ + "n_lines,a,IEPF,1,\n"),
+              HasSubstr("pipeline lt reproduces 'LT', which is not a method of"));
 }
 
 TEST_F(Published, CentimetresBecomeMetres) {

@@ -352,5 +352,29 @@ pipelines: [{name: lt, extract: {module: line_tracking, params: {threshold_m: 0.
   EXPECT_FALSE(suite.rules.benchmark.has_value());
 }
 
+TEST(Suite, RefusesOverridesOfWhatAFactorSets) {
+  const support::TemporaryFolder folder;
+  folder.write("one.yaml", kSmall);
+  const auto file = folder.write("suite.yaml", R"(schema: 1
+scenarios: [one.yaml]
+pipelines: [{name: lt, extract: {module: line_tracking, params: {threshold_m: 0.2}}}]
+factors:
+  noise: {lo: {sensor.sigma_m: 0.01}, hi: {sensor.sigma_m: 0.05}}
+  corner: {round: {pipelines.lt.extract.params.threshold_m: 0.3}}
+)");
+  const auto refusal = [&](const std::string& set) {
+    return support::config_refusal([&] { load_suite(file, {"limits.seconds=60", set}); });
+  };
+  EXPECT_THAT(
+      refusal("sensor.sigma_m=0.02"),
+      HasSubstr("suite.yaml:5:16: the factor noise sets sensor.sigma_m, and --set sensor.sigma_m=0.02 would give "
+                "all of its levels one value"));
+  EXPECT_THAT(refusal("sensor={preset: urg_04lx}"), HasSubstr("suite.yaml:5:16: "));
+  for (const std::string set : {"pipelines.lt.extract.params.threshold_m=0.1",
+                                "pipelines.0.extract.params.threshold_m=1", "pipelines.lt.extract={module: iepf}"})
+    EXPECT_THAT(refusal(set), HasSubstr("suite.yaml:6:20: the factor corner sets")) << set;
+  EXPECT_EQ(load_suite(file, {"sensor.quantum_m=0", "pipelines.lt.extract.params.min_points=7"}).scenarios.size(), 2U);
+}
+
 }  // namespace
 }  // namespace scanbench::study

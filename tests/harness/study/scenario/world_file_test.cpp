@@ -111,10 +111,10 @@ TEST(VectorMap, RefusesWhatIsNoSegmentWithItsPlace) {
   const auto refusal = [](const std::string& text) {
     return support::config_refusal([&] { parse_vector_map(text, "m.txt"); });
   };
-  EXPECT_THAT(refusal("0, 0, 1, 0\n0, 0, x, 0\n"), HasSubstr("m.txt:2:7: 'x' is no number"));
+  EXPECT_THAT(refusal("0, 0, 1, 0\n0, 0, x, 0\n"), HasSubstr("m.txt:2:7: 'x' is not a number"));
   EXPECT_THAT(refusal("0, 0, 1\n"), HasSubstr("m.txt:1:1: 3 numbers in a line"));
-  EXPECT_THAT(refusal("0, 0,, 1\n"), HasSubstr("m.txt:1:6: '' is no number"));
-  EXPECT_THAT(refusal("0 0 nan 1\n"), HasSubstr("m.txt:1:5: 'nan' is no number"));
+  EXPECT_THAT(refusal("0, 0,, 1\n"), HasSubstr("m.txt:1:6: '' is not a number"));
+  EXPECT_THAT(refusal("0 0 nan 1\n"), HasSubstr("m.txt:1:5: 'nan' is not a number"));
   EXPECT_THAT(refusal("1 1 1 1\n"), HasSubstr("the world has no walls"));
   EXPECT_THAT(refusal(""), HasSubstr("the world has no walls"));
 }

@@ -1,5 +1,5 @@
-// The verbs nightly, accept and store: results that are kept from night to night.
-#include "app/verbs/nightly.hpp"
+// The verbs `night run`, `night accept` and `night store`: results that are kept from night to night.
+#include "app/verbs/night.hpp"
 
 #include <fmt/format.h>
 
@@ -12,6 +12,7 @@
 
 #include "app/inputs.hpp"
 #include "app/options.hpp"
+#include "app/seed_list.hpp"
 #include "app/terminal/progress.hpp"
 #include "app/terminal/running.hpp"
 #include "core/error.hpp"
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kBaselines = "baselines";
 
-struct NightlyOptions {
+struct NightOptions {
   std::vector<std::string> files, sets, seeds;
   std::string store, out, suite, baseline;
   std::string baselines = kBaselines;
@@ -49,9 +50,9 @@ struct StoreOptions {
   std::vector<std::string> runs;
 };
 
-int nightly(const NightlyOptions& options, const std::vector<std::string>& argv) {
+int run_night(const NightOptions& options, const std::vector<std::string>& argv) {
   if (options.files.size() > 1 && options.suite.empty())
-    throw ConfigError(fmt::format("nightly: {} files have no common name; --suite must name the suite that they make",
+    throw ConfigError(fmt::format("night run: {} files have no common name; --suite must name the suite that they make",
                                   options.files.size()));
   std::string suite;
   runs::RunOptions run_options;
@@ -113,12 +114,14 @@ int add_to_store(const StoreOptions& options) {
   return kGood;
 }
 
-void add_night(CommandLine& line) {
-  auto options = std::make_shared<NightlyOptions>();
-  Verb verb = line.add_verb(
-      "nightly",
-      "Runs a suite, keeps its results, judges them against the baseline and writes a page; exit code 1 if a gate is "
-      "worse or a cell failed, 4 if cells are missing, 5 if both");
+void add_night_run(Verb& night, const CommandLine& line) {
+  auto options = std::make_shared<NightOptions>();
+  Verb verb =
+      night.add_verb("run", "Runs a suite, keeps its results, judges them against the baseline and writes a page");
+  verb.details(
+      "The exit code is 1 if a gate is worse or a cell failed, 2 if nothing could be compared, 4 if cells are missing, "
+      "5 "
+      "if both 1 and 4.");
   verb.option("FILE", options->files, "a suite, or scenario files").required();
   verb.option("--store", options->store, "the file that keeps the results of all nights (SQLite)").required();
   verb.option("-o,--out", options->out, "the run folder, used again every night (default: out/nightly/<suite>)");
@@ -134,14 +137,14 @@ void add_night(CommandLine& line) {
   add_set_option(verb, options->sets);
   verb.flag("--no-figures", options->no_figures, "draw no figures of the scenarios");
   verb.flag("-q,--quiet", options->quiet, "print only the verdict and errors");
-  verb.runs([&line, options] { return nightly(*options, line.argv()); });
+  verb.runs([&line, options] { return run_night(*options, line.argv()); });
 }
 
 constexpr const char* kSuiteHelp = "the suite's name (default: that of its night, else of its folder)";
 
-void add_accept(CommandLine& line) {
+void add_night_accept(Verb& night) {
   auto options = std::make_shared<AcceptOptions>();
-  Verb verb = line.add_verb("accept", "Makes the values of a run the suite's new baseline");
+  Verb verb = night.add_verb("accept", "Makes the values of a run the suite's new baseline");
   verb.option("RUN", options->runs, "a complete run folder").required().values(1, 1);
   verb.option("--reason", options->reason, "why the baseline moves, for those who read it later").required();
   verb.option("--suite", options->suite, kSuiteHelp);
@@ -149,9 +152,9 @@ void add_accept(CommandLine& line) {
   verb.runs([options] { return accept(*options); });
 }
 
-void add_store(CommandLine& line) {
+void add_night_store(Verb& night) {
   auto options = std::make_shared<StoreOptions>();
-  Verb verb = line.add_verb("store", "Adds finished runs to a store of nights, or makes it again from them");
+  Verb verb = night.add_verb("store", "Adds finished runs to a store of nights, or makes it again from them");
   verb.option("FILE", options->store, "the store (made if there is none)").required();
   verb.option("RUN", options->runs, "run folders, oldest first").required();
   verb.option("--suite", options->suite, kSuiteHelp);
@@ -160,10 +163,12 @@ void add_store(CommandLine& line) {
 
 }  // namespace
 
-void add_nightly(CommandLine& line) {
-  add_night(line);
-  add_accept(line);
-  add_store(line);
+void add_night(CommandLine& line) {
+  Verb night = line.add_verb("night", "A suite every night: run, accept, store");
+  night.details("docs/nightly.md is the guide.");
+  add_night_run(night, line);
+  add_night_accept(night);
+  add_night_store(night);
 }
 
 }  // namespace scanbench::app

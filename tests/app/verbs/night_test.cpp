@@ -1,4 +1,4 @@
-// The verbs nightly, accept and store.
+// The verbs of `night`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,14 +31,23 @@ class Nightly : public testing::Test {
   }
   Outcome here(const Args& args) const { return run(args, {}, folder_.path()); }
   Outcome night(const Args& more = {}) const {
-    Args args{"nightly", "suite.yaml", "--no-figures"};
+    Args args{"night", "run", "suite.yaml", "--no-figures"};
     args.insert(args.end(), more.begin(), more.end());
     if (std::ranges::find(more, "--store") == more.end()) args.insert(args.end(), {"--store", "nights.sqlite"});
     return here(args);
   }
+  /// A night whose room has a threshold of iepf that rounds off every corner.
+  Outcome worse_night(const Args& more = {}) const {
+    const std::string good = read(folder_ / "room.yaml");
+    std::string bad = good;
+    const std::string threshold = "threshold_m: 0.10";
+    folder_.write("room.yaml", bad.replace(bad.find(threshold), threshold.size(), "threshold_m: 2"));
+    const Outcome outcome = night(more);
+    folder_.write("room.yaml", good);
+    return outcome;
+  }
   std::string page() const { return read(folder_ / "out/nightly/suite/nightly.html"); }
 
-  const Args worsened_ = {"--set", "pipelines.iepf.extract.params.threshold_m=2"};
   Folder folder_;
 };
 
@@ -46,8 +55,8 @@ TEST_F(Nightly, FailsWhenAParameterMakesAGateWorseAndPassesWhenItIsRestored) {
   const Outcome first = night();
   EXPECT_EQ(first.code, 0) << first.err;
   EXPECT_THAT(first.out, HasSubstr("PASS: this is the first night of the suite"));
-  ASSERT_EQ(here({"accept", "out/nightly/suite", "--reason", "first"}).code, 0);
-  const Outcome worse = night(worsened_);
+  ASSERT_EQ(here({"night", "accept", "out/nightly/suite", "--reason", "first"}).code, 0);
+  const Outcome worse = worse_night();
   EXPECT_EQ(worse.code, 1) << worse.err;
   EXPECT_THAT(worse.out, AllOf(HasSubstr("FAIL: "), HasSubstr(" of iepf in room "), HasSubstr("95 % interval"),
                                HasSubstr("over 4 seeds")));
@@ -60,12 +69,13 @@ TEST_F(Nightly, FailsWhenAParameterMakesAGateWorseAndPassesWhenItIsRestored) {
   const Outcome restored = night();
   EXPECT_EQ(restored.code, 0) << restored.out;
   EXPECT_THAT(restored.out, HasSubstr("PASS: none of 4 gates is worse (4 equal to the bit)."));
-  EXPECT_THAT(here({"accept", "out/nightly/suite", "--reason", "again"}).err, HasSubstr("has these values already"));
+  EXPECT_THAT(here({"night", "accept", "out/nightly/suite", "--reason", "again"}).err,
+              HasSubstr("has these values already"));
 }
 
 TEST_F(Nightly, KeepsTheNameOfItsSuiteInAnyFolder) {
   ASSERT_EQ(night({"--out", "elsewhere"}).code, 0);
-  const Outcome accepted = here({"accept", "elsewhere", "--reason", "first"});
+  const Outcome accepted = here({"night", "accept", "elsewhere", "--reason", "first"});
   EXPECT_THAT(accepted.out, HasSubstr("baselines/suite/0001.json")) << accepted.err;
   ASSERT_EQ(night({"--out", "elsewhere"}).code, 0);
   EXPECT_THAT(read(folder_ / "elsewhere/nightly.html"), HasSubstr("baseline 0001"));
@@ -73,15 +83,13 @@ TEST_F(Nightly, KeepsTheNameOfItsSuiteInAnyFolder) {
 
 TEST_F(Nightly, ShowsTheScanOfTheLastGoodNightThatIsInAnotherFolder) {
   ASSERT_EQ(night({"--out", "first"}).code, 0);
-  Args second = worsened_;
-  second.insert(second.end(), {"--out", "second"});
-  ASSERT_EQ(night(second).code, 1);
+  ASSERT_EQ(worse_night({"--out", "second"}).code, 1);
   EXPECT_THAT(read(folder_ / "second/nightly.html"), AllOf(HasSubstr(". Before: "), HasSubstr(". Now: ")));
 }
 
 TEST_F(Nightly, WithoutAReferenceLeavesNoComparisonOfAnEarlierNight) {
   ASSERT_EQ(night().code, 0);
-  ASSERT_EQ(night(worsened_).code, 1);
+  ASSERT_EQ(worse_night().code, 1);
   ASSERT_TRUE(fs::exists(folder_ / "out/nightly/suite/comparison.md"));
   ASSERT_EQ(night({"--store", "other.sqlite"}).code, 0);
   for (const char* file : {"comparison.md", "comparison.json", "comparison.junit.xml"})
@@ -95,8 +103,10 @@ TEST_F(Nightly, RefusesAFolderOfBaselinesThatIsNotThere) {
 }
 
 TEST_F(Nightly, AfterABadFirstNightSaysThatThereIsNoReference) {
-  folder_.write("room.yaml", room_with("metrics:", "  - {name: hang, extract: {module: iepf}}\nmetrics:"));
-  const Outcome first = night({"--set", "limits.seconds=0.000001"});
+  const std::string good = room_with("metrics:", "  - {name: hang, extract: {module: iepf}}\nmetrics:");
+  folder_.write("room.yaml", good + "limits: {seconds: 0.000001}\n");
+  const Outcome first = night();
+  folder_.write("room.yaml", good);
   EXPECT_EQ(first.code, 1) << first.out;
   EXPECT_THAT(first.out, HasSubstr("cells are not ok, first room/"));
   const Outcome second = night();
@@ -106,16 +116,36 @@ TEST_F(Nightly, AfterABadFirstNightSaysThatThereIsNoReference) {
 
 TEST_F(Nightly, WithoutABaselineIsComparedWithTheLastGoodNight) {
   ASSERT_EQ(night().code, 0);
-  EXPECT_EQ(night(worsened_).code, 1);
-  EXPECT_EQ(night(worsened_).code, 1);  // a bad night is no reference
+  EXPECT_EQ(worse_night().code, 1);
+  EXPECT_EQ(worse_night().code, 1);  // a bad night is not a reference
   EXPECT_EQ(night().code, 0);
+}
+
+TEST_F(Nightly, WithOverridesIsJudgedAndMarkedAndNoOtherNightIsComparedWithIt) {
+  ASSERT_EQ(night().code, 0);
+  const Args same{"--set", "pipelines.iepf.extract.params.threshold_m=0.1"};  // the value of the file: all is equal
+  const Outcome marked = night(same);
+  EXPECT_EQ(marked.code, 0) << marked.out;
+  EXPECT_THAT(page(), HasSubstr("This night ran with --set pipelines.iepf.extract.params.threshold_m=0.1. It is in no "
+                                "trend, and no later night is compared with it."));
+  const results::Store store(folder_ / "nights.sqlite");
+  const auto nights = store.nights("suite");
+  ASSERT_EQ(nights.size(), 2U);
+  EXPECT_EQ(nights[0].overrides, "");
+  EXPECT_EQ(nights[1].overrides, "pipelines.iepf.extract.params.threshold_m=0.1");
+  EXPECT_EQ(store.trend("suite", "room", "iepf", "f1", 30).size(), 1U);
+  const Outcome third = night();
+  EXPECT_THAT(page(), AllOf(HasSubstr("Compared with the last good night, " + nights[0].start),
+                            HasSubstr("with --set pipelines.iepf.extract.params.threshold_m=0.1: PASS"),
+                            Not(HasSubstr("This night ran with --set"))));
 }
 
 TEST_F(Nightly, KilledInItsMiddleAndStartedAgainEqualsAnUnbrokenOne) {
   ASSERT_EQ(night({"--out", "whole", "--store", "whole.sqlite"}).code, 0);
   {
-    const Child child(command({"nightly", "suite.yaml", "--store", "broken.sqlite", "--no-figures", "--out", "broken"}),
-                      {}, folder_.path());
+    const Child child(
+        command({"night", "run", "suite.yaml", "--store", "broken.sqlite", "--no-figures", "--out", "broken"}), {},
+        folder_.path());
     child.wait_until([&] {
       return fs::exists(folder_ / "broken/cells/room/iepf/2/status.json") ||
              fs::exists(folder_ / ".broken.new/cells/room/iepf/2/status.json");
@@ -148,7 +178,7 @@ TEST_F(Nightly, KilledInItsMiddleAndStartedAgainEqualsAnUnbrokenOne) {
 }
 
 TEST_F(Nightly, InterruptedSaysThatTheSameCommandContinues) {
-  Child child(command({"nightly", "suite.yaml", "--store", "n.sqlite", "--no-figures", "--out", "night"}), {},
+  Child child(command({"night", "run", "suite.yaml", "--store", "n.sqlite", "--no-figures", "--out", "night"}), {},
               folder_.path());
   ASSERT_TRUE(child.wait_until([&] {
     return fs::exists(folder_ / "night/cells/room/iepf/1/status.json") ||
@@ -162,7 +192,7 @@ TEST_F(Nightly, InterruptedSaysThatTheSameCommandContinues) {
 
 TEST_F(Nightly, StoreIsMadeAgainFromRunFolders) {
   ASSERT_EQ(night().code, 0);
-  const Outcome made = here({"store", "again.sqlite", "out/nightly/suite"});
+  const Outcome made = here({"night", "store", "again.sqlite", "out/nightly/suite"});
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("8 cells"));
   const results::Store again(folder_ / "again.sqlite");
@@ -188,24 +218,24 @@ TEST_F(Nightly, SaysBeforeTheNightWhatCannotBeUsed) {
 }
 
 TEST_F(Nightly, NamesAnOptionThatIsMisspeltAndAFileThatIsNotWhatItSays) {
-  const Outcome misspelt = here({"nightly", "suite.yaml", "--sotre", "nights.sqlite"});
+  const Outcome misspelt = here({"night", "run", "suite.yaml", "--sotre", "nights.sqlite"});
   EXPECT_EQ(misspelt.code, 2);
   EXPECT_THAT(misspelt.err, AllOf(HasSubstr("no option '--sotre'"), HasSubstr("did you mean '--store'?")));
   folder_.write("second.yaml", room());
-  const Outcome two = here({"nightly", "room.yaml", "second.yaml", "--store", "nights.sqlite"});
+  const Outcome two = here({"night", "run", "room.yaml", "second.yaml", "--store", "nights.sqlite"});
   EXPECT_EQ(two.code, 2);
   EXPECT_THAT(two.err, HasSubstr("2 files have no common name; --suite must name the suite"));
   EXPECT_FALSE(fs::exists(folder_ / "out"));
   ASSERT_EQ(night().code, 0);
   folder_.write("out/nightly/suite/night.json", "{}");
-  const Outcome damaged = here({"accept", "out/nightly/suite", "--reason", "first"});
+  const Outcome damaged = here({"night", "accept", "out/nightly/suite", "--reason", "first"});
   EXPECT_EQ(damaged.code, 2);
   EXPECT_THAT(damaged.err, HasSubstr("night.json: the key 'suite' is missing"));
 }
 
 TEST_F(Nightly, TakesTheNumberOfABaselineWithoutItsZeros) {
   ASSERT_EQ(night().code, 0);
-  ASSERT_EQ(here({"accept", "out/nightly/suite", "--reason", "first"}).code, 0);
+  ASSERT_EQ(here({"night", "accept", "out/nightly/suite", "--reason", "first"}).code, 0);
   EXPECT_EQ(night({"--baseline", "1"}).code, 0);
   EXPECT_THAT(page(), HasSubstr("baseline 0001"));
   EXPECT_THAT(night({"--baseline", "2"}).err, HasSubstr("no baseline '2' of suite; known: 0001"));
@@ -217,7 +247,7 @@ TEST_F(Nightly, SaysHowManyCellsItTookFromTheLastNightOnlyIfItTookAny) {
 }
 
 TEST_F(Nightly, OfTwoAtOnceOnANewStoreBothAreKept) {
-  Child first(command({"nightly", "suite.yaml", "--no-figures", "--store", "both.sqlite", "--out", "one"}), {},
+  Child first(command({"night", "run", "suite.yaml", "--no-figures", "--store", "both.sqlite", "--out", "one"}), {},
               folder_.path());
   EXPECT_EQ(night({"--store", "both.sqlite", "--out", "two"}).code, 0);
   EXPECT_EQ(first.wait().code, 0);
@@ -238,13 +268,21 @@ TEST_F(Nightly, ComparesALogByItsScansWithTheLastGoodNightAndByValueWithABaselin
                 "params: {threshold_m: 0.1}}}\nmetrics: [siadat1997]\n");
   folder_.write("suite.yaml", "schema: 1\nscenarios: [log.yaml]\ngates: {d_mean: 0.0001}\n");
   ASSERT_EQ(night().code, 0);
-  const Outcome worse = night({"--set", "pipelines.iepf.extract.params.threshold_m=0.6"});
+  const auto worse_log = [&] {
+    const std::string good = read(folder_ / "log.yaml");
+    std::string bad = good;
+    folder_.write("log.yaml", bad.replace(bad.find("threshold_m: 0.1"), 16, "threshold_m: 0.6"));
+    const Outcome outcome = night();
+    folder_.write("log.yaml", good);
+    return outcome;
+  };
+  const Outcome worse = worse_log();
   EXPECT_EQ(worse.code, 1) << worse.out << worse.err;
   EXPECT_THAT(worse.out, HasSubstr("over 40 scans in blocks of"));
   EXPECT_THAT(page(), AllOf(HasSubstr("per-scan pairs: 40 scans in blocks of"), HasSubstr("40 scans")));
   ASSERT_EQ(night().code, 0);
-  ASSERT_EQ(here({"accept", "out/nightly/suite", "--reason", "first"}).code, 0);
-  const Outcome by_value = night({"--set", "pipelines.iepf.extract.params.threshold_m=0.6"});
+  ASSERT_EQ(here({"night", "accept", "out/nightly/suite", "--reason", "first"}).code, 0);
+  const Outcome by_value = worse_log();
   EXPECT_EQ(by_value.code, 1) << by_value.out;
   EXPECT_THAT(by_value.out, HasSubstr("without an interval: baseline 0001 keeps no single scans"));
   EXPECT_THAT(page(), HasSubstr("value only"));
@@ -263,7 +301,7 @@ TEST_F(Nightly, IsIncompleteWhereAScenarioIsGone) {
 TEST_F(Nightly, PageSortsFollowsItsLinksAndRequestsNothing) {
   if (!has_browser()) GTEST_SKIP() << "chromium is not installed";
   ASSERT_EQ(night().code, 0);
-  ASSERT_EQ(night(worsened_).code, 1);
+  ASSERT_EQ(worse_night().code, 1);
   const fs::path html = folder_ / "out/nightly/suite/nightly.html";
   // The first table with a metric column: click its heading twice; the rows are then in both orders.
   const std::string sorted = title_after(html, R"js(
