@@ -131,6 +131,13 @@ std::string few_seeds_text(const Comparison& comparison) {
                      counted(few, "gate changed", "gates changed"));
 }
 
+/// " Better: f1 of iepf in abcdef rose from ...", or nothing.
+std::string better_text(const Comparison& comparison) {
+  const auto better = changes_with(comparison, Finding::better);
+  if (better.empty()) return "";
+  return fmt::format(" {}: {}.", better.size() == 1 ? "Better" : "The best", change_sentence(*better.front()));
+}
+
 /// "98 equal to the bit, 20 within their tolerance, 2 better".
 std::string other_gates(const Comparison& comparison) {
   std::vector<std::string> parts;
@@ -184,7 +191,7 @@ std::string verdict_sentence(const Comparison& comparison) {
   const std::string others = other_gates(comparison);
   text += fmt::format("none of {} is worse{}.", counted(comparison.gates, "gate", "gates"),
                       others.empty() ? "" : " (" + others + ")");
-  text += few_seeds_text(comparison);
+  text += few_seeds_text(comparison) + better_text(comparison);
   if (!comparison.added.empty())
     text += fmt::format(" {} new and not compared.", counted(comparison.added.size(), "cell is", "cells are"));
   return text + others_text;

@@ -154,6 +154,17 @@ ShownScan drawn_scan(const ChosenCell& cell, std::vector<render::NamedResult> re
           .scene = std::move(drawn.front().scene)};
 }
 
+/// A panel of the scene with the view that it has beside the others, without title and legend.
+render::Scene panel_alone(render::Scene scene, std::size_t panel) {
+  scene.panels = {scene.panels[panel]};
+  scene.columns = 1;
+  scene.width_in = render::kSingleColumnIn;
+  scene.title.clear();
+  scene.legend.clear();
+  scene.scale_bar = false;
+  return scene;
+}
+
 }  // namespace
 
 ShownScan show_scan(const fs::path& run, const ScanChoice& choice) {
@@ -163,17 +174,20 @@ ShownScan show_scan(const fs::path& run, const ScanChoice& choice) {
   return shown;
 }
 
-std::optional<ShownScan> show_scan_in_both(const fs::path& before, const fs::path& now, const ScanChoice& choice) {
+std::optional<ScanPair> show_scan_in_both(const fs::path& before, const fs::path& now, const ScanChoice& choice) {
   const ChosenCell cell(now, choice);
   const ChosenCell earlier(before, {.scenario = cell.key.scenario,
                                     .pipeline = cell.key.pipeline,
                                     .seed = cell.key.seed,
                                     .frame = std::to_string(cell.frame)});
   if (!is_same_scan(earlier, cell)) return std::nullopt;
-  ShownScan shown =
-      drawn_scan(cell, {earlier.named(cell.key.pipeline + " before"), cell.named(cell.key.pipeline + " now")});
-  shown.text += ". Before: " + earlier.rows->text(cell.frame) + ". Now: " + cell.rows->text(cell.frame) + ".";
-  return shown;
+  ShownScan both = drawn_scan(cell, {earlier.named("before"), cell.named("now")});  // one panel if the lines are equal
+  ScanPair pair{both, both};
+  pair.before.text = earlier.rows->text(cell.frame);
+  pair.before.scene = panel_alone(both.scene, 0);
+  pair.now.text = cell.rows->text(cell.frame);
+  pair.now.scene = panel_alone(both.scene, both.scene.panels.size() - 1);
+  return pair;
 }
 
 std::string picture_bytes(const render::Scene& scene, const fs::path& path) {

@@ -18,13 +18,24 @@
 #include "harness/results/nightly/comparison_tables.hpp"
 #include "harness/results/nightly/status_matrix.hpp"
 #include "harness/results/pages/page_parts.hpp"
+#include "harness/results/player/player_page.hpp"
 #include "harness/results/tables/ranking_parts.hpp"
 
 namespace scanbench::results {
 namespace {
 
+/// "a -> b" with an arrow that no line break cuts in two.
+std::string with_arrow(std::string text) {
+  for (std::size_t at = 0; (at = text.find(" -> ", at)) != std::string::npos;) text.replace(at, 4, " → ");
+  return text;
+}
+
+/// The first sentence answers the question of the page; the reasons are below it.
 Blocks verdict_blocks(const NightInput& input) {
-  Blocks blocks{Paragraph{input.sentence, input.sentence.starts_with("PASS") ? "verdict good" : "verdict bad"}};
+  const std::size_t end = std::min(input.sentence.find(". "), input.sentence.size() - 1) + 1;
+  Blocks blocks{
+      Paragraph{input.sentence.substr(0, end), input.sentence.starts_with("PASS") ? "verdict good" : "verdict bad"}};
+  if (end < input.sentence.size()) blocks.push_back(Paragraph{input.sentence.substr(end + 1)});
   if (input.comparison) blocks.push_back(Paragraph{"Compared with " + input.reference + "."});
   if (input.drift)
     blocks.push_back(Paragraph{
@@ -34,7 +45,7 @@ Blocks verdict_blocks(const NightInput& input) {
     constexpr std::size_t kNamed = 3;
     Prose text{"What differs: "};
     for (std::size_t i = 0; i < differing.size() && i < kNamed; ++i)
-      text.spans.emplace_back((i > 0 ? "; " : "") + differing[i]);
+      text.spans.emplace_back((i > 0 ? "; " : "") + with_arrow(differing[i]));
     if (differing.size() > kNamed) {
       text.spans.emplace_back("; ");
       text.spans.push_back(link(fmt::format("and {} more", differing.size() - kNamed), "#differs-section"));
@@ -45,9 +56,11 @@ Blocks verdict_blocks(const NightInput& input) {
   return blocks;
 }
 
-Blocks list_blocks(const std::vector<std::string>& items) {
-  if (items.empty()) return {};
-  return {BulletList{{items.begin(), items.end()}}};
+Blocks differing_blocks(const std::vector<std::string>& differing) {
+  if (differing.empty()) return {};
+  BulletList list;
+  for (const auto& difference : differing) list.items.emplace_back(with_arrow(difference));
+  return {std::move(list)};
 }
 
 Blocks picture_blocks(const std::vector<PicturePair>& pairs) {
@@ -60,8 +73,20 @@ Blocks picture_blocks(const std::vector<PicturePair>& pairs) {
                                        .caption = picture->caption,
                                        .data = "data:image/png;base64," + io::base64(picture->png)});
     blocks.push_back(Heading{3, pair.title});
-    blocks.push_back(std::move(shown));
+    Prose note{pair.note};
+    if (!pair.address.empty()) note.spans.insert(note.spans.end(), {" ", link("Play this scan.", pair.address)});
+    if (!pair.note.empty()) blocks.push_back(Paragraph{std::move(note)});
+    if (!shown.blocks.empty()) blocks.push_back(std::move(shown));
   }
+  return blocks;
+}
+
+/// The scans that show what became worse, with the key to their colours.
+Blocks scan_blocks(const std::vector<PicturePair>& scans) {
+  if (std::ranges::none_of(scans, [](const PicturePair& pair) { return pair.now.has_value(); }))
+    return picture_blocks(scans);
+  Blocks blocks{Heading{3, "The scans that show it"}, Markup{scan_sketch_key()}};
+  add_blocks(blocks, picture_blocks(scans));
   return blocks;
 }
 
@@ -142,28 +167,33 @@ Blocks definition_blocks(const NightInput& input) {
   return {std::move(definitions)};
 }
 
-Picture sketch_of(const WorstScan& scan, const std::string& run) {
+Picture sketch_of(const WorstScan& scan, const NightInput& input) {
   const std::string command =
-      fmt::format("scanbench show {} --scenario {} --pipeline {} --seed {} --frame {}", shell_word(run),
+      fmt::format("scanbench show {} --scenario {} --pipeline {} --seed {} --frame {}", shell_word(input.now.name),
                   scan.key.scenario, scan.key.pipeline, scan.key.seed, scan.frame);
   const std::string name = fmt::format("{}, seed {}, scan {}", scan.key.scenario, scan.key.seed, scan.frame);
   const std::string counts = fmt::format(
       ": F1 {:.2f}, {} right, {} false, {} missed, {} split{}", scan.f1, scan.found, scan.false_lines, scan.missed,
       scan.split, scan.unjudged > 0 ? fmt::format(", {} too short to judge", scan.unjudged) : "");
   return {.alt = name,
-          .caption = {link(name, "cells/" + runs::to_string(scan.key) + "/", command), counts},
+          .caption = {link(name,
+                           input.player.empty() ? "cells/" + runs::to_string(scan.key) + "/"
+                                                : player_address(scan.key, scan.frame),
+                           command),
+                      counts},
           .drawing = scan.sketch};
 }
 
 /// The worst scans of each pipeline, each with the command that draws it large.
 Blocks worst_blocks(const NightInput& input) {
   if (input.worst.empty()) return {};
-  Blocks blocks{Paragraph{"Lowest F1 over all scenarios and seeds first. The pointer on a name shows the command that "
-                          "draws the scan large."},
+  Blocks blocks{Paragraph{std::string("Lowest F1 over all scenarios and seeds first. ") +
+                          (input.player.empty() ? "" : "A name leads to the scan in the player. ") +
+                          "The pointer on it shows the command that draws the scan large."},
                 Markup{scan_sketch_key()}};
   for (const auto& [pipeline, scans] : input.worst) {
     BlockGroup sketches{"scans", {}};
-    for (const auto& scan : scans) sketches.blocks.push_back(sketch_of(scan, input.now.name));
+    for (const auto& scan : scans) sketches.blocks.push_back(sketch_of(scan, input));
     blocks.push_back(Heading{3, pipeline});
     blocks.push_back(std::move(sketches));
   }
@@ -175,6 +205,7 @@ Blocks file_blocks(const NightInput& input) {
   if (!input.report.empty())
     files.items.push_back(
         {link("The report of this run", input.report), ": every scenario with its tables and figures"});
+  if (!input.player.empty()) files.items.push_back({link("The scans of this run", input.player), ", to be played"});
   for (const auto& file : input.files) files.items.push_back({link(file, file)});
   if (files.items.empty()) return {};
   return {Paragraph{"Beside this page in the run folder:"}, std::move(files)};
@@ -197,10 +228,17 @@ Blocks completeness_blocks(const Comparison& comparison) {
   return {std::move(*table)};
 }
 
+/// "No gate is worse.", and where cells are not ok, that nothing was compared there.
+Paragraph nothing_worse(const Comparison& comparison) {
+  const std::size_t failed = comparison.broken.size() + comparison.failing.size();
+  if (failed == 0 && comparison.missing.empty()) return {"No gate is worse."};
+  return {"No gate of the cells that could be compared is worse."};
+}
+
 Blocks worse_blocks(const NightInput& input) {
   Blocks blocks = change_blocks(*input.comparison, "worse");
-  if (blocks.empty()) blocks.push_back(Paragraph{"Nothing."});
-  add_blocks(blocks, picture_blocks(input.pictures));
+  if (blocks.empty()) blocks.push_back(nothing_worse(*input.comparison));
+  add_blocks(blocks, scan_blocks(input.pictures.scans));
   add_blocks(blocks, change_blocks(*input.comparison, "uncertain", true));
   add_blocks(blocks, change_blocks(*input.comparison, "watched", true));
   return blocks;
@@ -208,14 +246,19 @@ Blocks worse_blocks(const NightInput& input) {
 
 std::vector<Section> sections_of(const NightInput& input) {
   std::vector<Section> sections;
-  if (const auto& comparison = input.comparison)
-    sections = {{"worse-section", "What became worse", worse_blocks(input)},
-                {"differs-section", "What differs", list_blocks(comparison->differing)},
-                {"better-section", "What became better", change_blocks(*comparison, "better")},
-                {"cells-section", "Completeness", completeness_blocks(*comparison)},
-                {"matrix-section", "Pipelines × scenarios",
-                 status_matrices(input.now, *comparison, input.rankings, input.scenarios_page)},
-                {"figures-section", "Figures of what became worse", picture_blocks(input.figures)}};
+  if (const auto& comparison = input.comparison) {
+    Section cells{"cells-section", "Cells that are not ok, new or gone", completeness_blocks(*comparison)};
+    Section better{"better-section", "What became better", change_blocks(*comparison, "better")};
+    const bool cells_first = !comparison->broken.empty() || !comparison->failing.empty() || comparison->incomplete();
+    if (cells_first) sections.push_back(std::move(cells));
+    sections.push_back({"worse-section", "What became worse", worse_blocks(input)});
+    sections.push_back(std::move(better));
+    if (!cells_first) sections.push_back(std::move(cells));
+    sections.push_back({"matrix-section", "Pipelines × scenarios",
+                        status_matrices(input.now, *comparison, input.rankings, input.scenarios_page)});
+    sections.push_back({"figures-section", "Figures of what became worse", picture_blocks(input.pictures.figures)});
+    sections.push_back({"differs-section", "What differs", differing_blocks(comparison->differing)});
+  }
   for (Section& section :
        std::vector<Section>{{"rankings-section", "Rankings, and accuracy against time",
                              ranking_blocks(input.rankings, input.scenarios_page)},
