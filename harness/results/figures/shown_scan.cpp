@@ -174,7 +174,7 @@ ShownScan show_scan(const fs::path& run, const ScanChoice& choice) {
   return shown;
 }
 
-std::optional<ScanPair> show_scan_in_both(const fs::path& before, const fs::path& now, const ScanChoice& choice) {
+std::optional<ShownInBoth> show_scan_in_both(const fs::path& before, const fs::path& now, const ScanChoice& choice) {
   const ChosenCell cell(now, choice);
   const ChosenCell earlier(before, {.scenario = cell.key.scenario,
                                     .pipeline = cell.key.pipeline,
@@ -182,7 +182,7 @@ std::optional<ScanPair> show_scan_in_both(const fs::path& before, const fs::path
                                     .frame = std::to_string(cell.frame)});
   if (!is_same_scan(earlier, cell)) return std::nullopt;
   ShownScan both = drawn_scan(cell, {earlier.named("before"), cell.named("now")});  // one panel if the lines are equal
-  ScanPair pair{both, both};
+  ShownInBoth pair{both, both, both.scene.panels.size() == 1};
   pair.before.text = earlier.rows->text(cell.frame);
   pair.before.scene = panel_alone(both.scene, 0);
   pair.now.text = cell.rows->text(cell.frame);

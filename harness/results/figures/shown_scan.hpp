@@ -30,15 +30,16 @@ struct ShownScan {
 ShownScan show_scan(const std::filesystem::path& run, const ScanChoice& choice);
 
 /// The same scan in two runs.
-struct ScanPair {
+struct ShownInBoth {
   ShownScan before;
   ShownScan now;
+  bool same_lines = false;
 };
 
 /// The same scan of a cell in an earlier run and now, in two scenes with the same axes, without legends. None if it is
 /// not the same scan there. Throws ConfigError as show_scan() does, for both runs.
-std::optional<ScanPair> show_scan_in_both(const std::filesystem::path& before, const std::filesystem::path& now,
-                                          const ScanChoice& choice);
+std::optional<ShownInBoth> show_scan_in_both(const std::filesystem::path& before, const std::filesystem::path& now,
+                                             const ScanChoice& choice);
 
 /// The scene as PNG, SVG or PDF, as the ending of the path says. Throws ConfigError for other endings.
 std::string picture_bytes(const render::Scene& scene, const std::filesystem::path& path);

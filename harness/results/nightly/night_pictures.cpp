@@ -82,9 +82,12 @@ class Pictures {
                             "{} changed most.",
                             metric, scan->scans, scan->metric.metric)
                       : fmt::format("The scan on which {} changed most, of {}.", metric, scan->scans);
-      pair.before = {caption_text(when_before_, scan->before, *scan, both->before.text),
-                     picture_bytes(both->before.scene, "scan.png")};
-      pair.now = {caption_text("now", scan->after, *scan, both->now.text), picture_bytes(both->now.scene, "scan.png")};
+      if (!both->same_lines)
+        pair.before = PagePicture{caption_text(when_before_, scan->before, *scan, both->before.text),
+                                  picture_bytes(both->before.scene, "scan.png")};
+      pair.now = PagePicture{both->same_lines ? "The lines of this scan are the same as before: " + both->now.text
+                                              : caption_text("now", scan->after, *scan, both->now.text),
+                             picture_bytes(both->now.scene, "scan.png")};
       pair.address = address_of(key, scan->frame);
       return pair;
     } catch (const ConfigError&) {  // a cell that the earlier run does not have
@@ -128,7 +131,7 @@ class Pictures {
     try {
       const ShownScan shown = show_scan(run_, {.scenario = key.scenario, .pipeline = key.pipeline, .seed = key.seed});
       pair.title += ": the scan with the lowest F1 now";
-      pair.now = {"now: " + shown.text, picture_bytes(shown.scene, "scan.png")};
+      pair.now = PagePicture{"now: " + shown.text, picture_bytes(shown.scene, "scan.png")};
       pair.address = address_of(key, shown.frame);
       pair.note = why;
     } catch (const ConfigError&) {  // a pipeline without lines, or a run without scans.csv
