@@ -135,6 +135,16 @@ void keep_good_night(const fs::path& run) {
   staged.commit();
 }
 
+/// The recordings whose scans the page shows.
+PlayedRecordings linked_recordings(const NightInput& input) {
+  PlayedRecordings recordings;
+  for (const auto& pair : input.pictures.scans)
+    if (pair.scan) recordings.emplace(pair.scan->cell.scenario, pair.scan->cell.seed);
+  for (const auto& [pipeline, scans] : input.worst)
+    for (const auto& scan : scans) recordings.emplace(scan.key.scenario, scan.key.seed);
+  return recordings;
+}
+
 /// Stands beside the run while a night is being stored. One line per start of a night in this folder that may be in the
 /// store although it was killed.
 fs::path unfinished_nights_file(const fs::path& run) {
@@ -161,7 +171,6 @@ NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<s
   const std::vector<study::Scenario> scenarios = runs::load_run_scenarios(plan.run);
   std::map<std::string, std::string> conditions;
   for (const auto& scenario : scenarios) conditions[scenario.name] = condition_text(scenario);
-  if (write_player(plan.run, scenarios)) input.player = kPlayerPage.name();
   input.rankings =
       rank_methods(input.now.cells, load_scan_seconds(runs::RunStore(plan.run), input.now.cells), conditions);
   input.worst = worst_scans(plan.run, input.now, kWorstScans);
@@ -214,6 +223,7 @@ NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<s
     input.drift = compare(oldest.results, gate_values(input.now, plan.gates), plan.gates);
     input.drift_reference = text_of(oldest);
   }
+  if (write_player(plan.run, scenarios, linked_recordings(input))) input.player = kPlayerPage.name();
   input.sentence = outcome.sentence;
   input.nights = store.nights(plan.suite);
   outcome.page = plan.run / kNightPage;

@@ -63,7 +63,7 @@ Blocks differing_blocks(const std::vector<std::string>& differing) {
   return {std::move(list)};
 }
 
-Blocks picture_blocks(const std::vector<PicturePair>& pairs) {
+Blocks picture_blocks(const std::vector<PicturePair>& pairs, const std::string& player) {
   Blocks blocks;
   for (const auto& pair : pairs) {
     BlockGroup shown{"pair", {}};
@@ -74,7 +74,9 @@ Blocks picture_blocks(const std::vector<PicturePair>& pairs) {
                                        .data = "data:image/png;base64," + io::base64(picture->png)});
     blocks.push_back(Heading{3, pair.title});
     Prose note{pair.note};
-    if (!pair.address.empty()) note.spans.insert(note.spans.end(), {" ", link("Play this scan.", pair.address)});
+    if (pair.scan && !player.empty())
+      note.spans.insert(note.spans.end(),
+                        {" ", link("Open it in the player.", player_address(pair.scan->cell, pair.scan->frame))});
     if (!pair.note.empty()) blocks.push_back(Paragraph{std::move(note)});
     if (!shown.blocks.empty()) blocks.push_back(std::move(shown));
   }
@@ -82,11 +84,11 @@ Blocks picture_blocks(const std::vector<PicturePair>& pairs) {
 }
 
 /// The scans that show what became worse, with the key to their colours.
-Blocks scan_blocks(const std::vector<PicturePair>& scans) {
+Blocks scan_blocks(const std::vector<PicturePair>& scans, const std::string& player) {
   if (std::ranges::none_of(scans, [](const PicturePair& pair) { return pair.now.has_value(); }))
-    return picture_blocks(scans);
+    return picture_blocks(scans, player);
   Blocks blocks{Heading{3, "The scans that show it"}, Markup{scan_sketch_key()}};
-  add_blocks(blocks, picture_blocks(scans));
+  add_blocks(blocks, picture_blocks(scans, player));
   return blocks;
 }
 
@@ -238,7 +240,7 @@ Paragraph nothing_worse(const Comparison& comparison) {
 Blocks worse_blocks(const NightInput& input) {
   Blocks blocks = change_blocks(*input.comparison, "worse");
   if (blocks.empty()) blocks.push_back(nothing_worse(*input.comparison));
-  add_blocks(blocks, scan_blocks(input.pictures.scans));
+  add_blocks(blocks, scan_blocks(input.pictures.scans, input.player));
   add_blocks(blocks, change_blocks(*input.comparison, "uncertain", true));
   add_blocks(blocks, change_blocks(*input.comparison, "watched", true));
   return blocks;
@@ -256,7 +258,8 @@ std::vector<Section> sections_of(const NightInput& input) {
     if (!cells_first) sections.push_back(std::move(cells));
     sections.push_back({"matrix-section", "Pipelines × scenarios",
                         status_matrices(input.now, *comparison, input.rankings, input.scenarios_page)});
-    sections.push_back({"figures-section", "Figures of what became worse", picture_blocks(input.pictures.figures)});
+    sections.push_back(
+        {"figures-section", "Figures of what became worse", picture_blocks(input.pictures.figures, input.player)});
     sections.push_back({"differs-section", "What differs", differing_blocks(comparison->differing)});
   }
   for (Section& section :

@@ -17,7 +17,6 @@
 #include "harness/results/analysis/verdict.hpp"
 #include "harness/results/figures/figures.hpp"
 #include "harness/results/figures/shown_scan.hpp"
-#include "harness/results/player/player_page.hpp"
 #include "harness/runs/store/manifest.hpp"
 #include "harness/runs/store/run_scenarios.hpp"
 #include "harness/runs/store/run_store.hpp"
@@ -88,7 +87,7 @@ class Pictures {
       pair.now = PagePicture{both->same_lines ? "The lines of this scan are the same as before: " + both->now.text
                                               : caption_text("now", scan->after, *scan, both->now.text),
                              picture_bytes(both->now.scene, "scan.png")};
-      pair.address = address_of(key, scan->frame);
+      pair.scan = ScanPlace{key, scan->frame};
       return pair;
     } catch (const ConfigError&) {  // a cell that the earlier run does not have
       return worst_now(key, "The earlier run does not have this cell.", std::move(pair));
@@ -122,17 +121,13 @@ class Pictures {
     return {.scenario = key.scenario, .pipeline = key.pipeline, .seed = key.seed, .frame = std::to_string(frame)};
   }
 
-  std::string address_of(const runs::CellKey& key, std::size_t frame) const {
-    return fs::exists(run_ / kPlayerPage) ? player_address(key, frame) : "";
-  }
-
   /// The scan with the lowest F1 of this night alone.
   PicturePair worst_now(const runs::CellKey& key, const std::string& why, PicturePair pair) const {
     try {
       const ShownScan shown = show_scan(run_, {.scenario = key.scenario, .pipeline = key.pipeline, .seed = key.seed});
       pair.title += ": the scan with the lowest F1 now";
       pair.now = PagePicture{"now: " + shown.text, picture_bytes(shown.scene, "scan.png")};
-      pair.address = address_of(key, shown.frame);
+      pair.scan = ScanPlace{key, shown.frame};
       pair.note = why;
     } catch (const ConfigError&) {  // a pipeline without lines, or a run without scans.csv
       pair.note = why + " No scan has an F1.";

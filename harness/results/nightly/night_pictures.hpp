@@ -1,6 +1,7 @@
 // The pictures of a night that show what became worse: the same scans and figures, before and now.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,13 +17,19 @@ struct PagePicture {
   std::string png;
 };
 
+/// A scan of a cell.
+struct ScanPlace {
+  runs::CellKey cell;
+  std::size_t frame = 0;
+};
+
 /// A scan or a figure that shows a change: as it was before, if that is known, and as it is now.
 struct PicturePair {
   std::string title;   ///< "iepf in abcdef, seed 3: f1 of scan 15 fell from 0.92 to 0.55"
   std::string note{};  ///< why this scan is shown, or why there is no picture
   std::optional<PagePicture> before{};
   std::optional<PagePicture> now{};
-  std::string address{};  ///< of the scan on another page; may be empty
+  std::optional<ScanPlace> scan{};  ///< none for figures
 };
 
 struct NightPictures {

@@ -308,23 +308,26 @@ bool can_hold_all_seeds(const runs::RunStore& store, const std::vector<study::Sc
 
 }  // namespace
 
-Json played_run(const fs::path& run, const std::vector<study::Scenario>& scenarios, const PlayerLimits& limits) {
+Json played_run(const fs::path& run, const std::vector<study::Scenario>& scenarios, const PlayerLimits& limits,
+                const std::optional<PlayedRecordings>& chosen) {
   const runs::RunStore store(run);
+  const bool all_seeds = !chosen && can_hold_all_seeds(store, scenarios, limits);
+  std::vector<std::pair<const study::Scenario*, std::uint64_t>> places;
+  for (const study::Scenario& scenario : scenarios)
+    for (const std::uint64_t seed : scenario.seeds)
+      if (all_seeds || seed == scenario.seeds.front() || (chosen && chosen->contains({scenario.name, seed})))
+        places.emplace_back(&scenario, seed);
+  const double share = static_cast<double>(limits.bytes) / static_cast<double>(std::max<std::size_t>(1, places.size()));
   Json recordings = Json::array();
-  const double share =
-      static_cast<double>(limits.bytes) / static_cast<double>(std::max<std::size_t>(1, scenarios.size()));
-  const bool all_seeds = can_hold_all_seeds(store, scenarios, limits);
-  for (const study::Scenario& scenario : scenarios) {
-    for (const std::uint64_t seed : std::span(scenario.seeds).first(all_seeds ? scenario.seeds.size() : 1)) {
-      const Played played(store, scenario, seed);
-      if (played.pipelines.empty()) continue;
-      const std::size_t frames = played.recording.observed.frames.size();
-      const double room = share - bytes_of_walls(played.recording);
-      const double fit = std::max(1.0, room / bytes_per_scan(played.recording, played.pipelines));
-      const std::size_t most = all_seeds ? frames : std::min(limits.scans, static_cast<std::size_t>(fit));
-      const auto chosen = choose_scans(errors_of(played.pipelines, frames), most);
-      recordings.push_back(packed(scenario, seed, played.recording, played.pipelines, chosen));
-    }
+  for (const auto& [scenario, seed] : places) {
+    const Played played(store, *scenario, seed);
+    if (played.pipelines.empty()) continue;
+    const std::size_t frames = played.recording.observed.frames.size();
+    const double room = share - bytes_of_walls(played.recording);
+    const double fit = std::max(1.0, room / bytes_per_scan(played.recording, played.pipelines));
+    const std::size_t most = all_seeds ? frames : std::min(limits.scans, static_cast<std::size_t>(fit));
+    const auto scans = choose_scans(errors_of(played.pipelines, frames), most);
+    recordings.push_back(packed(*scenario, seed, played.recording, played.pipelines, scans));
   }
   return recordings;
 }

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <set>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -294,15 +293,12 @@ std::string script_data(const nlohmann::ordered_json& json) {
 /// The page of what played_run() packed.
 std::string page_of(const std::filesystem::path& run, const nlohmann::ordered_json& recordings,
                     const PlayerLimits& limits) {
-  std::set<std::string> names;
-  for (const auto& recording : recordings) names.insert(recording.at("name"));
-  const bool all_seeds = recordings.size() > names.size();
   return to_html(Document{
       "scanbench: scans of " + std::filesystem::absolute(run).lexically_normal().filename().string(),
       {Markup{std::string(kPlayerStyle) + std::string(kPlayerBody)},
-       Paragraph{fmt::format("The scans of {} seed and the lines of each pipeline. A page holds at most {} scans of a "
-                             "recording and about {} MiB in all; the other seeds are in it if they fit.",
-                             all_seeds ? "every" : "the first", limits.scans, limits.bytes >> 20),
+       Paragraph{fmt::format("The page holds the first seed of each scenario and others that fit: at most {} scans of "
+                             "a recording, and about {} MiB in all.",
+                             limits.scans, limits.bytes >> 20),
                  "faint"},
        Markup{"<script type=\"application/json\" id=\"data\">" + script_data(recordings) + "</script>\n" +
               std::string(kPlayerScript)}}});
@@ -320,8 +316,9 @@ std::string player_page(const std::filesystem::path& run, const std::vector<stud
   return page_of(run, recordings, limits);
 }
 
-bool write_player(const std::filesystem::path& run, const std::vector<study::Scenario>& scenarios) {
-  const auto recordings = played_run(run, scenarios);
+bool write_player(const std::filesystem::path& run, const std::vector<study::Scenario>& scenarios,
+                  const PlayedRecordings& chosen) {
+  const auto recordings = played_run(run, scenarios, {}, chosen);
   if (recordings.empty()) {
     io::remove_file(run / kPlayerPage);  // of an earlier run in this folder
     return false;

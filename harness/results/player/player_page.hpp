@@ -20,9 +20,10 @@ inline const runs::RunFile kPlayerPage("scans.html");
 std::string player_page(const std::filesystem::path& run, const std::vector<study::Scenario>& scenarios,
                         const PlayerLimits& limits = {});
 
-/// Writes this page into the run folder; false if the run has no scans with lines, and then no such page remains.
-/// Throws ConfigError for damaged files.
-bool write_player(const std::filesystem::path& run, const std::vector<study::Scenario>& scenarios);
+/// Writes this page into the run folder, of the first seed of each scenario and of these recordings; false if the run
+/// has no scans with lines, and then no such page remains. Throws ConfigError for damaged files.
+bool write_player(const std::filesystem::path& run, const std::vector<study::Scenario>& scenarios,
+                  const PlayedRecordings& recordings);
 
 /// The relative address of a scan of a cell on this page: "scans.html#room/iepf/7/15".
 std::string player_address(const runs::CellKey& key, std::size_t frame);

@@ -106,6 +106,9 @@ TEST_F(PlayedRun, HoldsTheOtherSeedsOnlyIfAllTheirScansFit) {
   const auto cut = played_run(out_, scenarios_, {.scans = 4});
   ASSERT_EQ(cut.size(), 1U);
   EXPECT_EQ(cut[0]["seed"], "4");
+  const PlayedRecordings second{{"s", 2}};
+  EXPECT_EQ(played_run(out_, scenarios_, {.scans = 4}, second).size(), 2U);
+  EXPECT_EQ(played_run(out_, scenarios_, {}, PlayedRecordings{}).size(), 1U);
 }
 
 TEST_F(PlayedRun, HasTheSameBytesWhenItsCellsAreInAnArchive) {
