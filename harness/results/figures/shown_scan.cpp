@@ -67,16 +67,27 @@ class ScanRows {
     return static_cast<std::size_t>(std::max(0, table_->index(*worst, "frame")));
   }
 
+  /// "8 right, 1 false, 0 missed, 2 split".
+  std::string counts(std::size_t frame) const {
+    const auto row = row_of(frame);
+    if (!row) return "";
+    return fmt::format("{} right, {} false, {} missed, {} split", table_->text(*row, "true"),
+                       table_->text(*row, "false"), table_->text(*row, "missed"), table_->text(*row, "split"));
+  }
+
   std::string text(std::size_t frame) const {
-    for (std::size_t row = 0; table_ && row < table_->rows(); ++row)
-      if (table_->text(row, "frame") == std::to_string(frame))
-        return fmt::format("{} right, {} false, {} missed, {} split; F1 {}, residual {}", table_->text(row, "true"),
-                           table_->text(row, "false"), table_->text(row, "missed"), table_->text(row, "split"),
-                           rounded(row, "f1", ""), rounded(row, "residual_m", " m"));
-    return "";
+    const auto row = row_of(frame);
+    if (!row) return "";
+    return counts(frame) +
+           fmt::format("; F1 {}, residual {}", rounded(*row, "f1", ""), rounded(*row, "residual_m", " m"));
   }
 
  private:
+  std::optional<std::size_t> row_of(std::size_t frame) const {
+    for (std::size_t row = 0; table_ && row < table_->rows(); ++row)
+      if (table_->text(row, "frame") == std::to_string(frame)) return row;
+    return std::nullopt;
+  }
   double error(std::size_t row) const {
     return scan_error(table_->number(row, "f1"),
                       table_->number(row, "false") + table_->number(row, "missed") + table_->number(row, "split"));
@@ -183,9 +194,9 @@ std::optional<ShownInBoth> show_scan_in_both(const fs::path& before, const fs::p
   if (!is_same_scan(earlier, cell)) return std::nullopt;
   ShownScan both = drawn_scan(cell, {earlier.named("before"), cell.named("now")});  // one panel if the lines are equal
   ShownInBoth pair{both, both, both.scene.panels.size() == 1};
-  pair.before.text = earlier.rows->text(cell.frame);
+  pair.before.text = earlier.rows->counts(cell.frame);
   pair.before.scene = panel_alone(both.scene, 0);
-  pair.now.text = cell.rows->text(cell.frame);
+  pair.now.text = cell.rows->counts(cell.frame);
   pair.now.scene = panel_alone(both.scene, both.scene.panels.size() - 1);
   return pair;
 }

@@ -30,12 +30,21 @@ std::string with_arrow(std::string text) {
   return text;
 }
 
-/// The first sentence answers the question of the page; the reasons are below it.
+/// The answer to the question of the page, and the reasons: what is in parentheses in the first sentence, and the
+/// sentences after it.
+std::pair<std::string, std::string> answer_and_reasons(const std::string& sentence) {
+  const std::size_t end = sentence.find(". "), aside = sentence.find(" ("), closed = sentence.find(").");
+  if (aside < end && closed != std::string::npos)
+    return {sentence.substr(0, aside) + ".",
+            sentence.substr(aside + 2, closed - aside - 2) + sentence.substr(closed + 1)};
+  if (end == std::string::npos) return {sentence, ""};
+  return {sentence.substr(0, end + 1), sentence.substr(end + 2)};
+}
+
 Blocks verdict_blocks(const NightInput& input) {
-  const std::size_t end = std::min(input.sentence.find(". "), input.sentence.size() - 1) + 1;
-  Blocks blocks{
-      Paragraph{input.sentence.substr(0, end), input.sentence.starts_with("PASS") ? "verdict good" : "verdict bad"}};
-  if (end < input.sentence.size()) blocks.push_back(Paragraph{input.sentence.substr(end + 1)});
+  const auto [answer, reasons] = answer_and_reasons(input.sentence);
+  Blocks blocks{Paragraph{answer, input.sentence.starts_with("PASS") ? "verdict good" : "verdict bad"}};
+  if (!reasons.empty()) blocks.push_back(Paragraph{reasons});
   if (input.comparison) blocks.push_back(Paragraph{"Compared with " + input.reference + "."});
   if (input.drift)
     blocks.push_back(Paragraph{
@@ -87,7 +96,8 @@ Blocks picture_blocks(const std::vector<PicturePair>& pairs, const std::string& 
 Blocks scan_blocks(const std::vector<PicturePair>& scans, const std::string& player) {
   if (std::ranges::none_of(scans, [](const PicturePair& pair) { return pair.now.has_value(); }))
     return picture_blocks(scans, player);
-  Blocks blocks{Heading{3, "The scans that show it"}, Markup{scan_sketch_key()}};
+  Blocks blocks{Heading{3, "The scans that show it"}, Markup{scan_sketch_key()},
+                Paragraph{"Grey below the lines: true walls. Dots: the returns of the scan.", "caption"}};
   add_blocks(blocks, picture_blocks(scans, player));
   return blocks;
 }
