@@ -1,13 +1,10 @@
 // The verbs nightly, accept and store.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "harness/results/nightly/store.hpp"
 #include "tests/app/browser.hpp"
@@ -80,82 +77,6 @@ TEST_F(Nightly, ShowsTheScanOfTheLastGoodNightThatIsInAnotherFolder) {
   second.insert(second.end(), {"--out", "second"});
   ASSERT_EQ(night(second).code, 1);
   EXPECT_THAT(read(folder_ / "second/nightly.html"), AllOf(HasSubstr(" UTC): "), HasSubstr("now: ")));
-}
-
-/// Column f1 of a cell's scans.csv.
-std::vector<double> f1_by_scan(const fs::path& cell) {
-  std::istringstream lines(read(cell / "scans.csv"));
-  std::string line;
-  std::getline(lines, line);
-  std::vector<double> values;
-  while (std::getline(lines, line)) {
-    std::istringstream row(line);
-    std::string field;
-    for (int column = 0; column < 7; ++column) std::getline(row, field, ',');
-    values.push_back(std::stod(field));
-  }
-  return values;
-}
-
-/// The scan whose F1 fell by most; of several the first.
-std::size_t most_fallen(const std::vector<double>& before, const std::vector<double>& now) {
-  std::size_t most = 0;
-  for (std::size_t f = 0; f < before.size(); ++f)
-    if (before[f] - now[f] > before[most] - now[most]) most = f;
-  return most;
-}
-
-class NightPictures : public Nightly {
- protected:
-  void SetUp() override {
-    Nightly::SetUp();
-    // Noise of 15 cm makes the scans unlike each other: with a threshold of 2 m another scan has the lowest F1 than the
-    // one that changed most.
-    std::string noisy = room_with("figures: [environment]", "figures: [scan_overlay]");
-    folder_.write("room.yaml",
-                  noisy.replace(noisy.find("{preset: sick_lms200}"), 21, "{preset: sick_lms200, sigma_m: 0.15}"));
-    folder_.write("suite.yaml", "schema: 1\nscenarios: [room.yaml]\nseeds: {first: 1, count: 4}\n");
-    ASSERT_EQ(here({"nightly", "suite.yaml", "--store", "nights.sqlite"}).code, 0);
-    Args worse{"nightly", "suite.yaml", "--store", "nights.sqlite"};
-    worse.insert(worse.end(), {"--set", "pipelines.iepf.extract.params.threshold_m=0.02"});
-    ASSERT_EQ(here(worse).code, 1);
-  }
-  fs::path cell(const char* run, const std::string& seed) const {
-    return folder_ / ("out/nightly/suite" + std::string(run) + "/cells/room/iepf/" + seed);
-  }
-};
-
-TEST_F(NightPictures, ShowTheScanThatFellByMostWithBothValues) {
-  const std::string html = page(), before = "iepf in room, seed ";
-  const auto at = html.find(before);
-  ASSERT_NE(at, std::string::npos);
-  const std::string seed = html.substr(at + before.size(), 1);
-  const std::vector<double> earlier = f1_by_scan(cell(".last_good", seed)), now = f1_by_scan(cell("", seed));
-  const std::size_t scan = most_fallen(earlier, now);
-  EXPECT_THAT(html, HasSubstr(fmt::format("seed {}: f1 of scan {} fell from {:.4g} to {:.4g}", seed, scan,
-                                          earlier[scan], now[scan])));
-  EXPECT_THAT(html, AllOf(HasSubstr(fmt::format(" UTC): f1 {:.4g}; ", earlier[scan])),
-                          HasSubstr(fmt::format("now: f1 {:.4g}; ", now[scan]))));
-  EXPECT_THAT(html, HasSubstr(fmt::format("scans.html#room/iepf/{}/{}", seed, scan)));
-  EXPECT_TRUE(fs::exists(folder_ / "out/nightly/suite/scans.html"));
-}
-
-TEST_F(NightPictures, OfAFigureThatChoosesItsScanAreOfTheSameScan) {
-  const std::string html = page();
-  const std::size_t scan = most_fallen(f1_by_scan(cell(".last_good", "1")), f1_by_scan(cell("", "1")));
-  const std::string caption = fmt::format("room: the points of scan {}, and the lines", scan);
-  EXPECT_THAT(html, AllOf(HasSubstr(" UTC): " + caption), HasSubstr("now: " + caption)));
-  EXPECT_THAT(html, Not(HasSubstr("the median scan")));
-}
-
-TEST_F(Nightly, AnswersInItsFirstSentenceAndShowsFailedCellsOncePerPipelineBeforeAnythingElse) {
-  ASSERT_EQ(night().code, 0);
-  ASSERT_EQ(night({"--set", "limits.seconds=0.000001"}).code, 1);
-  const std::string html = page();
-  EXPECT_THAT(html, HasSubstr("<p class=\"verdict bad\">FAIL: 8 cells are no longer ok.</p>"));
-  EXPECT_LT(html.find("id=\"cells-section\""), html.find("id=\"worse-section\""));
-  EXPECT_THAT(html, HasSubstr("4 seeds, first 1"));
-  EXPECT_THAT(html, Not(HasSubstr(">Nothing.<")));
 }
 
 TEST_F(Nightly, WithoutAReferenceLeavesNoComparisonOfAnEarlierNight) {
