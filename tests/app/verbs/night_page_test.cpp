@@ -39,12 +39,12 @@ std::size_t most_fallen(const std::vector<double>& before, const std::vector<dou
   return most;
 }
 
-/// A night with one pipeline on four seeds, and one after it with a worse threshold.
+/// A night with one pipeline on four seeds.
 class NightPage : public testing::Test {
  protected:
   void SetUp() override {
-    // Noise of 15 cm makes the scans unlike each other: with a threshold of 2 m another scan has the lowest F1 than the
-    // one that changed most.
+    // Noise of 15 cm makes the scans unlike each other. With the worse threshold all have an F1 of zero, so the lowest
+    // F1 does not say which of them changed.
     std::string noisy = room_with("figures: [environment]", "figures: [scan_overlay]");
     folder_.write("room.yaml",
                   noisy.replace(noisy.find("{preset: sick_lms200}"), 21, "{preset: sick_lms200, sigma_m: 0.15}"));
@@ -65,7 +65,7 @@ class NightPage : public testing::Test {
   Folder folder_;
 };
 
-TEST_F(NightPage, ShowTheScanThatFellByMostWithBothValues) {
+TEST_F(NightPage, ShowsTheScanThatFellByMostWithBothValues) {
   ASSERT_EQ(night(worsened_).code, 1);
   const std::string html = page(), before = "iepf in room, seed ";
   const auto at = html.find(before);
@@ -81,7 +81,7 @@ TEST_F(NightPage, ShowTheScanThatFellByMostWithBothValues) {
   EXPECT_TRUE(fs::exists(folder_ / "out/nightly/suite/scans.html"));
 }
 
-TEST_F(NightPage, OfAFigureThatChoosesItsScanAreOfTheSameScan) {
+TEST_F(NightPage, DrawsAFigureThatChoosesItsScanOfTheSameScanTwice) {
   ASSERT_EQ(night(worsened_).code, 1);
   const std::string html = page();
   const std::size_t scan = most_fallen(f1_by_scan(cell(".last_good", "1")), f1_by_scan(cell("", "1")));
