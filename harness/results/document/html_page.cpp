@@ -66,8 +66,7 @@ td.failed, .chip.failed { background: #cc79a740; box-shadow: inset .25rem 0 #cc7
 .nights tbody th.head:last-child { white-space: normal; min-width: 16rem; font-weight: 400; } .nights th.head { vertical-align: top; }
 /* On a narrow screen a change has two lines: what changed, then before, now, difference and seed. */
 @media (max-width: 600px) {
-  body { padding: .9rem; } h1 { font-size: 1.25rem; } h2 { margin-top: 1.5rem; } .verdict { font-size: 1.05rem; padding: .5rem .7rem; } nav { font-size: .88rem; gap: .1rem .9rem; }
-  .changes tr { display: grid; grid-template-columns: 1.2fr .9fr 1.5fr .7fr; } .changes th, .changes td { white-space: normal; overflow-wrap: anywhere; padding: .15rem .3rem; }
+  .changes tr { display: grid; grid-template-columns: 1fr 1fr 1.5fr .7fr; } .changes th, .changes td { white-space: normal; overflow-wrap: anywhere; }
   .changes tr > :nth-child(3) { grid-column: 3 / 5; } .changes tr > :nth-child(n+7):nth-child(-n+10) { display: none; } .changes table { width: 100%; }
 }
 @media print { nav, .tools { display: none; } body { max-width: none; } .scroll { overflow: visible; } }

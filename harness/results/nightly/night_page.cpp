@@ -24,6 +24,13 @@
 namespace scanbench::results {
 namespace {
 
+// On a phone the verdict and the first change are on the first screen.
+constexpr const char* kNightStyle = R"css(<style>
+@media (max-width: 600px) { body { padding: .9rem; } h1 { font-size: 1.25rem; } h2 { margin-top: 1.5rem; }
+  .verdict { font-size: 1.05rem; padding: .5rem .7rem; } nav { font-size: .88rem; gap: .1rem .9rem; }
+  .changes tr { grid-template-columns: 1.2fr .9fr 1.5fr .7fr; } .changes th, .changes td { padding: .15rem .3rem; } }
+</style>)css";
+
 /// "a -> b" with an arrow that no line break cuts in two.
 std::string with_arrow(std::string text) {
   for (std::size_t at = 0; (at = text.find(" -> ", at)) != std::string::npos;) text.replace(at, 4, " → ");
@@ -293,6 +300,7 @@ std::string reuse_text(std::size_t cells, std::size_t reused) {
 
 Document night_document(const NightInput& input) {
   Document page{"scanbench, night of " + input.suite, verdict_blocks(input)};
+  page.blocks.emplace_back(Markup{kNightStyle});
   add_blocks(page.blocks, section_blocks(sections_of(input), input.facts));
   return page;
 }

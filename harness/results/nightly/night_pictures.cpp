@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kPictures = 6;               // of scans, and of figures
-constexpr std::uintmax_t kLargestFigure = 200000;  // bytes, so that the page stays small
+constexpr std::uintmax_t kLargestFigure = 400000;  // bytes, so that the page stays small
 
 std::string value_text(double value, const std::string& unit) {
   return fmt::format("{:.4g}", value) + (unit.empty() ? "" : " " + unit);
