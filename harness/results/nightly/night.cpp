@@ -135,13 +135,13 @@ void keep_good_night(const fs::path& run) {
   staged.commit();
 }
 
-/// The recordings whose scans the page shows.
-PlayedRecordings linked_recordings(const NightInput& input) {
+/// The scans that the page shows.
+PlayedRecordings linked_scans(const NightInput& input) {
   PlayedRecordings recordings;
   for (const auto& pair : input.pictures.scans)
-    if (pair.scan) recordings.emplace(pair.scan->cell.scenario, pair.scan->cell.seed);
+    if (pair.scan) recordings[{pair.scan->cell.scenario, pair.scan->cell.seed}].insert(pair.scan->frame);
   for (const auto& [pipeline, scans] : input.worst)
-    for (const auto& scan : scans) recordings.emplace(scan.key.scenario, scan.key.seed);
+    for (const auto& scan : scans) recordings[{scan.key.scenario, scan.key.seed}].insert(scan.frame);
   return recordings;
 }
 
@@ -223,7 +223,7 @@ NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<s
     input.drift = compare(oldest.results, gate_values(input.now, plan.gates), plan.gates);
     input.drift_reference = text_of(oldest);
   }
-  if (write_player(plan.run, scenarios, linked_recordings(input))) input.player = kPlayerPage.name();
+  if (write_player(plan.run, scenarios, linked_scans(input))) input.player = kPlayerPage.name();
   input.sentence = outcome.sentence;
   input.nights = store.nights(plan.suite);
   outcome.page = plan.run / kNightPage;

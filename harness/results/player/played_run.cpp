@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -292,6 +293,13 @@ struct Played {
   }
 };
 
+/// Adds those of the `wanted` scans that the recording has.
+void add_scans(const std::set<std::size_t>& wanted, std::size_t frames, std::vector<std::size_t>& scans) {
+  std::set<std::size_t> all(scans.begin(), scans.end());
+  all.insert(wanted.begin(), wanted.lower_bound(frames));
+  scans.assign(all.begin(), all.end());
+}
+
 /// True if the page can hold every scan of all seeds, each as large as the first. Reads the first ones.
 bool can_hold_all_seeds(const runs::RunStore& store, const std::vector<study::Scenario>& scenarios,
                         const PlayerLimits& limits) {
@@ -326,7 +334,9 @@ Json played_run(const fs::path& run, const std::vector<study::Scenario>& scenari
     const double room = share - bytes_of_walls(played.recording);
     const double fit = std::max(1.0, room / bytes_per_scan(played.recording, played.pipelines));
     const std::size_t most = all_seeds ? frames : std::min(limits.scans, static_cast<std::size_t>(fit));
-    const auto scans = choose_scans(errors_of(played.pipelines, frames), most);
+    auto scans = choose_scans(errors_of(played.pipelines, frames), most);
+    if (chosen && chosen->contains({scenario->name, seed}))
+      add_scans(chosen->at({scenario->name, seed}), frames, scans);
     recordings.push_back(packed(*scenario, seed, played.recording, played.pipelines, scans));
   }
   return recordings;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <vector>
@@ -20,7 +21,8 @@ struct PlayerLimits {
   std::size_t bytes = std::size_t{24} * 1024 * 1024;  ///< of all recordings, as written into the page
 };
 
-using PlayedRecordings = std::set<runs::RunStore::RecordingKey>;
+/// Recordings with the scans that must be in the page even where others are left out.
+using PlayedRecordings = std::map<runs::RunStore::RecordingKey, std::set<std::size_t>>;
 
 /// Reads every scenario with scans and a finished cell: ranges, and of each pipeline the lines, the share of returns
 /// that support none, the root mean square distance of the others from theirs and, if the cell has a scans.csv, its F1;
