@@ -179,7 +179,7 @@ std::string verdict_sentence(const Comparison& comparison) {
   if (comparison.compared_nothing()) return text + strangers_text(comparison);
   const std::string others_text = watched_text(comparison) + dropped_text(comparison);
   if (comparison.failed()) {
-    text += failure_text(comparison);
+    text += failure_text(comparison) + better_text(comparison);
     if (comparison.incomplete()) text += " Besides, " + incomplete_text(comparison);
     return text + others_text;
   }
