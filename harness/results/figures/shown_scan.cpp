@@ -192,8 +192,10 @@ std::optional<ShownInBoth> show_scan_in_both(const fs::path& before, const fs::p
                                     .seed = cell.key.seed,
                                     .frame = std::to_string(cell.frame)});
   if (!is_same_scan(earlier, cell)) return std::nullopt;
-  ShownScan both = drawn_scan(cell, {earlier.named("before"), cell.named("now")});  // one panel if the lines are equal
-  ShownInBoth pair{both, both, both.scene.panels.size() == 1};
+  std::vector<render::NamedResult> results{earlier.named("before"), cell.named("now")};
+  const bool judged = !results.back().verdicts.empty();
+  ShownScan both = drawn_scan(cell, std::move(results));  // one panel if the lines are equal
+  ShownInBoth pair{both, both, both.scene.panels.size() == 1, judged};
   pair.before.text = earlier.rows->counts(cell.frame);
   pair.before.scene = panel_alone(both.scene, 0);
   pair.now.text = cell.rows->counts(cell.frame);

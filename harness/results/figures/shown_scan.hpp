@@ -34,6 +34,7 @@ struct ShownInBoth {
   ShownScan before;
   ShownScan now;
   bool same_lines = false;
+  bool judged = false;  ///< colours are verdicts; else those of pipelines, because there is no truth
 };
 
 /// The same scan of a cell in an earlier run and now, in two scenes with the same axes, without legends; the texts are

@@ -207,7 +207,9 @@ NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<s
                                              : "this is the first night of the suite";
     const auto first = std::ranges::find_if(input.now.cells, [](const CellResults& cell) { return !cell.ok(); });
     outcome.sentence =
-        bad == 0 ? fmt::format("PASS: {}, so nothing can be worse; all {} cells are ok.", why, input.now.cells.size())
+        bad == 0 ? fmt::format("PASS: {}, so nothing can be worse; {}.", why,
+                               input.now.cells.size() == 1 ? "its cell is ok"
+                                                           : fmt::format("all {} cells are ok", input.now.cells.size()))
                  : fmt::format("{}: {} of {} cells are not ok, first {}: {}. There is nothing to compare with: {}.",
                                missing ? "INCOMPLETE" : "FAIL", bad, input.now.cells.size(),
                                runs::to_string(first->key), first->status, why);

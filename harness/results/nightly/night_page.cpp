@@ -101,10 +101,11 @@ Blocks picture_blocks(const std::vector<PicturePair>& pairs, const std::string& 
 
 /// The scans that show what became worse, with the key to their colours.
 Blocks scan_blocks(const std::vector<PicturePair>& scans, const std::string& player) {
-  if (std::ranges::none_of(scans, [](const PicturePair& pair) { return pair.now.has_value(); }))
-    return picture_blocks(scans, player);
-  Blocks blocks{Heading{3, "The scans that show it"}, Markup{scan_sketch_key()},
-                Paragraph{"Grey below the lines: true walls. Dots: the returns of the scan.", "caption"}};
+  if (scans.empty()) return {};
+  Blocks blocks{Heading{3, "The scans that show it"}};
+  if (std::ranges::any_of(scans, &PicturePair::needs_key))
+    add_blocks(blocks, {Markup{scan_sketch_key()},
+                        Paragraph{"Grey below the lines: true walls. Dots: the returns of the scan.", "caption"}});
   add_blocks(blocks, picture_blocks(scans, player));
   return blocks;
 }
@@ -294,7 +295,7 @@ std::vector<Section> sections_of(const NightInput& input) {
 }  // namespace
 
 std::string reuse_text(std::size_t cells, std::size_t reused) {
-  if (reused == 0) return fmt::format("{} cells, all run in this night.", cells);
+  if (reused == 0) return fmt::format("{} cell{} in this night.", cells, cells == 1 ? ", run" : "s, all run");
   return fmt::format("{} of {} cells were not run again, because nothing in them changed.", reused, cells);
 }
 

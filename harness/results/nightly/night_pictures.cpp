@@ -88,6 +88,7 @@ class Pictures {
                                               : caption_text("now", scan->after, *scan, both->now.text),
                              picture_bytes(both->now.scene, "scan.png")};
       pair.scan = ScanPlace{key, scan->frame};
+      pair.needs_key = both->judged;
       return pair;
     } catch (const ConfigError&) {  // a cell that the earlier run does not have
       return worst_now(key, "The earlier run does not have this cell.", std::move(pair));

@@ -30,6 +30,7 @@ struct PicturePair {
   std::optional<PagePicture> before{};
   std::optional<PagePicture> now{};
   std::optional<ScanPlace> scan{};  ///< none for figures
+  bool needs_key = false;           ///< its colours are verdicts, and no legend is in the pictures
 };
 
 struct NightPictures {
