@@ -101,6 +101,50 @@ TEST_F(Player, SortsTheScansByTheF1OfAPipeline) {
   EXPECT_EQ(title, expected + "|");
 }
 
+TEST_F(Player, GoesToTheScanOfItsAddressAndOfItsNumber) {
+  if (!has_browser()) GTEST_SKIP() << "chromium is not installed";
+  ASSERT_EQ(here({"report", "run", "--scans"}).code, 0);
+  const std::string title = title_after(folder_ / "run/scans.html", R"js(
+    const what = () => document.getElementById('what').textContent, scan = () => what().split(' ')[1];
+    const boxes = () => [...document.querySelectorAll('#methods input')].map(box => +box.checked).join('');
+    const open = hash => { location.hash = hash; window.dispatchEvent(new HashChangeEvent('hashchange')); };
+    const number = document.getElementById('number'), seen = [scan(), boxes()];
+    open('#room/coarse/1/3'); seen.push(scan(), boxes(), location.hash);
+    number.value = 2; number.dispatchEvent(new Event('change')); seen.push(scan(), location.hash);
+    open('#room/4'); seen.push(scan(), boxes(), location.hash);
+    open('#room/iepf/77/1'); seen.push(scan(), what().includes('does not hold seed 77'));
+    number.value = 900; number.dispatchEvent(new Event('change')); seen.push(scan(), what().includes('no scan 900'));
+    document.title = seen.join(' ');
+  )js",
+                                        folder_);
+  EXPECT_EQ(title, "0 11 3 01 #room/coarse/1/3 2 #room/coarse/1/2 4 11 #room/4 1 true 4 true");
+}
+
+TEST_F(Player, DrawsTrueWallsAsALayerAndItsPictureAboveTheControls) {
+  if (!has_browser()) GTEST_SKIP() << "chromium is not installed";
+  ASSERT_EQ(here({"report", "run", "--scans"}).code, 0);
+  const std::string title = title_after(folder_ / "run/scans.html", R"js(
+    const canvas = document.getElementById('view'), truth = document.getElementById('truth');
+    const drawn = () => { const pixels = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+      let count = 0; for (let k = 3; k < pixels.length; k += 4) count += pixels[k] > 0; return count; };
+    const all = [truth.checked, drawn()];
+    truth.click();
+    const above = ['recording', 'order', 'play', 'number', 'methods'].every(id =>
+      document.getElementById(id).getBoundingClientRect().top >= canvas.getBoundingClientRect().bottom);
+    document.title = [all[0], drawn() < all[1], above, document.getElementById('key').textContent.includes('true wall')].join(' ');
+  )js",
+                                        folder_);
+  EXPECT_EQ(title, "true true true false");
+}
+
+TEST_F(Player, HoldsAllSeedsOfARunThatFits) {
+  ASSERT_EQ(here({"run", "room.yaml", "--seed", "5,3", "--out", "two", "-q", "--no-figures"}).code, 0);
+  ASSERT_EQ(here({"report", "two", "--scans"}).code, 0);
+  const std::string page = read(folder_ / "two/scans.html");
+  EXPECT_THAT(page, HasSubstr(R"("seed":"5")"));
+  EXPECT_THAT(page, HasSubstr(R"("seed":"3")"));
+}
+
 TEST_F(Player, OfARunWithoutScansIsRefused) {
   ASSERT_EQ(here({"simulate", "room.yaml", "--out", "recordings"}).code, 0);
   const auto outcome = here({"report", "recordings", "--scans"});

@@ -63,6 +63,12 @@ bool Gates::is_judged(const std::string& metric) const {
   return named_.contains(metric) || (known.direction != Direction::neither && !known.timing);
 }
 
+std::vector<std::string> headline_metrics() {
+  std::vector<std::string> metrics;
+  for (const auto& headlines : kHeadlines) metrics.insert(metrics.end(), headlines.begin(), headlines.end());
+  return metrics;
+}
+
 bool is_headline(const std::string& metric) {
   return std::ranges::any_of(
       kHeadlines, [&](const auto& headlines) { return std::ranges::find(headlines, metric) != headlines.end(); });

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "harness/study/scenario/gate_spec.hpp"
 #include "metrics/metric.hpp"
@@ -33,7 +34,9 @@ class Gates {
   std::set<std::string> named_;  ///< by the specification
 };
 
-/// True if the metric is a gate of some pipelines where no specification names others.
+/// The metrics that are gates of some pipelines where no specification names others, those of the last stage first.
+std::vector<std::string> headline_metrics();
+/// True if the metric is one of them.
 bool is_headline(const std::string& metric);
 
 }  // namespace scanbench::results

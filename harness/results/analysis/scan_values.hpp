@@ -1,4 +1,4 @@
-// The values of a recorded log's metrics scan by scan, computed again from the files of a run.
+// The values of a cell's metrics scan by scan, computed again from the files of a run.
 #pragma once
 
 #include <cstddef>
@@ -41,6 +41,11 @@ class ScanValueReader {
   /// (medians, the largest value, a map's). The weight of a scan is the row's count. Throws ConfigError for damaged
   /// files.
   std::optional<ScanValues> of(const runs::CellKey& key, const std::string& metric);
+
+  /// The metric on every scan alone, one value per scan of the recording, in the metric's unit; that of a pair of
+  /// neighbours is at its later scan. NaN: the scan has none. nullopt if the metric says nothing about single scans:
+  /// that of a map, of a trajectory, of walls. Throws ConfigError for damaged files.
+  std::optional<std::vector<double>> by_scan(const runs::CellKey& key, const std::string& metric);
 
  private:
   struct Cell;

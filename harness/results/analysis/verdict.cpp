@@ -131,7 +131,14 @@ std::string few_seeds_text(const Comparison& comparison) {
                      counted(few, "gate changed", "gates changed"));
 }
 
-/// "98 equal to the bit, 20 within their tolerance, 2 better".
+/// " Better: f1 of iepf in abcdef rose from ...", or nothing.
+std::string better_text(const Comparison& comparison) {
+  const auto better = changes_with(comparison, Finding::better);
+  if (better.empty()) return "";
+  return fmt::format(" {}: {}.", better.size() == 1 ? "Better" : "The best", change_sentence(*better.front()));
+}
+
+/// "98 equal to the bit, 20 within tolerance": those that are neither worse nor better.
 std::string other_gates(const Comparison& comparison) {
   std::vector<std::string> parts;
   const auto add = [&](Finding finding, const char* words) {
@@ -140,7 +147,6 @@ std::string other_gates(const Comparison& comparison) {
   add(Finding::same, "equal to the bit");
   add(Finding::within, "within tolerance");
   add(Finding::uncertain, "changed by more than the tolerance, but not on enough seeds to be certain");
-  add(Finding::better, "better");
   std::string text;
   for (const auto& part : parts) text += (text.empty() ? "" : ", ") + part;
   return text;
@@ -173,7 +179,7 @@ std::string verdict_sentence(const Comparison& comparison) {
   if (comparison.compared_nothing()) return text + strangers_text(comparison);
   const std::string others_text = watched_text(comparison) + dropped_text(comparison);
   if (comparison.failed()) {
-    text += failure_text(comparison);
+    text += failure_text(comparison) + better_text(comparison);
     if (comparison.incomplete()) text += " Besides, " + incomplete_text(comparison);
     return text + others_text;
   }
@@ -181,10 +187,12 @@ std::string verdict_sentence(const Comparison& comparison) {
     return text + incomplete_text(comparison) +
            (comparison.cells > 0 ? " Nothing that was compared is worse." : " Nothing was compared.") + others_text;
   if (comparison.gates == 0) return text + "no metric of these runs is a gate, so nothing could fail." + others_text;
+  text += fmt::format("none of {} is worse", counted(comparison.gates, "gate", "gates"));
+  if (const std::size_t better = comparison.count(Finding::better))
+    text += fmt::format(", {} better", counted(better, "is", "are"));
   const std::string others = other_gates(comparison);
-  text += fmt::format("none of {} is worse{}.", counted(comparison.gates, "gate", "gates"),
-                      others.empty() ? "" : " (" + others + ")");
-  text += few_seeds_text(comparison);
+  text += others.empty() ? "." : " (" + others + ").";
+  text += few_seeds_text(comparison) + better_text(comparison);
   if (!comparison.added.empty())
     text += fmt::format(" {} new and not compared.", counted(comparison.added.size(), "cell is", "cells are"));
   return text + others_text;

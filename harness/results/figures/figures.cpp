@@ -74,10 +74,6 @@ study::Scenario with_pipelines(study::Scenario scenario, const std::vector<std::
   return scenario;
 }
 
-bool shows_one_scan(const study::ModuleChoice& figure) {
-  return figure.params.contains("frame");
-}
-
 ParamSet with_frame(ParamSet params, const std::optional<std::size_t>& frame) {
   if (frame && params.contains("frame")) params["frame"] = static_cast<std::int64_t>(*frame);
   return params;
@@ -115,6 +111,10 @@ void check_folder(const fs::path& folder) {
 }
 
 }  // namespace
+
+bool shows_one_scan(const study::ModuleChoice& figure) {
+  return figure.params.contains("frame");
+}
 
 void check_figure_options(const FigureOptions& options, const std::vector<study::Scenario>& scenarios) {
   std::vector<std::string> known;
@@ -174,14 +174,13 @@ std::vector<FigureFile> draw_run_wide_figures(const runs::RunStore& store,
   return files;
 }
 
-std::vector<FigureFile> draw_figures(const runs::RunStore& store, const study::Scenario& all,
-                                     const FigureOptions& options,
-                                     const std::function<void(double, const std::string&)>& progress) {
+void for_each_figure(const runs::RunStore& store, const study::Scenario& all, const FigureOptions& options,
+                     const FigureSink& sink, const std::function<void(double, const std::string&)>& progress) {
   const study::Scenario scenario = with_pipelines(all, options.pipelines);
   const std::uint64_t seed = scenario.seeds.front();
-  if (scenario.figures.empty()) return {};
+  if (scenario.figures.empty()) return;
   const runs::StoredFiles recorded = store.recording(scenario.name, seed);
-  if (!recorded.exist()) return {};
+  if (!recorded.exist()) return;
   const Recording recording = runs::load_recording(recorded);
   check_frame(options.frame, recording, scenario);
   const std::vector<LoadedResult> results = finished_results(store, scenario, seed);
@@ -205,7 +204,6 @@ std::vector<FigureFile> draw_figures(const runs::RunStore& store, const study::S
          line_verdicts(recording, loaded.result, segment_rules(scenario.metrics)),
          pixels ? line_difference(recording, loaded.result, raster_rules(scenario.metrics)) : std::nullopt});
 
-  std::vector<FigureFile> files;
   for (std::size_t i = 0; i < scenario.figures.size(); ++i) {
     const auto& choice = scenario.figures[i];
     if (progress) progress(static_cast<double>(i) / static_cast<double>(scenario.figures.size()), choice.module);
@@ -215,17 +213,26 @@ std::vector<FigureFile> draw_figures(const runs::RunStore& store, const study::S
     const std::string note = recording_note(scenario, shown), title_note = recording_title_note(scenario, shown);
     auto scenes = figure->draw(input);
     if (scenes.empty())
-      files.push_back(
-          {scenario.name, "", choice.module + " is not drawn: " + why_not_drawn(*figure, input), choice.module});
+      sink({scenario.name, "", choice.module + " is not drawn: " + why_not_drawn(*figure, input), choice.module}, {});
     for (auto& drawn : scenes) {
       std::string name = options.name.empty() ? scenario.name + "_" + drawn.name : options.name;
       if (!options.name.empty() && scenes.size() > 1) name += "_" + drawn.name;
       if (!drawn.scene.title.empty() && !title_note.empty()) drawn.scene.title += " (" + title_note + ")";
-      const std::string caption = drawn.caption + " " + note;
-      write_figure(figure_folder(store.run(), options), name, drawn.scene, caption, options);
-      files.push_back({scenario.name, name, caption, choice.module});
+      sink({scenario.name, name, drawn.caption + " " + note, choice.module}, drawn.scene);
     }
   }
+}
+
+std::vector<FigureFile> draw_figures(const runs::RunStore& store, const study::Scenario& scenario,
+                                     const FigureOptions& options,
+                                     const std::function<void(double, const std::string&)>& progress) {
+  std::vector<FigureFile> files;
+  const fs::path folder = figure_folder(store.run(), options);
+  const auto write = [&](const FigureFile& figure, const render::Scene& scene) {
+    if (!figure.name.empty()) write_figure(folder, figure.name, scene, figure.caption, options);
+    files.push_back(figure);
+  };
+  for_each_figure(store, scenario, options, write, progress);
   return files;
 }
 

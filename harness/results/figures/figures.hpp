@@ -41,8 +41,20 @@ struct FigureOptions {
 /// program.
 void check_figure_options(const FigureOptions& options, const std::vector<study::Scenario>& scenarios);
 
-/// Draws the scenario's figures (of its first seed) from the run's recording and finished cells. Throws ConfigError if
-/// files are missing or cannot be written, and for a scan that the recording does not have.
+/// Takes a figure; without a name the figure had nothing to draw, and the scene is empty.
+using FigureSink = std::function<void(const FigureFile& figure, const render::Scene& scene)>;
+
+/// Draws the scenario's figures (of its first seed) from the run's recording and finished cells, and gives them to
+/// `sink` one by one, in the options' frame but not in their style. Throws ConfigError if files are missing, and for a
+/// scan that the recording does not have.
+void for_each_figure(const runs::RunStore& store, const study::Scenario& scenario, const FigureOptions& options,
+                     const FigureSink& sink, const std::function<void(double, const std::string&)>& progress = {});
+
+/// True if the figure shows the scan that `FigureOptions::frame` names, or one of its own choice without it.
+bool shows_one_scan(const study::ModuleChoice& figure);
+
+/// Draws the figures of for_each_figure() and writes them into the folder of the options. Throws ConfigError also if
+/// they cannot be written.
 std::vector<FigureFile> draw_figures(const runs::RunStore& store, const study::Scenario& scenario,
                                      const FigureOptions& options = {},
                                      const std::function<void(double, const std::string&)>& progress = {});

@@ -67,16 +67,27 @@ class ScanRows {
     return static_cast<std::size_t>(std::max(0, table_->index(*worst, "frame")));
   }
 
+  /// "8 right, 1 false, 0 missed, 2 split".
+  std::string counts(std::size_t frame) const {
+    const auto row = row_of(frame);
+    if (!row) return "";
+    return fmt::format("{} right, {} false, {} missed, {} split", table_->text(*row, "true"),
+                       table_->text(*row, "false"), table_->text(*row, "missed"), table_->text(*row, "split"));
+  }
+
   std::string text(std::size_t frame) const {
-    for (std::size_t row = 0; table_ && row < table_->rows(); ++row)
-      if (table_->text(row, "frame") == std::to_string(frame))
-        return fmt::format("{} right, {} false, {} missed, {} split; F1 {}, residual {}", table_->text(row, "true"),
-                           table_->text(row, "false"), table_->text(row, "missed"), table_->text(row, "split"),
-                           rounded(row, "f1", ""), rounded(row, "residual_m", " m"));
-    return "";
+    const auto row = row_of(frame);
+    if (!row) return "";
+    return counts(frame) +
+           fmt::format("; F1 {}, residual {}", rounded(*row, "f1", ""), rounded(*row, "residual_m", " m"));
   }
 
  private:
+  std::optional<std::size_t> row_of(std::size_t frame) const {
+    for (std::size_t row = 0; table_ && row < table_->rows(); ++row)
+      if (table_->text(row, "frame") == std::to_string(frame)) return row;
+    return std::nullopt;
+  }
   double error(std::size_t row) const {
     return scan_error(table_->number(row, "f1"),
                       table_->number(row, "false") + table_->number(row, "missed") + table_->number(row, "split"));
@@ -156,6 +167,17 @@ ShownScan drawn_scan(const ChosenCell& cell, std::vector<render::NamedResult> re
           .scene = std::move(drawn.front().scene)};
 }
 
+/// A panel of the scene with the view that it has beside the others, without title and legend.
+render::Scene panel_alone(render::Scene scene, std::size_t panel) {
+  scene.panels = {scene.panels[panel]};
+  scene.columns = 1;
+  scene.width_in = render::kSingleColumnIn;
+  scene.title.clear();
+  scene.legend.clear();
+  scene.scale_bar = false;
+  return scene;
+}
+
 }  // namespace
 
 ShownScan show_scan(const fs::path& run, const ScanChoice& choice) {
@@ -165,17 +187,22 @@ ShownScan show_scan(const fs::path& run, const ScanChoice& choice) {
   return shown;
 }
 
-std::optional<ShownScan> show_scan_in_both(const fs::path& before, const fs::path& now, const ScanChoice& choice) {
+std::optional<ShownInBoth> show_scan_in_both(const fs::path& before, const fs::path& now, const ScanChoice& choice) {
   const ChosenCell cell(now, choice);
   const ChosenCell earlier(before, {.scenario = cell.key.scenario,
                                     .pipeline = cell.key.pipeline,
                                     .seed = cell.key.seed,
                                     .frame = std::to_string(cell.frame)});
   if (!is_same_scan(earlier, cell)) return std::nullopt;
-  ShownScan shown =
-      drawn_scan(cell, {earlier.named(cell.key.pipeline + " before"), cell.named(cell.key.pipeline + " now")});
-  shown.text += ". Before: " + earlier.rows->text(cell.frame) + ". Now: " + cell.rows->text(cell.frame) + ".";
-  return shown;
+  std::vector<render::NamedResult> results{earlier.named("before"), cell.named("now")};
+  const bool judged = !results.back().verdicts.empty();
+  ShownScan both = drawn_scan(cell, std::move(results));  // one panel if the lines are equal
+  ShownInBoth pair{both, both, both.scene.panels.size() == 1, judged};
+  pair.before.text = earlier.rows->counts(cell.frame);
+  pair.before.scene = panel_alone(both.scene, 0);
+  pair.now.text = cell.rows->counts(cell.frame);
+  pair.now.scene = panel_alone(both.scene, both.scene.panels.size() - 1);
+  return pair;
 }
 
 std::string picture_bytes(const render::Scene& scene, const fs::path& path, double dpi) {

@@ -29,10 +29,19 @@ struct ShownScan {
 /// and for "worst" where the cell has no scans.csv with an F1.
 ShownScan show_scan(const std::filesystem::path& run, const ScanChoice& choice);
 
-/// The same scan of a cell in an earlier run and now, side by side with the same axes. None if it is not the same scan
-/// there. Throws ConfigError as show_scan() does, for both runs.
-std::optional<ShownScan> show_scan_in_both(const std::filesystem::path& before, const std::filesystem::path& now,
-                                           const ScanChoice& choice);
+/// The same scan in two runs.
+struct ShownInBoth {
+  ShownScan before;
+  ShownScan now;
+  bool same_lines = false;
+  bool judged = false;  ///< colours are verdicts; else those of pipelines, because there is no truth
+};
+
+/// The same scan of a cell in an earlier run and now, in two scenes with the same axes, without legends; the texts are
+/// the numbers of right, false, missed and split lines. None if it is not the same scan there. Throws ConfigError as
+/// show_scan() does, for both runs.
+std::optional<ShownInBoth> show_scan_in_both(const std::filesystem::path& before, const std::filesystem::path& now,
+                                             const ScanChoice& choice);
 
 /// The scene as PNG, SVG or PDF, as the ending of the path says; `dpi` is the resolution of PNG. Throws ConfigError for
 /// other endings.

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "harness/results/analysis/verdict.hpp"
@@ -76,6 +78,11 @@ TableCell worst_seed(const MetricChange& change, const std::string& run) {
   return cell;
 }
 
+/// "7", or "3 seeds, first 7".
+std::string seeds_text(std::size_t count, std::uint64_t first) {
+  return count == 1 ? std::to_string(first) : fmt::format("{} seeds, first {}", count, first);
+}
+
 /// One row per pipeline of a scenario, at most `most` of them: the others are counted in one more row.
 void add_cells(Table& table, const std::string& what, const std::vector<runs::CellKey>& cells, std::size_t most) {
   std::vector<std::pair<runs::CellKey, std::size_t>> groups;  // first cell, number of cells
@@ -88,9 +95,7 @@ void add_cells(Table& table, const std::string& what, const std::vector<runs::Ce
   std::size_t listed = 0;
   for (std::size_t i = 0; i < groups.size() && i < most; ++i) {
     const auto& [key, count] = groups[i];
-    const std::string seeds =
-        count == 1 ? std::to_string(key.seed) : fmt::format("{} seeds, first {}", count, key.seed);
-    table.rows.push_back({{what, key.scenario, key.pipeline, seeds, ""}, {}, false});
+    table.rows.push_back({{what, key.scenario, key.pipeline, seeds_text(count, key.seed), ""}, {}, false});
     listed += count;
   }
   if (groups.size() > most)
@@ -100,10 +105,20 @@ void add_cells(Table& table, const std::string& what, const std::vector<runs::Ce
                           false});
 }
 
+/// One row for all seeds of a pipeline that changed alike.
 void add_changes(Table& table, const std::string& what, const std::vector<StatusChange>& changes) {
+  using Row = std::tuple<std::string, std::string, std::string>;  // scenario, pipeline, text
+  std::vector<std::pair<Row, std::vector<std::uint64_t>>> rows;   // with the seeds
   for (const auto& [key, before, after, message] : changes) {
-    const std::string text = before + " → " + after + (message.empty() ? "" : ": " + plain_line(message));
-    table.rows.push_back({{what, key.scenario, key.pipeline, std::to_string(key.seed), text}, {}, false});
+    const Row row{key.scenario, key.pipeline,
+                  before + " → " + after + (message.empty() ? "" : ": " + plain_line(message))};
+    auto known = std::ranges::find(rows, row, &decltype(rows)::value_type::first);
+    if (known == rows.end()) known = rows.insert(known, {row, {}});
+    known->second.push_back(key.seed);
+  }
+  for (const auto& [row, seeds] : rows) {
+    const auto& [scenario, pipeline, text] = row;
+    table.rows.push_back({{what, scenario, pipeline, seeds_text(seeds.size(), seeds.front()), text}, {}, false});
   }
 }
 

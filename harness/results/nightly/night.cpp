@@ -7,7 +7,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -19,14 +18,14 @@
 #include "harness/results/analysis/verdict.hpp"
 #include "harness/results/document/document.hpp"
 #include "harness/results/document/html_page.hpp"
-#include "harness/results/figures/figures.hpp"
 #include "harness/results/figures/recording_note.hpp"
-#include "harness/results/figures/shown_scan.hpp"
 #include "harness/results/nightly/baseline.hpp"
 #include "harness/results/nightly/comparison_files.hpp"
 #include "harness/results/nightly/comparison_tables.hpp"
 #include "harness/results/nightly/night_page.hpp"
+#include "harness/results/nightly/night_pictures.hpp"
 #include "harness/results/pages/run_report.hpp"
+#include "harness/results/player/player_page.hpp"
 #include "harness/runs/store/json_file.hpp"
 #include "harness/runs/store/manifest.hpp"
 #include "harness/runs/store/run_folder.hpp"
@@ -40,10 +39,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kTrendNights = 30;
-constexpr std::size_t kPictures = 6;
-constexpr std::size_t kListedChanges = 40;         // with a trend
-constexpr std::size_t kWorstScans = 10;            // of each pipeline
-constexpr std::uintmax_t kLargestFigure = 400000;  // bytes, so that the page stays small
+constexpr std::size_t kListedChanges = 40;  // with a trend
+constexpr std::size_t kWorstScans = 10;     // of each pipeline
 
 struct Reference {
   std::string text;
@@ -126,66 +123,6 @@ std::vector<const MetricChange*> listed_changes(const Comparison& comparison) {
   return listed;
 }
 
-/// The worst scan of a cell now, beside the same scan as it was before, where that is kept.
-PicturePair scan_pair(const fs::path& run, const fs::path& before, const ScanChoice& choice) {
-  if (fs::exists(before / runs::kManifestFile)) {
-    try {
-      if (const auto both = show_scan_in_both(before, run, choice))
-        return {{}, {}, PagePicture{both->text, picture_bytes(both->scene, "scan.png")}};
-    } catch (const ConfigError&) {  // a cell that the earlier run does not have
-    }
-  }
-  try {
-    const ShownScan shown = show_scan(run, choice);
-    return {{}, {}, PagePicture{"now: " + shown.text, picture_bytes(shown.scene, "scan.png")}};
-  } catch (const ConfigError&) {  // a pipeline without lines, or a run without scans.csv
-    return {};
-  }
-}
-
-/// The worst scan of the worst seed of each pipeline that became worse.
-std::vector<PicturePair> pictures_of(const fs::path& run, const fs::path& before, const Comparison& comparison) {
-  std::vector<PicturePair> pictures;
-  std::vector<std::pair<std::string, std::string>> seen;
-  for (const MetricChange* change : changes_with(comparison, Finding::worse)) {
-    const std::pair place{change->scenario, change->pipeline};
-    const SeedPair* worst = change->worst();
-    if (pictures.size() == kPictures || worst == nullptr || std::ranges::find(seen, place) != seen.end()) continue;
-    seen.push_back(place);
-    PicturePair pair =
-        scan_pair(run, before, {.scenario = change->scenario, .pipeline = change->pipeline, .seed = worst->seed});
-    if (!pair.now) continue;
-    pair.title =
-        fmt::format("{} in {}, seed {}: the scan with the lowest F1", change->pipeline, change->scenario, worst->seed);
-    pictures.push_back(std::move(pair));
-  }
-  return pictures;
-}
-
-/// The figures of scenarios in which a gate became worse, beside those of the last good night.
-std::vector<PicturePair> figures_of(const fs::path& run, const fs::path& last_good, const Comparison& comparison) {
-  std::set<std::string> scenarios;
-  for (const MetricChange* change : changes_with(comparison, Finding::worse)) scenarios.insert(change->scenario);
-  // Each picture has the caption of its own night: the worst scan, for one, may be another.
-  const auto picture_in = [](const fs::path& folder, const std::vector<FigureFile>& index, const std::string& name,
-                             const std::string& when) -> std::optional<PagePicture> {
-    const fs::path file = folder / "figures" / (name + ".png");
-    const auto figure = std::ranges::find(index, name, &FigureFile::name);
-    if (figure == index.end() || !fs::exists(file) || fs::file_size(file) > kLargestFigure) return std::nullopt;
-    return PagePicture{when + ": " + figure->caption, io::read_file(file)};
-  };
-  const auto now = load_figure_index(run / "figures"), before = load_figure_index(last_good / "figures");
-  std::vector<PicturePair> figures;
-  for (const auto& figure : now) {
-    if (figure.name.empty() || !scenarios.contains(figure.scenario) || figures.size() == kPictures) continue;
-    PicturePair pair{figure.name, picture_in(last_good, before, figure.name, "in the last good night"),
-                     picture_in(run, now, figure.name, "now")};
-    const bool is_equal = pair.before && pair.now && pair.before->png == pair.now->png;
-    if (pair.now && !is_equal) figures.push_back(std::move(pair));
-  }
-  return figures;
-}
-
 /// Keeps a good night: cells and recordings as links to the same files, because nobody writes into a file that is
 /// there.
 void keep_good_night(const fs::path& run) {
@@ -197,6 +134,16 @@ void keep_good_night(const fs::path& run) {
   for (const char* file : {"manifest.json", "artefacts.sha256", "effective.yaml", "summary.csv"})
     if (fs::exists(run / file)) fs::copy_file(run / file, staged.path() / file);
   staged.commit();
+}
+
+/// The scans that the page shows.
+PlayedRecordings linked_scans(const NightInput& input) {
+  PlayedRecordings recordings;
+  for (const auto& pair : input.pictures.scans)
+    if (pair.scan) recordings[{pair.scan->cell.scenario, pair.scan->cell.seed}].insert(pair.scan->frame);
+  for (const auto& [pipeline, scans] : input.worst)
+    for (const auto& scan : scans) recordings[{scan.key.scenario, scan.key.seed}].insert(scan.frame);
+  return recordings;
 }
 
 /// Stands beside the run while a night is being stored. One line per start of a night in this folder that may be in the
@@ -226,8 +173,9 @@ NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<s
   input.facts = runs::manifest_facts(plan.run);
   if (fs::exists(plan.run / kReportPage)) input.report = kReportPage.name();
   if (!runs::load_benchmark(plan.run)) input.scenarios_page = input.report;
+  const std::vector<study::Scenario> scenarios = runs::load_run_scenarios(plan.run);
   std::map<std::string, std::string> conditions;
-  for (const auto& scenario : runs::load_run_scenarios(plan.run)) conditions[scenario.name] = condition_text(scenario);
+  for (const auto& scenario : scenarios) conditions[scenario.name] = condition_text(scenario);
   input.rankings =
       rank_methods(input.now.cells, load_scan_seconds(runs::RunStore(plan.run), input.now.cells), conditions);
   input.worst = worst_scans(plan.run, input.now, kWorstScans);
@@ -248,8 +196,7 @@ NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<s
           store.trend(plan.suite, change->scenario, change->pipeline, change->metric.metric, kTrendNights);
     }
     const fs::path before = reference->results.folder.empty() ? last_good_folder(plan.run) : reference->results.folder;
-    input.pictures = pictures_of(plan.run, before, comparison);
-    input.figures = figures_of(plan.run, before, comparison);
+    input.pictures = night_pictures(plan.run, before, comparison);
     for (const runs::RunFile* file : {&kComparisonJson, &kComparisonMarkdown, &kComparisonJunit})
       input.files.push_back(file->name());
     io::write_file_atomically(plan.run / kComparisonJson, comparison_json(comparison));
@@ -283,6 +230,7 @@ NightOutcome judge_night(const NightPlan& plan, Store store, const std::vector<s
     input.drift = compare(oldest.results, gate_values(input.now, plan.gates), plan.gates);
     input.drift_reference = text_of(oldest);
   }
+  if (write_player(plan.run, scenarios, linked_scans(input))) input.player = kPlayerPage.name();
   input.sentence = outcome.sentence;
   input.nights = store.nights(plan.suite);
   outcome.page = plan.run / kNightPage;

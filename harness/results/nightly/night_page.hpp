@@ -12,25 +12,13 @@
 #include "harness/results/analysis/method_ranking.hpp"
 #include "harness/results/document/document.hpp"
 #include "harness/results/figures/worst_scans.hpp"
+#include "harness/results/nightly/night_pictures.hpp"
 #include "harness/results/nightly/store.hpp"
 #include "harness/runs/store/run_file.hpp"
 
 namespace scanbench::results {
 
 inline const runs::RunFile kNightPage("nightly.html");
-
-/// A figure, or one scan with a pipeline's lines, as PNG.
-struct PagePicture {
-  std::string caption;
-  std::string png;
-};
-
-/// A scan or a figure that shows a change: as it was in the last good night, if that is known, and as it is now.
-struct PicturePair {
-  std::string title;  ///< "abcdef/iepf/3: the worst scan"
-  std::optional<PagePicture> before;
-  std::optional<PagePicture> now;
-};
 
 struct NightInput {
   std::string suite;
@@ -43,14 +31,14 @@ struct NightInput {
   std::vector<Night> nights;  ///< of this suite, oldest first, this one last
   /// Of every change that the page lists: the values of the last nights, by "scenario/pipeline/metric".
   std::map<std::string, std::vector<TrendPoint>> trends;
-  std::vector<PicturePair> pictures;  ///< scans of pipelines that became worse
-  std::vector<PicturePair> figures;   ///< of scenarios in which something became worse
+  NightPictures pictures;
   std::vector<MethodRanking> rankings;
   std::vector<PipelineWorst> worst;
   std::vector<std::pair<std::string, std::string>> facts;  ///< how to get the numbers again
   std::size_t reused = 0;                                  ///< cells that were not run again, because nothing changed
   std::string report;              ///< the run's own report beside this page: a relative link; empty: there is none
   std::string scenarios_page;      ///< the same; empty if the report has no anchor per scenario
+  std::string player;              ///< the page that plays this run's scans; empty: there is none
   std::vector<std::string> files;  ///< other files beside this page that hold its numbers
 };
 

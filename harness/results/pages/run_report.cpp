@@ -102,22 +102,6 @@ std::map<std::string, MethodRanking> rankings_by_scenario(const runs::RunStore& 
   return rankings;
 }
 
-/// The answer of a benchmark or of the only scenario, else how the cells ended.
-std::string first_sentence(const ReportInput& input, const Document& page) {
-  if (!input.benchmark && input.scenarios.size() == 1) {
-    const auto found = input.results.find(input.scenarios.front().name);
-    if (found != input.results.end() && !found->second.answer.empty()) return found->second.answer;
-  }
-  std::string text;
-  for (const Block& block : page.blocks) {
-    const auto* paragraph = std::get_if<Paragraph>(&block);
-    if (paragraph == nullptr) continue;
-    for (const TextSpan& span : paragraph->text.spans) text += span.text;
-    break;
-  }
-  return text;
-}
-
 }  // namespace
 
 ReportInput load_report_input(const fs::path& run, const std::vector<study::Scenario>& scenarios) {
@@ -193,7 +177,9 @@ std::string write_reports(const fs::path& run, const ReportInput& input) {
   io::write_file_atomically(run / kReportPage, to_html(page));
   io::write_file_atomically(run / kReportMarkdown, to_markdown(page));
   runs::refresh_manifest(run);
-  return first_sentence(input, page);
+  std::string lead;
+  for (const TextSpan& span : page.lead.spans) lead += span.text;
+  return lead;
 }
 
 }  // namespace scanbench::results

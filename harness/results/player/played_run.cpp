@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -80,8 +81,7 @@ void read_scans(const runs::StoredFiles& cell, std::size_t frames, PlayedPipelin
 }
 
 std::vector<PlayedPipeline> played_pipelines(const runs::RunStore& store, const study::Scenario& scenario,
-                                             const Recording& recording) {
-  const std::uint64_t seed = scenario.seeds.front();
+                                             std::uint64_t seed, const Recording& recording) {
   const std::size_t frames = recording.observed.frames.size();
   std::vector<PlayedPipeline> played;
   for (const study::PipelineSpec& pipeline : scenario.pipelines) {
@@ -144,10 +144,15 @@ char letter(render::LineVerdict verdict) {
   }
 }
 
-Json numbers(const std::vector<double>& values, const std::vector<std::size_t>& chosen, double unit) {
+/// The nearest multiple of 1 / `steps`, which JSON then writes with few digits.
+double rounded(double value, double steps) {
+  return std::round(value * steps) / steps;
+}
+
+Json numbers(const std::vector<double>& values, const std::vector<std::size_t>& chosen, double steps) {
   Json list = Json::array();
   for (const std::size_t f : chosen)
-    list.push_back(std::isfinite(values[f]) ? Json(std::round(values[f] / unit) * unit) : Json(nullptr));
+    list.push_back(std::isfinite(values[f]) ? Json(rounded(values[f], steps)) : Json(nullptr));
   return list;
 }
 
@@ -175,22 +180,52 @@ Json packed(const PlayedPipeline& p, const std::vector<std::size_t>& chosen, dou
             {"missed_counts", missed_counts},
             {"missed", io::base64(missed)}};
   if (!p.f1.empty()) {
-    json["f1"] = numbers(p.f1, chosen, 1e-4);
-    json["error"] = numbers(p.error, chosen, 1e-8);
+    json["f1"] = numbers(p.f1, chosen, 1e4);
+    json["error"] = numbers(p.error, chosen, 1e8);
   }
-  json["unexplained"] = numbers(p.unexplained, chosen, 1e-4);
-  json["residual_m"] = numbers(p.residual_m, chosen, 1e-5);
+  json["unexplained"] = numbers(p.unexplained, chosen, 1e4);
+  json["residual_m"] = numbers(p.residual_m, chosen, 1e5);
   return json;
 }
 
-/// Bytes of one scan in the page: base64 of its ranges and lines, and a few numbers per pipeline.
+/// Numbers with so many decimals that the page shows no difference: x, y, yaw of every chosen scan.
+Json packed_poses(const std::vector<Pose2>& poses, const std::vector<std::size_t>& chosen) {
+  Json list = Json::array();
+  for (const std::size_t f : chosen) {
+    for (const double value : {poses[f].translation().x(), poses[f].translation().y()})
+      list.push_back(rounded(value, 1e3));
+    list.push_back(rounded(poses[f].yaw(), 1e5));
+  }
+  return list;
+}
+
+/// The ends of every wall, world frame.
+Json packed_walls(const std::vector<Wall>& walls) {
+  Json list = Json::array();
+  for (const Wall& wall : walls)
+    for (const double value : {wall.segment.a.x(), wall.segment.a.y(), wall.segment.b.x(), wall.segment.b.y()})
+      list.push_back(rounded(value, 1e3));
+  return list;
+}
+
+bool has_true_walls(const Recording& recording) {
+  return recording.truth && recording.truth->world_from_sensor.size() == recording.observed.frames.size() &&
+         !recording.truth->walls.empty();
+}
+
+/// Bytes of the walls in the page.
+double bytes_of_walls(const Recording& recording) {
+  return has_true_walls(recording) ? 32.0 * static_cast<double>(recording.truth->walls.size()) : 0.0;
+}
+
+/// Bytes of one scan in the page: base64 of its ranges and lines, its pose, and a few numbers per pipeline.
 double bytes_per_scan(const Recording& recording, const std::vector<PlayedPipeline>& pipelines) {
   double lines = 0.0;
   for (const PlayedPipeline& p : pipelines)
     for (const ScanLines& scan : p.lines) lines += static_cast<double>(scan.lines.size());
   const double frames = std::max(1.0, static_cast<double>(recording.observed.frames.size()));
   const double beams = recording.observed.sensor.geometry.beams();
-  return 4.0 / 3.0 * (2.0 * beams + 2.0 * 9.0 * lines / frames) + 60.0 * static_cast<double>(pipelines.size());
+  return 4.0 / 3.0 * (2.0 * beams + 2.0 * 9.0 * lines / frames) + 60.0 * static_cast<double>(pipelines.size()) + 24.0;
 }
 
 double largest_range(const Recording& recording) {
@@ -201,8 +236,8 @@ double largest_range(const Recording& recording) {
   return largest;
 }
 
-Json packed(const study::Scenario& scenario, const Recording& recording, const std::vector<PlayedPipeline>& pipelines,
-            const std::vector<std::size_t>& chosen) {
+Json packed(const study::Scenario& scenario, std::uint64_t seed, const Recording& recording,
+            const std::vector<PlayedPipeline>& pipelines, const std::vector<std::size_t>& chosen) {
   const ScanGeometry& geometry = recording.observed.sensor.geometry;
   const double step_m = std::max(kFinestStepM, largest_range(recording) / kMostSteps);
   std::string ranges;
@@ -220,36 +255,89 @@ Json packed(const study::Scenario& scenario, const Recording& recording, const s
     list.push_back(packed(pipelines[k], chosen, step_m));
     list.back()["color"] = hex(styles[k].color);
   }
-  return {{"name", scenario.name},
-          {"note", recording_note(scenario, std::span(scenario.seeds).first(1))},
-          {"of", recording.observed.frames.size()},
-          {"frames", chosen},
-          {"beams", geometry.beams()},
-          {"angle_min_rad", geometry.angle_min()},
-          {"angle_step_rad", geometry.angle_step()},
-          {"step_m", step_m},
-          {"ranges", io::base64(ranges)},
-          {"pipelines", std::move(list)}};
+  Json json{{"name", scenario.name},
+            {"seed", std::to_string(seed)},  // as text: JavaScript's numbers do not hold all seeds
+            {"note", recording_note(scenario, std::span(&seed, 1))},
+            {"of", recording.observed.frames.size()},
+            {"frames", chosen},
+            {"beams", geometry.beams()},
+            {"angle_min_rad", geometry.angle_min()},
+            {"angle_step_rad", geometry.angle_step()},
+            {"step_m", step_m},
+            {"ranges", io::base64(ranges)},
+            {"pipelines", std::move(list)}};
+  if (has_true_walls(recording)) {
+    json["poses"] = packed_poses(recording.truth->world_from_sensor, chosen);
+    json["walls"] = packed_walls(recording.truth->walls);
+  }
+  return json;
+}
+
+/// A recording with the lines found in it; without pipelines if there is nothing to play.
+struct Played {
+  Recording recording;
+  std::vector<PlayedPipeline> pipelines;
+
+  Played(const runs::RunStore& store, const study::Scenario& scenario, std::uint64_t seed) {
+    const runs::StoredFiles recorded = store.recording(scenario.name, seed);
+    if (!recorded.exist()) return;
+    recording = runs::load_recording(recorded);
+    if (recording.observed.sensor.geometry.beams() == 0 || recording.observed.frames.empty()) return;
+    pipelines = played_pipelines(store, scenario, seed, recording);
+  }
+  /// In a page that leaves no scan out.
+  double bytes() const {
+    if (pipelines.empty()) return 0.0;
+    const auto frames = static_cast<double>(recording.observed.frames.size());
+    return bytes_of_walls(recording) + frames * bytes_per_scan(recording, pipelines);
+  }
+};
+
+/// Adds those of the `wanted` scans that the recording has.
+void add_scans(const std::set<std::size_t>& wanted, std::size_t frames, std::vector<std::size_t>& scans) {
+  std::set<std::size_t> all(scans.begin(), scans.end());
+  all.insert(wanted.begin(), wanted.lower_bound(frames));
+  scans.assign(all.begin(), all.end());
+}
+
+/// True if the page can hold every scan of all seeds, each as large as the first. Reads the first ones.
+bool can_hold_all_seeds(const runs::RunStore& store, const std::vector<study::Scenario>& scenarios,
+                        const PlayerLimits& limits) {
+  double bytes = 0.0;
+  for (const study::Scenario& scenario : scenarios) {
+    if (scenario.seeds.empty()) continue;
+    const Played first(store, scenario, scenario.seeds.front());
+    if (first.recording.observed.frames.size() > limits.scans) return false;
+    bytes += first.bytes() * static_cast<double>(scenario.seeds.size());
+    if (bytes > static_cast<double>(limits.bytes)) return false;
+  }
+  return true;
 }
 
 }  // namespace
 
-Json played_run(const fs::path& run, const std::vector<study::Scenario>& scenarios, const PlayerLimits& limits) {
+Json played_run(const fs::path& run, const std::vector<study::Scenario>& scenarios, const PlayerLimits& limits,
+                const std::optional<PlayedRecordings>& chosen) {
   const runs::RunStore store(run);
+  const bool all_seeds = !chosen && can_hold_all_seeds(store, scenarios, limits);
+  std::vector<std::pair<const study::Scenario*, std::uint64_t>> places;
+  for (const study::Scenario& scenario : scenarios)
+    for (const std::uint64_t seed : scenario.seeds)
+      if (all_seeds || seed == scenario.seeds.front() || (chosen && chosen->contains({scenario.name, seed})))
+        places.emplace_back(&scenario, seed);
+  const double share = static_cast<double>(limits.bytes) / static_cast<double>(std::max<std::size_t>(1, places.size()));
   Json recordings = Json::array();
-  const double share =
-      static_cast<double>(limits.bytes) / static_cast<double>(std::max<std::size_t>(1, scenarios.size()));
-  for (const study::Scenario& scenario : scenarios) {
-    const runs::StoredFiles recorded = store.recording(scenario.name, scenario.seeds.front());
-    if (!recorded.exist()) continue;
-    const Recording recording = runs::load_recording(recorded);
-    if (recording.observed.sensor.geometry.beams() == 0 || recording.observed.frames.empty()) continue;
-    const auto pipelines = played_pipelines(store, scenario, recording);
-    if (pipelines.empty()) continue;
-    const double fit = std::max(1.0, share / bytes_per_scan(recording, pipelines));
-    const std::size_t most = std::min(limits.scans, static_cast<std::size_t>(fit));
-    const auto chosen = choose_scans(errors_of(pipelines, recording.observed.frames.size()), most);
-    recordings.push_back(packed(scenario, recording, pipelines, chosen));
+  for (const auto& [scenario, seed] : places) {
+    const Played played(store, *scenario, seed);
+    if (played.pipelines.empty()) continue;
+    const std::size_t frames = played.recording.observed.frames.size();
+    const double room = share - bytes_of_walls(played.recording);
+    const double fit = std::max(1.0, room / bytes_per_scan(played.recording, played.pipelines));
+    const std::size_t most = all_seeds ? frames : std::min(limits.scans, static_cast<std::size_t>(fit));
+    auto scans = choose_scans(errors_of(played.pipelines, frames), most);
+    if (chosen && chosen->contains({scenario->name, seed}))
+      add_scans(chosen->at({scenario->name, seed}), frames, scans);
+    recordings.push_back(packed(*scenario, seed, played.recording, played.pipelines, scans));
   }
   return recordings;
 }

@@ -63,8 +63,8 @@ TEST_F(Nightly, FailsWhenAParameterMakesAGateWorseAndPassesWhenItIsRestored) {
   EXPECT_THAT(worse.out, HasSubstr("4 of 8 cells were not run again"));  // those of lt
   const std::string html = page();
   EXPECT_THAT(html, HasSubstr("baseline 0001"));
-  EXPECT_THAT(html, HasSubstr("threshold_m: 0.1 -&gt; 2"));
-  EXPECT_THAT(html, AllOf(HasSubstr("iepf in room, seed "), HasSubstr(". Before: "), HasSubstr(". Now: ")));
+  EXPECT_THAT(html, HasSubstr("threshold_m: 0.1 → 2"));
+  EXPECT_THAT(html, AllOf(HasSubstr("iepf in room, seed "), HasSubstr("before ("), HasSubstr("now: ")));
   EXPECT_THAT(html, Not(HasSubstr("http")));  // self-contained
   const Outcome restored = night();
   EXPECT_EQ(restored.code, 0) << restored.out;
@@ -84,7 +84,7 @@ TEST_F(Nightly, KeepsTheNameOfItsSuiteInAnyFolder) {
 TEST_F(Nightly, ShowsTheScanOfTheLastGoodNightThatIsInAnotherFolder) {
   ASSERT_EQ(night({"--out", "first"}).code, 0);
   ASSERT_EQ(worse_night({"--out", "second"}).code, 1);
-  EXPECT_THAT(read(folder_ / "second/nightly.html"), AllOf(HasSubstr(". Before: "), HasSubstr(". Now: ")));
+  EXPECT_THAT(read(folder_ / "second/nightly.html"), AllOf(HasSubstr(" UTC): "), HasSubstr("now: ")));
 }
 
 TEST_F(Nightly, WithoutAReferenceLeavesNoComparisonOfAnEarlierNight) {

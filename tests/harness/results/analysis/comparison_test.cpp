@@ -259,7 +259,7 @@ TEST(Comparison, OnlyHeadlinesFailAndTheSentenceCountsBothSides) {
   EXPECT_THAT(verdict_sentence(mixed), HasSubstr("Of the watched metrics 4 are worse."));
   const Comparison watched = compare(run(0.7, 0.7, 0.9), run(0.8, 0.8, 0.6), Gates());
   EXPECT_EQ(watched.exit_code(), 0);
-  EXPECT_THAT(verdict_sentence(watched), HasSubstr("PASS: none of 2 gates is worse (2 better)."));
+  EXPECT_THAT(verdict_sentence(watched), HasSubstr("PASS: none of 2 gates is worse, 2 are better. The best: "));
   EXPECT_THAT(verdict_sentence(watched), HasSubstr("Of the watched metrics 4 are worse."));
 }
 

@@ -53,9 +53,9 @@ class PlayedRun : public ::testing::Test {
   std::vector<study::Scenario> scenarios_;
 };
 
-TEST_F(PlayedRun, HasTheRangesAndLinesOfTheFirstSeedWithinHalfAStep) {
+TEST_F(PlayedRun, HasTheRangesAndLinesWithinHalfAStep) {
   const auto json = played_run(out_, scenarios_);
-  ASSERT_EQ(json.size(), 1U);
+  ASSERT_EQ(json.size(), 2U);  // both seeds fit
   const auto& played = json[0];
   const Recording recording = runs::load_recording(runs::recording_path(out_, "s", 4));
   const double step = played["step_m"];
@@ -78,6 +78,39 @@ TEST_F(PlayedRun, HasTheRangesAndLinesOfTheFirstSeedWithinHalfAStep) {
         EXPECT_NEAR(lines.at(k++) * step, value, 0.5001 * step);
   }
   EXPECT_EQ(k, lines.size());
+}
+
+TEST_F(PlayedRun, HasTheTrueWallsAndPosesToAMillimetre) {
+  const auto json = played_run(out_, scenarios_, {.scans = 3});
+  const Recording recording = runs::load_recording(runs::recording_path(out_, "s", 4));
+  const auto& walls = json[0]["walls"];
+  ASSERT_EQ(walls.size(), 4U * recording.truth->walls.size());
+  ASSERT_FALSE(walls.empty());
+  for (std::size_t k = 0; k < recording.truth->walls.size(); ++k) {
+    const Segment& wall = recording.truth->walls[k].segment;
+    for (const auto& [i, value] :
+         {std::pair(0U, wall.a.x()), std::pair(1U, wall.a.y()), std::pair(2U, wall.b.x()), std::pair(3U, wall.b.y())})
+      EXPECT_NEAR(walls[4 * k + i].get<double>(), value, 0.000501);
+  }
+  ASSERT_EQ(json[0]["frames"].size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Pose2& pose = recording.truth->world_from_sensor[json[0]["frames"][i].get<std::size_t>()];
+    EXPECT_NEAR(json[0]["poses"][3 * i].get<double>(), pose.translation().x(), 0.000501);
+    EXPECT_NEAR(json[0]["poses"][3 * i + 1].get<double>(), pose.translation().y(), 0.000501);
+    EXPECT_NEAR(json[0]["poses"][3 * i + 2].get<double>(), pose.yaw(), 0.00000501);
+  }
+}
+
+TEST_F(PlayedRun, HoldsTheOtherSeedsOnlyIfAllTheirScansFit) {
+  EXPECT_EQ(played_run(out_, scenarios_).size(), 2U);
+  const auto cut = played_run(out_, scenarios_, {.scans = 4});
+  ASSERT_EQ(cut.size(), 1U);
+  EXPECT_EQ(cut[0]["seed"], "4");
+  const auto with_second = played_run(out_, scenarios_, {.scans = 1}, PlayedRecordings{{{"s", 2}, {1, 3, 70}}});
+  ASSERT_EQ(with_second.size(), 2U);
+  EXPECT_THAT(with_second[1]["frames"], testing::IsSupersetOf({1, 3}));
+  EXPECT_LE(with_second[1]["frames"].size(), 3U);
+  EXPECT_EQ(played_run(out_, scenarios_, {}, PlayedRecordings{}).size(), 1U);
 }
 
 TEST_F(PlayedRun, HasTheSameBytesWhenItsCellsAreInAnArchive) {
