@@ -2,9 +2,9 @@
 // truth, so recorded scans will do.
 //
 // Scan k + 2 is matched with scan k + 1, that one with scan k, and scan k + 2 with scan k. The two ways differ by the
-// closure error. Over the sum of the three stated covariances it is chi-square with three degrees of freedom if they are
-// honest and the errors independent. They are not quite: each scan takes part in two matches, so that most of its noise
-// cancels, and so does any error that the matches share with the odometry that they start from. Small closures
+// closure error. Over the sum of the three stated covariances it is chi-square with three degrees of freedom if they
+// are honest and the errors independent. They are not quite: each scan takes part in two matches, so that most of its
+// noise cancels, and so does any error that the matches share with the odometry that they start from. Small closures
 // therefore prove nothing; large ones are errors that no covariance states, moving bodies, glass, wrong pairs.
 #include <algorithm>
 #include <cmath>
@@ -31,10 +31,9 @@ class ClosureFamily : public MetricFamily {
     int triples = 1000;
     bool table = false;
     static auto fields() {
-      return std::tuple{
-          field("triples", &Params::triples, between(1, 1e6), "",
-                "triples of scans at most, spread evenly over the scans; each costs one more match"),
-          field("table", &Params::table, "write closures.csv: the closure of every triple that counts")};
+      return std::tuple{field("triples", &Params::triples, between(1, 1e6), "",
+                              "triples of scans at most, spread evenly over the scans; each costs one more match"),
+                        field("table", &Params::table, "write closures.csv: the closure of every triple that counts")};
     }
   };
   explicit ClosureFamily(const Params& params) : params_(params) {}
@@ -46,7 +45,8 @@ class ClosureFamily : public MetricFamily {
                "share of the closures above the 99.9 % quantile of chi-square, 16.27: errors that the stated "
                "covariances do not explain. A matcher that repeats the odometry has none"}),
         {"closure_mean", "", neither, 0.0,
-         "mean of c' S^-1 c, c the difference of the pose of scan k + 2 in scan k by two matches over scan k + 1 and by "
+         "mean of c' S^-1 c, c the difference of the pose of scan k + 2 in scan k by two matches over scan k + 1 and "
+         "by "
          "one match, S the sum of the three covariances; at most 3 if they are honest: less, because matches share "
          "scans. With an open motion, the value of three degrees of freedom that is as rare"},
         {"closure_median", "", neither, 0.0, "median of the same; at most 2.37 if covariances are honest"},

@@ -18,8 +18,8 @@ Eigen::Matrix3d composed_covariance(const Pose2& a_from_b, const Eigen::Matrix3d
 /// The difference of a composed pose and a direct one.
 struct Closure {
   Eigen::Vector3d error;  ///< (x, y, yaw) along the axes of the first scan [m, m, rad]
-  double square = 0.0;    ///< of the error over the sum of the three covariances, along the motions that none leaves open
-  int freedom = 3;        ///< how many motions these are: 1 to 3
+  double square = 0.0;  ///< of the error over the sum of the three covariances, along the motions that none leaves open
+  int freedom = 3;      ///< how many motions these are: 1 to 3
 };
 
 /// `second` is relative to the scan that `first` places, `both` relative to the reference of `first`. A motion that a

@@ -51,8 +51,8 @@ std::vector<Segment> visible_lines(const MetricInput& input, const Surfaces& sur
   return lines;
 }
 
-/// A point near the walls, a whole number of blocks of pixels from the world's zero, which is itself such a point: walls
-/// far away are drawn with the roundings that they would have near zero.
+/// A point near the walls, a whole number of blocks of pixels from the world's zero, which is itself such a point:
+/// walls far away are drawn with the roundings that they would have near zero.
 Vec2 origin_near(const std::vector<Segment>& walls, double pixel_m) {
   constexpr double kBlock = 65536;  // pixels
   if (walls.empty()) return Vec2::Zero();

@@ -36,7 +36,8 @@ Matrix3d covariance_of(double x_m, double y_m, double yaw_rad, double correlatio
   c(0, 1) = c(1, 0) = -0.3 * x_m * y_m;
   return c;
 }
-const Matrix3d kOfFirst = covariance_of(0.004, 0.001, 0.0020, 0.5), kOfSecond = covariance_of(0.001, 0.003, 0.0005, 0.2),
+const Matrix3d kOfFirst = covariance_of(0.004, 0.001, 0.0020, 0.5),
+               kOfSecond = covariance_of(0.001, 0.003, 0.0005, 0.2),
                kOfBoth = covariance_of(0.002, 0.002, 0.0010, -0.4);
 
 /// Draws matches of the three poses with independent normal errors.
@@ -63,13 +64,10 @@ TEST(PoseClosure, ComposedCovarianceIsThatOfDifferences) {
   Matrix3d by_first, by_second;
   for (int k = 0; k < 3; ++k) {
     const Vector3d e = kStep * Vector3d::Unit(k);
-    by_first.col(k) =
-        pose_error(with_errors(kFirst, e) * kSecond, with_errors(kFirst, -e) * kSecond) / (2.0 * kStep);
-    by_second.col(k) =
-        pose_error(kFirst * with_errors(kSecond, e), kFirst * with_errors(kSecond, -e)) / (2.0 * kStep);
+    by_first.col(k) = pose_error(with_errors(kFirst, e) * kSecond, with_errors(kFirst, -e) * kSecond) / (2.0 * kStep);
+    by_second.col(k) = pose_error(kFirst * with_errors(kSecond, e), kFirst * with_errors(kSecond, -e)) / (2.0 * kStep);
   }
-  const Matrix3d expected =
-      by_first * kOfFirst * by_first.transpose() + by_second * kOfSecond * by_second.transpose();
+  const Matrix3d expected = by_first * kOfFirst * by_first.transpose() + by_second * kOfSecond * by_second.transpose();
   const Matrix3d composed = composed_covariance(kFirst, kOfFirst, kSecond, kOfSecond);
   EXPECT_LT((composed - expected).norm(), 1e-8 * expected.norm());
 }

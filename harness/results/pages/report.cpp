@@ -120,6 +120,7 @@ Blocks chapter_of(const ReportInput& input, const study::Scenario& scenario) {
     if (figure.scenario == scenario.name) figures.blocks.push_back(run_picture(input.run, figure));
   Blocks blocks{Heading{2, scenario.name, scenario.name}, Paragraph{scenario.about},
                 Paragraph{input_text(input, scenario), "faint"}, links_to(tables, scenario, !figures.blocks.empty())};
+  if (std::string note = bound_note(scenario); !note.empty()) blocks.push_back(Paragraph{std::move(note)});
   if (!figures.blocks.empty()) blocks.push_back(std::move(figures));
   for (auto& table : tables) blocks.push_back(std::move(table));
   return blocks;

@@ -242,9 +242,8 @@ class Chain {
       const Pose2 guess =
           odometry ? scans_.frames[k - 2].odom_from_sensor.inverse() * scans_.frames[k].odom_from_sensor : step * step;
       Match found;
-      nobody_listens("match", static_cast<int>(k), [&](Trace& trace) {
-        found = matcher.match(observation(k - 2), observation(k), guess, trace);
-      });
+      nobody_listens("match", static_cast<int>(k),
+                     [&](Trace& trace) { found = matcher.match(observation(k - 2), observation(k), guess, trace); });
       check_match(found, "match, frame " + std::to_string(k) + " with the last but one");
       result_.skip_matches.push_back(
           {.frame = static_cast<int>(k), .reference = static_cast<int>(k) - 2, .match = found});

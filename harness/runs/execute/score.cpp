@@ -87,8 +87,8 @@ Scores evaluate_metrics(const std::vector<study::ModuleChoice>& families, const 
       append(scores.tables, std::move(tables));
     } catch (const ConfigError& refusal) {
       const std::string prefix = name + ": ", what = refusal.what();
-      scores.refusals += (scores.refusals.empty() ? std::string(kRefusals) : "; ") +
-                         (what.starts_with(prefix) ? "" : prefix) + what;
+      scores.refusals +=
+          (scores.refusals.empty() ? std::string(kRefusals) : "; ") + (what.starts_with(prefix) ? "" : prefix) + what;
     }
   });
   return scores;

@@ -23,13 +23,13 @@ struct Scores {
   std::string refusals{};  ///< "metrics: raster_truth: ..."; empty if no family refuses
 };
 
-/// Rows and tables of all chosen families that apply, in the order of choice. A family that does not apply is absent; so
-/// is one that throws ConfigError, whose message is in `refusals`. Throws ConfigError for an unknown family.
+/// Rows and tables of all chosen families that apply, in the order of choice. A family that does not apply is absent;
+/// so is one that throws ConfigError, whose message is in `refusals`. Throws ConfigError for an unknown family.
 Scores evaluate_metrics(const std::vector<study::ModuleChoice>& families, const Recording& recording,
                         const PipelineResult& result);
 
-/// Scores the result in the cell's folder. `recording` comes from load_recording(), which returns the saved bits. Throws
-/// ConfigError for an unknown family and for files that cannot be read.
+/// Scores the result in the cell's folder. `recording` comes from load_recording(), which returns the saved bits.
+/// Throws ConfigError for an unknown family and for files that cannot be read.
 Scores score_cell(const std::vector<study::ModuleChoice>& families, const Recording& recording,
                   const std::filesystem::path& cell);
 

@@ -70,8 +70,8 @@ TEST(SkipMatches, StartFromTheOdometryBetweenTheirScans) {
   ASSERT_EQ(run.result.skip_matches.size(), 3u);
   for (const FrameMatch& match : run.result.skip_matches) {
     const auto k = static_cast<std::size_t>(match.frame);
-    const Pose2 odometry = recording.observed.frames[k - 2].odom_from_sensor.inverse() *
-                           recording.observed.frames[k].odom_from_sensor;
+    const Pose2 odometry =
+        recording.observed.frames[k - 2].odom_from_sensor.inverse() * recording.observed.frames[k].odom_from_sensor;
     EXPECT_NEAR((match.match.reference_from_current.translation() - odometry.translation()).norm(), 0.0, 1e-12);
   }
 }
