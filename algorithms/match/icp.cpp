@@ -141,8 +141,9 @@ class Icp final : public ScanMatcher {
     }
     for (Pair& pair : pairs) pair.point = pose * now.points[pair.current];
     set_noise(pairs, now, lines, pose);
-    Match result = conclusion(pair_information(pairs, lines, pose), pose,
-                              Guess(guess, params_.guess_sigma_m, radians(params_.guess_sigma_deg)), true, lever, settled);
+    Match result =
+        conclusion(pair_information(pairs, lines, pose), pose,
+                   Guess(guess, params_.guess_sigma_m, radians(params_.guess_sigma_deg)), true, lever, settled);
     result.covariance += pattern_covariance(pairs, seen, pose.translation());
     return result;
   }

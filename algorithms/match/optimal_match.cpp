@@ -11,9 +11,9 @@
 
 #include <Eigen/LU>
 
-#include "algorithms/match/parts/guess.hpp"
 #include "algorithms/match/optimal/lone_returns.hpp"
 #include "algorithms/match/optimal/wall_pairs.hpp"
+#include "algorithms/match/parts/guess.hpp"
 #include "algorithms/match/parts/point_line_registration.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"

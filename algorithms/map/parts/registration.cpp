@@ -13,7 +13,7 @@
 namespace scanbench::mapping {
 namespace {
 
-constexpr double kAsWell = 0.9;  // a fit with so much of the share of another one is as good
+constexpr double kAsWell = 0.9;                // a fit with so much of the share of another one is as good
 constexpr double kSearchStep = radians(10.0);  // less than the angles up to which lines are partners
 
 double residual_of(const PointOnLine& pair, const Pose2& pose) {

@@ -51,7 +51,8 @@ class Guess {
     return position(motion_between(pose_, pose)) > 13.8;  // with 2
   }
 
-  /// The part of the shift from the guess to a position that is beyond 95 % of those that the guess allows; zero within.
+  /// The part of the shift from the guess to a position that is beyond 95 % of those that the guess allows; zero
+  /// within.
   Vec2 unexplained_shift(const Pose2& pose) const {
     constexpr double kMost = 5.99;  // with 2
     const Motion off = motion_between(pose_, pose);

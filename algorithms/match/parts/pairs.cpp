@@ -137,8 +137,7 @@ Match conclusion(const PairInformation& information, const Pose2& reference_from
   const double scale = 2.0 * std::max(excess, 1.0);
   PoseEquations equations = information.equations;
   const bool doubtful = held && !guess.unexplained_shift(reference_from_current).isZero(0.0);
-  if (doubtful)
-    equations.by_chance += kMuchBetter * kMuchBetter * scale / kLeastRatioOfPoints * guess.information();
+  if (doubtful) equations.by_chance += kMuchBetter * kMuchBetter * scale / kLeastRatioOfPoints * guess.information();
   const Determined determined(equations, lever_m, kLeastRatioOfPoints);
   if (determined.rank() < 3) {
     match.status = Status::degenerate;
