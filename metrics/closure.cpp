@@ -22,7 +22,7 @@
 namespace scanbench::metrics {
 namespace {
 
-constexpr const char* kTable = "closures";  // closures.csv
+constexpr const char* kClosureTable = "closures";  // closures.csv
 constexpr double kRare = 0.001;             // of honest closures are above the limit, 16.27
 
 class ClosureFamily : public MetricFamily {
@@ -93,7 +93,7 @@ class ClosureFamily : public MetricFamily {
 
   std::vector<MetricTable> tables(const MetricInput& input) const override {
     if (!params_.table) return {};
-    MetricTable table{kTable, {"frame", "reference", "x_m", "y_m", "yaw_rad", "square", "freedom"}, {}};
+    MetricTable table{kClosureTable, {"frame", "reference", "x_m", "y_m", "yaw_rad", "square", "freedom"}, {}};
     for_each_closure(input, [&](const FrameMatch& both, const Closure& c) {
       table.rows.push_back({number(both.frame), number(both.reference), c.error.x(), c.error.y(), c.error.z(), c.square,
                             number(c.freedom)});
@@ -101,7 +101,7 @@ class ClosureFamily : public MetricFamily {
     return {table};
   }
 
-  std::vector<std::string> table_names() const override { return {kTable}; }
+  std::vector<std::string> table_names() const override { return {kClosureTable}; }
 
  private:
   /// Calls visit(match with the last scan but one, closure) for the triples that count.

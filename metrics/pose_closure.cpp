@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-constexpr double kLeverM = 3.0;  // metres of motion per radian where motions are compared
+constexpr double kClosureLeverM = 3.0;  // metres of motion per radian where motions are compared
 // A motion with a larger standard deviation is open. Matchers give open ones kOpenMotionM with a lever of their own.
 constexpr double kOpenM = 0.05 * kOpenMotionM;
 // What an open motion is taken to err by. With kOpenMotionM, an angle of 1e-3 between the open motions of two matches
@@ -32,15 +32,15 @@ Matrix3d scaled(const Matrix3d& covariance, double lever_m) {
 /// A covariance without the arbitrary size of its open motions.
 struct Stated {
   explicit Stated(const Match& match) {
-    SymmetricEigen<Matrix3d> eigen = symmetric_eigen(scaled(match.covariance, kLeverM));
+    SymmetricEigen<Matrix3d> eigen = symmetric_eigen(scaled(match.covariance, kClosureLeverM));
     Eigen::Vector3d is_open = Eigen::Vector3d::Zero();
     for (int k = 0; k < 3; ++k)
       if (eigen.values(k) > kOpenM * kOpenM) {
         is_open(k) = 1.0;
         eigen.values(k) = kOpenErrorM * kOpenErrorM;
       }
-    covariance = scaled(eigen.vectors * eigen.values.asDiagonal() * eigen.vectors.transpose(), 1.0 / kLeverM);
-    open = scaled(eigen.vectors * is_open.asDiagonal() * eigen.vectors.transpose(), 1.0 / kLeverM);
+    covariance = scaled(eigen.vectors * eigen.values.asDiagonal() * eigen.vectors.transpose(), 1.0 / kClosureLeverM);
+    open = scaled(eigen.vectors * is_open.asDiagonal() * eigen.vectors.transpose(), 1.0 / kClosureLeverM);
   }
   Matrix3d covariance;
   Matrix3d open;  ///< unit variance along each open motion
@@ -69,15 +69,15 @@ std::optional<Closure> closure_of(const Match& first, const Match& second, const
       composed_covariance(a_from_b, of_first.covariance, b_from_c, of_second.covariance) + of_both.covariance;
   const Matrix3d open = composed_covariance(a_from_b, of_first.open, b_from_c, of_second.open) + of_both.open;
 
-  const SymmetricEigen<Matrix3d> motions = symmetric_eigen(scaled(open, kLeverM));
+  const SymmetricEigen<Matrix3d> motions = symmetric_eigen(scaled(open, kClosureLeverM));
   int freedom = 0;
   while (freedom < 3 && motions.values(freedom) < kLeastOpen) ++freedom;
   if (freedom == 0) return std::nullopt;
   Closure closure{.error = pose_error(a_from_b * b_from_c, both.reference_from_current), .freedom = freedom};
-  const Eigen::Vector3d metres = closure.error.cwiseProduct(Eigen::Vector3d(1.0, 1.0, kLeverM));
+  const Eigen::Vector3d metres = closure.error.cwiseProduct(Eigen::Vector3d(1.0, 1.0, kClosureLeverM));
   const Eigen::MatrixXd known = motions.vectors.leftCols(freedom);
   const Eigen::VectorXd error = known.transpose() * metres;
-  closure.square = error.dot(solve_definite(known.transpose() * scaled(covariance, kLeverM) * known, error));
+  closure.square = error.dot(solve_definite(known.transpose() * scaled(covariance, kClosureLeverM) * known, error));
   return closure;
 }
 

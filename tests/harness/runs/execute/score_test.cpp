@@ -54,11 +54,11 @@ class RefusingMetrics final : public metrics::MetricFamily {
     throw ConfigError("too large");
   }
 };
-const bool kRegistered = Registry<metrics::MetricFamily>::add<RefusingMetrics>(
+const bool kRefusesRegistered = Registry<metrics::MetricFamily>::add<RefusingMetrics>(
     {.name = "test_refuses", .summary = "of the tests", .reference = "none"});
 
 TEST(Score, AMetricThatRefusesLosesItsOwnRowsOnly) {
-  ASSERT_TRUE(kRegistered);
+  ASSERT_TRUE(kRefusesRegistered);
   const support::TemporaryFolder folder;
   const fs::path run = folder.path() / "run";
   study::Scenario scenario = fixtures::scenario_with("s", {fixtures::extract_with("p", "test_line")});

@@ -32,7 +32,7 @@ class GuessedMatch final : public ScanMatcher {
             .covariance = 1e-6 * Eigen::Matrix3d::Identity()};
   }
 };
-const bool kRegistered = Registry<ScanMatcher>::add<GuessedMatch>(
+const bool kGuessedRegistered = Registry<ScanMatcher>::add<GuessedMatch>(
     {.name = "test_guessed_match", .summary = "of the tests", .reference = "none"});
 
 study::PipelineSpec matching_with(const std::string& module) {
@@ -51,7 +51,7 @@ std::vector<int> frames_of(const std::vector<FrameMatch>& matches) {
 }
 
 TEST(SkipMatches, AreAsManyAsRequestedAndSpreadEvenly) {
-  ASSERT_TRUE(kRegistered);
+  ASSERT_TRUE(kGuessedRegistered);
   const Recording recording = fixtures::random_recording(1, 12, 16, false);
   const auto matched = [&](int most) {
     const PipelineRun run = run_pipeline(matching_with("test_ahead"), recording.observed, nullptr, {}, most);
