@@ -24,7 +24,7 @@ constexpr double kOpenErrorM = 1.0;
 // Open motions of two matches are one if they differ by less than some 15 degrees.
 constexpr double kLeastOpen = 0.05;
 
-Matrix3d scaled(const Matrix3d& covariance, double lever_m) {
+Matrix3d in_lever_units(const Matrix3d& covariance, double lever_m) {
   const Eigen::Vector3d scales(1.0, 1.0, lever_m);
   return scales.asDiagonal() * covariance * scales.asDiagonal();
 }
@@ -32,15 +32,16 @@ Matrix3d scaled(const Matrix3d& covariance, double lever_m) {
 /// A covariance without the arbitrary size of its open motions.
 struct Stated {
   explicit Stated(const Match& match) {
-    SymmetricEigen<Matrix3d> eigen = symmetric_eigen(scaled(match.covariance, kClosureLeverM));
+    SymmetricEigen<Matrix3d> eigen = symmetric_eigen(in_lever_units(match.covariance, kClosureLeverM));
     Eigen::Vector3d is_open = Eigen::Vector3d::Zero();
     for (int k = 0; k < 3; ++k)
       if (eigen.values(k) > kOpenM * kOpenM) {
         is_open(k) = 1.0;
         eigen.values(k) = kOpenErrorM * kOpenErrorM;
       }
-    covariance = scaled(eigen.vectors * eigen.values.asDiagonal() * eigen.vectors.transpose(), 1.0 / kClosureLeverM);
-    open = scaled(eigen.vectors * is_open.asDiagonal() * eigen.vectors.transpose(), 1.0 / kClosureLeverM);
+    covariance =
+        in_lever_units(eigen.vectors * eigen.values.asDiagonal() * eigen.vectors.transpose(), 1.0 / kClosureLeverM);
+    open = in_lever_units(eigen.vectors * is_open.asDiagonal() * eigen.vectors.transpose(), 1.0 / kClosureLeverM);
   }
   Matrix3d covariance;
   Matrix3d open;  ///< unit variance along each open motion
@@ -69,7 +70,7 @@ std::optional<Closure> closure_of(const Match& first, const Match& second, const
       composed_covariance(a_from_b, of_first.covariance, b_from_c, of_second.covariance) + of_both.covariance;
   const Matrix3d open = composed_covariance(a_from_b, of_first.open, b_from_c, of_second.open) + of_both.open;
 
-  const SymmetricEigen<Matrix3d> motions = symmetric_eigen(scaled(open, kClosureLeverM));
+  const SymmetricEigen<Matrix3d> motions = symmetric_eigen(in_lever_units(open, kClosureLeverM));
   int freedom = 0;
   while (freedom < 3 && motions.values(freedom) < kLeastOpen) ++freedom;
   if (freedom == 0) return std::nullopt;
@@ -77,7 +78,8 @@ std::optional<Closure> closure_of(const Match& first, const Match& second, const
   const Eigen::Vector3d metres = closure.error.cwiseProduct(Eigen::Vector3d(1.0, 1.0, kClosureLeverM));
   const Eigen::MatrixXd known = motions.vectors.leftCols(freedom);
   const Eigen::VectorXd error = known.transpose() * metres;
-  closure.square = error.dot(solve_definite(known.transpose() * scaled(covariance, kClosureLeverM) * known, error));
+  closure.square =
+      error.dot(solve_definite(known.transpose() * in_lever_units(covariance, kClosureLeverM) * known, error));
   return closure;
 }
 

@@ -62,7 +62,7 @@ Vec2 origin_near(const std::vector<Segment>& walls, double pixel_m) {
   return kBlock * pixel_m * Vec2((corner / (kBlock * pixel_m)).array().round());
 }
 
-void move(std::vector<Segment>& lines, const Vec2& by) {
+void shift(std::vector<Segment>& lines, const Vec2& by) {
   for (Segment& line : lines) line = {line.a + by, line.b + by};
 }
 
@@ -93,7 +93,7 @@ RasterComparison compare_rasters(const MetricInput& input, const RasterRules& ru
   std::vector<Segment> walls = surfaces.segments;
   both.world_from_raster = origin_near(walls, rules.resolution_m);
   for (std::vector<Segment>* lines : {&both.found_lines, &both.visible_lines, &walls})
-    move(*lines, -both.world_from_raster);
+    shift(*lines, -both.world_from_raster);
   both.pixel_m = rules.resolution_m;
   const double tolerance = rules.tolerance_m / rules.resolution_m;
   both.near = static_cast<std::int64_t>(tolerance * tolerance * (1.0 + 1e-9));  // 7 cm are 7 pixels of 1 cm
