@@ -99,15 +99,19 @@ Registration register_on_lines(const FindPairs& find_pairs, const Pose2& predict
 
 Registration register_near(const FindPairs& find_pairs, const Pose2& predicted, double total_weight, double lever_m,
                            const RegistrationRule& rule) {
-  const Registration found = register_on_lines(find_pairs, predicted, total_weight, lever_m, rule);
-  const double correction = motion_between(predicted, found.map_from_sensor, lever_m).norm();
-  if (found.status == Status::no_match || correction <= rule.narrow_gate_m) return found;
+  const auto correction = [&](const Registration& r) {
+    return motion_between(predicted, r.map_from_sensor, lever_m).norm();
+  };
+  Registration found = register_on_lines(find_pairs, predicted, total_weight, lever_m, rule);
+  if (found.status == Status::no_match || correction(found) <= rule.narrow_gate_m) return found;
   RegistrationRule narrow = rule;
   narrow.wide_gate_m = rule.narrow_gate_m;
   const Registration nearer = register_on_lines(find_pairs, predicted, total_weight, lever_m, narrow);
   const bool fits_as_well = nearer.status != Status::no_match && nearer.share >= kAsWell * found.share;
-  const bool is_nearer = motion_between(predicted, nearer.map_from_sensor, lever_m).norm() < correction;
-  return fits_as_well && is_nearer ? nearer : found;
+  if (fits_as_well && correction(nearer) < correction(found)) found = nearer;
+  if (found.status == Status::max_iterations && correction(found) > rule.narrow_gate_m)
+    found.map_from_sensor = predicted;
+  return found;
 }
 
 Registration with_search(const Locate& locate, const Pose2& predicted, const RegistrationRule& rule) {
