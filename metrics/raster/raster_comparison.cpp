@@ -59,7 +59,7 @@ Vec2 origin_near(const std::vector<Segment>& walls, double pixel_m) {
   Vec2 corner = walls.front().a;
   for (const Segment& wall : walls) corner = corner.cwiseMin(wall.a).cwiseMin(wall.b);
   if (!corner.allFinite()) return Vec2::Zero();
-  return kBlock * pixel_m * Vec2((corner / (kBlock * pixel_m)).array().round());
+  return kBlock * pixel_m * Vec2((corner / (kBlock * pixel_m)).array().round().matrix());
 }
 
 void shift(std::vector<Segment>& lines, const Vec2& by) {
