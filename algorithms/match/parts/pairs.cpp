@@ -130,21 +130,24 @@ Match no_match(const Pose2& guess) {
 
 Match conclusion(const PairInformation& information, const Pose2& reference_from_current, const Guess& guess, bool held,
                  double lever_m, bool settled) {
-  Match match{settled ? Status::converged : Status::max_iterations, reference_from_current, Eigen::Matrix3d::Zero()};
   // Each scan's noise moves the pose by the inverse of the information: the reference is as noisy as the current scan.
   // Where residuals are larger than the noise, something else moves it too.
   const double excess = information.count > 3 ? information.misfit / (information.count - 3) : 1.0;
   const double scale = 2.0 * std::max(excess, 1.0);
-  PoseEquations equations = information.equations;
-  const bool doubtful = held && !guess.unexplained_shift(reference_from_current).isZero(0.0);
-  if (doubtful) equations.by_chance += kMuchBetter * kMuchBetter * scale / kLeastRatioOfPoints * guess.information();
-  const Determined determined(equations, lever_m, kLeastRatioOfPoints);
-  if (determined.rank() < 3) {
-    match.status = Status::degenerate;
+  const auto pose_by = [&](const Determined& known) {
     const Motion correction = motion_between(guess.pose(), reference_from_current);
-    match.reference_from_current = moved(guess.pose(), determined.project(correction));
+    return known.rank() < 3 ? moved(guess.pose(), known.project(correction)) : reference_from_current;
+  };
+  Determined determined(information.equations, lever_m, kLeastRatioOfPoints);
+  const bool doubtful = held && !guess.unexplained_shift(pose_by(determined)).isZero(0.0);
+  if (doubtful) {
+    PoseEquations equations = information.equations;
+    equations.by_chance += kMuchBetter * kMuchBetter * scale / kLeastRatioOfPoints * guess.information();
+    determined = Determined(equations, lever_m, kLeastRatioOfPoints);
   }
-  match.covariance = determined.covariance(scale);
+  const Status of_iterations = settled ? Status::converged : Status::max_iterations;
+  Match match{determined.rank() < 3 ? Status::degenerate : of_iterations, pose_by(determined),
+              determined.covariance(scale)};
   if (doubtful) {
     const Vec2 rest = guess.unexplained_shift(match.reference_from_current);
     match.covariance.topLeftCorner<2, 2>() += rest * rest.transpose();
