@@ -36,6 +36,14 @@ double chi_square_quantile(double p, double freedom) {
   return math::quantile(math::chi_squared(freedom), p);
 }
 
+double chi_square_upper(double x, double freedom) {
+  return math::cdf(math::complement(math::chi_squared(freedom), x));
+}
+
+double chi_square_upper_quantile(double p, double freedom) {
+  return math::quantile(math::complement(math::chi_squared(freedom), p));
+}
+
 double share_lower_bound(double trials, double successes, double tail) {
   return successes <= 0.0 ? 0.0 : math::binomial::find_lower_bound_on_p(trials, successes, tail);
 }

@@ -17,6 +17,10 @@ double student_two_sided(double t, double freedom);
 
 /// x such that the sum of squares of `freedom` standard normal values is below it with probability p; 0 < p < 1.
 double chi_square_quantile(double p, double freedom);
+/// Probability that such a sum is at least x >= 0, and the x of such a probability; 0 < p < 1. Both keep their digits
+/// for probabilities near 0.
+double chi_square_upper(double x, double freedom);
+double chi_square_upper_quantile(double p, double freedom);
 
 /// Ends of the interval of Clopper and Pearson for a share, from the number of trials and of successes: the share below
 /// or above which the observed number has a probability of `tail`. 0 and 1 where the interval is open.

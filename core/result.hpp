@@ -30,6 +30,7 @@ struct PipelineResult {
   std::vector<ScanLines> lines;          ///< per frame, sensor frame
   std::vector<Pose2> world_from_sensor;  ///< estimated, per frame; empty if no slot estimates or uses poses
   std::vector<FrameMatch> matches;       ///< in the order of their frames; empty if no slot matches
+  std::vector<FrameMatch> skip_matches;  ///< of frames with the last but one; empty if no metric requests them
   bool has_map = false;                  ///< a slot makes a map, which may be empty
   LineMap map;                           ///< empty if no slot makes one
   std::vector<MergeLabel> merge_labels;

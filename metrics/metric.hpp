@@ -82,6 +82,9 @@ class MetricFamily {
   virtual std::vector<MetricDescription> describe() const = 0;
   /// False if the family is not defined for this input (no truth, no map): its metrics are then absent, not zero.
   virtual bool applies(const MetricInput& input) const = 0;
+  /// How many matches of a scan with the last but one it requests, at most. A pipeline with a `match` slot makes them
+  /// besides its own, evenly spread over the scans (PipelineResult::skip_matches).
+  virtual int skip_matches() const { return 0; }
   virtual std::vector<MetricRow> evaluate(const MetricInput& input) const = 0;
   /// The tables that its parameters request.
   virtual std::vector<MetricTable> tables(const MetricInput&) const { return {}; }

@@ -1,11 +1,12 @@
 // trajectory: how far an estimated trajectory is from the true one, or from the reference poses of a recorded log.
 //
-// Absolute errors (ATE) after one motion of the plane. Positions and headings determine it together, so that a straight
-// path is aligned too. Relative errors (RPE) between poses some frames or some metres of path apart need no alignment;
-// those of the odometry are beside them. After Sturm et al., "A benchmark for the evaluation of RGB-D SLAM systems",
-// IROS 2012, in the plane. Where a log has relations: mean and mean square deviation from them, after Kuemmerle et al.,
-// "On measuring the accuracy of SLAM algorithms", Autonomous Robots 27, 2009, section 3. Translation and rotation are
-// separate throughout: their ratio depends on the size of the world.
+// Absolute errors (ATE) after one motion of the plane. Positions and headings determine it together, a radian counting
+// as lever_m metres, so that a straight path is aligned too; Sturm et al. align positions alone. Relative errors (RPE)
+// between poses some frames or some metres of path apart need no alignment; those of the odometry are beside them.
+// After Sturm et al., "A benchmark for the evaluation of RGB-D SLAM systems", IROS 2012, in the plane. Where a log has
+// relations: mean and mean square deviation from them, after Kuemmerle et al., "On measuring the accuracy of SLAM
+// algorithms", Autonomous Robots 27, 2009, section 3. Translation and rotation are separate throughout: their ratio
+// depends on the size of the world.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -67,7 +68,8 @@ class Trajectory : public MetricFamily {
     double step_m = 1.0;
     static auto fields() {
       return std::tuple{
-          field("lever_m", &Params::lever_m, above(0), "m", "metres of position that count as a radian of heading"),
+          field("lever_m", &Params::lever_m, above(0), "m",
+                "metres of position that count as a radian of heading in the alignment of ATE"),
           field("step_frames", &Params::step_frames, between(1, 1e6), "", "frames between the poses of RPE"),
           field("step_m", &Params::step_m, above(0), "m", "metres of true path between the poses of RPE per path")};
     }
@@ -76,41 +78,43 @@ class Trajectory : public MetricFamily {
 
   std::vector<MetricDescription> describe() const override {
     using enum Direction;
-    return {{"ate_position", "ATE, position", "m", lower_is_better, 0.001,
-             "root mean square distance of aligned positions from the true ones, or from a log's reference"},
-            {"ate_position_mean", "mean ATE, position", "m", lower_is_better, 0.001,
-             "mean distance of aligned positions from the true ones, or from a log's reference"},
-            {"ate_position_max", "largest ATE, position", "m", lower_is_better, 0.001,
-             "largest distance of an aligned position from the true one, or from a log's reference"},
-            {"ate_heading", "ATE, heading", "deg", lower_is_better, 0.01, "root mean square error of aligned headings"},
-            {"ate_heading_mean", "mean ATE, heading", "deg", lower_is_better, 0.01,
-             "mean absolute error of aligned headings"},
-            {"ate_heading_max", "largest ATE, heading", "deg", lower_is_better, 0.01,
-             "largest absolute error of an aligned heading"},
-            {"rpe_position", "RPE, position", "m", lower_is_better, 0.001,
-             "root mean square error of the shift between poses step_frames apart (1: consecutive scans)"},
-            {"rpe_heading", "RPE, heading", "deg", lower_is_better, 0.01,
-             "root mean square error of the turn between poses step_frames apart (1: consecutive scans)"},
-            {"rpe_path_position", "RPE over path, position", "m", lower_is_better, 0.001,
-             "root mean square error of the shift between poses step_m of path apart"},
-            {"rpe_path_heading", "RPE over path, heading", "deg", lower_is_better, 0.01,
-             "root mean square error of the turn between poses step_m of path apart"},
-            {"ate_odometry_position", "odometry ATE, position", "m", neither, 0.0, "ate_position of the odometry"},
-            {"ate_odometry_heading", "odometry ATE, heading", "deg", neither, 0.0, "ate_heading of the odometry"},
-            {"rpe_odometry_position", "odometry RPE, position", "m", neither, 0.0, "rpe_position of the odometry"},
-            {"rpe_odometry_heading", "odometry RPE, heading", "deg", neither, 0.0, "rpe_heading of the odometry"},
-            {"relations_position", "relations error, position", "m", lower_is_better, 0.001,
-             "mean deviation of the shift from a log's relations"},
-            {"relations_position_square", "squared relations error, position", "m^2", lower_is_better, 0.001,
-             "mean square deviation of the shift from a log's relations"},
-            {"relations_heading", "relations error, heading", "deg", lower_is_better, 0.01,
-             "mean deviation of the turn from a log's relations"},
-            {"relations_heading_square", "squared relations error, heading", "deg^2", lower_is_better, 0.01,
-             "mean square deviation of the turn from a log's relations"},
-            {"relations_odometry_position", "odometry relations error, position", "m", neither, 0.0,
-             "relations_position of the odometry"},
-            {"relations_odometry_heading", "odometry relations error, heading", "deg", neither, 0.0,
-             "relations_heading of the odometry"}};
+    return {
+        {"ate_position", "ATE, position", "m", lower_is_better, 0.001,
+         "root mean square distance of aligned positions from the true ones, or from a log's reference. One motion "
+         "aligns positions and headings together, a radian counting as lever_m; Sturm et al. align positions alone"},
+        {"ate_position_mean", "mean ATE, position", "m", lower_is_better, 0.001,
+         "mean distance of aligned positions from the true ones, or from a log's reference"},
+        {"ate_position_max", "largest ATE, position", "m", lower_is_better, 0.001,
+         "largest distance of an aligned position from the true one, or from a log's reference"},
+        {"ate_heading", "ATE, heading", "deg", lower_is_better, 0.01, "root mean square error of aligned headings"},
+        {"ate_heading_mean", "mean ATE, heading", "deg", lower_is_better, 0.01,
+         "mean absolute error of aligned headings"},
+        {"ate_heading_max", "largest ATE, heading", "deg", lower_is_better, 0.01,
+         "largest absolute error of an aligned heading"},
+        {"rpe_position", "RPE, position", "m", lower_is_better, 0.001,
+         "root mean square error of the shift between poses step_frames apart (1: consecutive scans)"},
+        {"rpe_heading", "RPE, heading", "deg", lower_is_better, 0.01,
+         "root mean square error of the turn between poses step_frames apart (1: consecutive scans)"},
+        {"rpe_path_position", "RPE over path, position", "m", lower_is_better, 0.001,
+         "root mean square error of the shift between poses step_m of path apart"},
+        {"rpe_path_heading", "RPE over path, heading", "deg", lower_is_better, 0.01,
+         "root mean square error of the turn between poses step_m of path apart"},
+        {"ate_odometry_position", "odometry ATE, position", "m", neither, 0.0, "ate_position of the odometry"},
+        {"ate_odometry_heading", "odometry ATE, heading", "deg", neither, 0.0, "ate_heading of the odometry"},
+        {"rpe_odometry_position", "odometry RPE, position", "m", neither, 0.0, "rpe_position of the odometry"},
+        {"rpe_odometry_heading", "odometry RPE, heading", "deg", neither, 0.0, "rpe_heading of the odometry"},
+        {"relations_position", "relations error, position", "m", lower_is_better, 0.001,
+         "mean deviation of the shift from a log's relations"},
+        {"relations_position_square", "squared relations error, position", "m^2", lower_is_better, 0.001,
+         "mean square deviation of the shift from a log's relations"},
+        {"relations_heading", "relations error, heading", "deg", lower_is_better, 0.01,
+         "mean deviation of the turn from a log's relations"},
+        {"relations_heading_square", "squared relations error, heading", "deg^2", lower_is_better, 0.01,
+         "mean square deviation of the turn from a log's relations"},
+        {"relations_odometry_position", "odometry relations error, position", "m", neither, 0.0,
+         "relations_position of the odometry"},
+        {"relations_odometry_heading", "odometry relations error, heading", "deg", neither, 0.0,
+         "relations_heading of the odometry"}};
   }
 
   bool applies(const MetricInput& input) const override {

@@ -167,7 +167,7 @@ Registration NavigationMap::locate(const std::vector<ScanSegment>& scan, const s
     return point_point_pairs(points, points_, pose, gate);
   };
   const double all = by == Correlation::segment_segment ? total_length(scan) : static_cast<double>(points.size());
-  return register_on_lines(find_pairs, predicted, all, lever_of(scan), registration_);
+  return register_near(find_pairs, predicted, all, lever_of(scan), registration_);
 }
 
 void NavigationMap::update(const Observation& observation, const std::vector<ScanSegment>& scan, const Pose2& pose,

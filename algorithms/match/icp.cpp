@@ -85,12 +85,18 @@ class Icp final : public ScanMatcher {
   struct Params {
     double gate_m = 0.5;
     double keep = 0.9;
+    double guess_sigma_m = 0.1;
+    double guess_sigma_deg = 3.0;
     double min_overlap = 0.3;
     int max_iterations = 50;
     static auto fields() {
       return std::tuple{
           field("gate_m", &Params::gate_m, between(1e-6, 1e6), "m", "farthest partner of a return"),
           field("keep", &Params::keep, between(0, 1), "", "share of the pairs, the nearest ones, that counts"),
+          field("guess_sigma_m", &Params::guess_sigma_m, above(0), "m",
+                "standard deviation of the guess per axis; a result outside of 95 % of it is held against it"),
+          field("guess_sigma_deg", &Params::guess_sigma_deg, above(0), "deg",
+                "standard deviation of the guess's heading"),
           field("min_overlap", &Params::min_overlap, between(0, 1), "",
                 "smallest share of returns with a partner; below it there is no match"),
           field("max_iterations", &Params::max_iterations, between(1, 1e6), "", "iterations at most")};
@@ -135,7 +141,9 @@ class Icp final : public ScanMatcher {
     }
     for (Pair& pair : pairs) pair.point = pose * now.points[pair.current];
     set_noise(pairs, now, lines, pose);
-    Match result = conclusion(pair_information(pairs, lines, pose), pose, guess, lever, settled);
+    Match result =
+        conclusion(pair_information(pairs, lines, pose), pose,
+                   Guess(guess, params_.guess_sigma_m, radians(params_.guess_sigma_deg)), true, lever, settled);
     result.covariance += pattern_covariance(pairs, seen, pose.translation());
     return result;
   }

@@ -11,9 +11,9 @@
 
 #include <Eigen/LU>
 
-#include "algorithms/match/optimal/guess.hpp"
 #include "algorithms/match/optimal/lone_returns.hpp"
 #include "algorithms/match/optimal/wall_pairs.hpp"
+#include "algorithms/match/parts/guess.hpp"
 #include "algorithms/match/parts/point_line_registration.hpp"
 #include "core/modules.hpp"
 #include "core/registry.hpp"
@@ -85,7 +85,8 @@ class OptimalMatch final : public ScanMatcher {
     trace.stage(Stage::start);
     const bool points = seen.size() > 0 && now.size() > 0;
     const auto registered = [&](const Pose2& from) {
-      return register_points_on_lines(seen, local_lines(seen), now, local_lines(now), from, start_, trace);
+      return register_points_on_lines(seen, local_lines(seen), now, local_lines(now),
+                                      Guess(from, guess_sigma_m_, guess_sigma_rad_), start_, trace);
     };
     const Match start = points ? registered(guessed) : Match{};
     const bool lost = points && start.status == Status::no_match;

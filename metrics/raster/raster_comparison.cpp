@@ -51,6 +51,21 @@ std::vector<Segment> visible_lines(const MetricInput& input, const Surfaces& sur
   return lines;
 }
 
+/// A point near the walls, a whole number of blocks of pixels from the world's zero, which is itself such a point:
+/// walls far away are drawn with the roundings that they would have near zero.
+Vec2 origin_near(const std::vector<Segment>& walls, double pixel_m) {
+  constexpr double kBlock = 65536;  // pixels
+  if (walls.empty()) return Vec2::Zero();
+  Vec2 corner = walls.front().a;
+  for (const Segment& wall : walls) corner = corner.cwiseMin(wall.a).cwiseMin(wall.b);
+  if (!corner.allFinite()) return Vec2::Zero();
+  return kBlock * pixel_m * Vec2((corner / (kBlock * pixel_m)).array().round().matrix());
+}
+
+void shift(std::vector<Segment>& lines, const Vec2& by) {
+  for (Segment& line : lines) line = {line.a + by, line.b + by};
+}
+
 std::int64_t count_near(const std::vector<std::int64_t>& distances, std::int64_t near) {
   return std::ranges::count_if(distances, [near](std::int64_t d) { return d <= near; });
 }
@@ -75,10 +90,14 @@ RasterComparison compare_rasters(const MetricInput& input, const RasterRules& ru
   RasterComparison both;
   both.found_lines = found_lines(input, rules.found);
   both.visible_lines = visible_lines(input, surfaces, rules.min_hits_per_m);
+  std::vector<Segment> walls = surfaces.segments;
+  both.world_from_raster = origin_near(walls, rules.resolution_m);
+  for (std::vector<Segment>* lines : {&both.found_lines, &both.visible_lines, &walls})
+    shift(*lines, -both.world_from_raster);
   both.pixel_m = rules.resolution_m;
   const double tolerance = rules.tolerance_m / rules.resolution_m;
   both.near = static_cast<std::int64_t>(tolerance * tolerance * (1.0 + 1e-9));  // 7 cm are 7 pixels of 1 cm
-  const std::array layers{both.found_lines, surfaces.segments, both.visible_lines};
+  const std::array layers{both.found_lines, walls, both.visible_lines};
   try {
     auto pixels = Registry<LineRaster>::make(LineRaster::kDefault)->draw(layers, rules.resolution_m);
     both.found_to_wall = squared_distances(pixels[0], pixels[1]);

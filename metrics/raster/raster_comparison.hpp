@@ -33,7 +33,8 @@ struct RasterRules {
 
 /// Pixels and their distances; a list of distances is empty if one of its two sets of pixels is.
 struct RasterComparison {
-  std::vector<Segment> found_lines;         ///< world frame
+  Vec2 world_from_raster = Vec2::Zero();    ///< where the raster's zero is: lines and pixels are relative to it
+  std::vector<Segment> found_lines;         ///< along the world's axes
   std::vector<Segment> visible_lines;       ///< the visible parts of the walls
   std::vector<Pixel> found;                 ///< of the found lines
   std::vector<Pixel> visible;               ///< of the visible parts

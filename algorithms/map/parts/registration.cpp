@@ -7,11 +7,13 @@
 
 #include "algorithms/align/parts/pose_equations.hpp"
 #include "algorithms/align/parts/register_scan.hpp"
+#include "core/geometry/pose_errors.hpp"
 #include "core/number_text.hpp"
 
 namespace scanbench::mapping {
 namespace {
 
+constexpr double kAsWell = 0.9;                // a fit with so much of the share of another one is as good
 constexpr double kSearchStep = radians(10.0);  // less than the angles up to which lines are partners
 
 double residual_of(const PointOnLine& pair, const Pose2& pose) {
@@ -36,6 +38,20 @@ Equations equations_of(const std::vector<PointOnLine>& pairs, const Pose2& pose,
   return equations;
 }
 
+/// The motion from one pose to another, in metres (x, y, lever * yaw).
+Eigen::Vector3d motion_between(const Pose2& from, const Pose2& to, double lever) {
+  const Eigen::Vector3d motion = pose_error(to, from);
+  return {motion.x(), motion.y(), lever * motion.z()};
+}
+
+/// The pose, but along motions that are not known as predicted.
+Pose2 with_open_motions_of(const Pose2& predicted, const Pose2& pose, const align::Observable& known, double lever) {
+  Pose2 result = predicted;
+  const Eigen::Vector3d motion = motion_between(predicted, pose, lever);
+  align::move_by(known.motions * (known.motions.transpose() * motion), lever, result);
+  return result;
+}
+
 }  // namespace
 
 Registration register_on_lines(const FindPairs& find_pairs, const Pose2& predicted, double total_weight, double lever_m,
@@ -52,7 +68,15 @@ Registration register_on_lines(const FindPairs& find_pairs, const Pose2& predict
     if (result.rank == 0) break;
     const Eigen::Vector3d motion =
         known.motions * (known.motions.transpose() * equations.right).cwiseQuotient(known.eigenvalues);
-    settled = align::move_by(motion, lever_m, result.map_from_sensor).small() && gates.narrow(result.iterations);
+    const Pose2 before = result.map_from_sensor;
+    bool small = align::move_by(motion, lever_m, result.map_from_sensor).small();
+    if (result.rank < 3) {
+      // An iteration with a wide gate may have moved the pose along what is open now, by pairs that are none any more.
+      result.map_from_sensor = with_open_motions_of(predicted, result.map_from_sensor, known, lever_m);
+      Pose2 moved = before;
+      small = align::move_by(motion_between(before, result.map_from_sensor, lever_m), lever_m, moved).small();
+    }
+    settled = small && gates.narrow(result.iterations);
   }
   double weight = 0.0, squares = 0.0;
   for (const PointOnLine& pair : find_pairs(result.map_from_sensor, rule.narrow_gate_m)) {
@@ -71,6 +95,23 @@ Registration register_on_lines(const FindPairs& find_pairs, const Pose2& predict
     result.status = Status::max_iterations;
   }
   return result;
+}
+
+Registration register_near(const FindPairs& find_pairs, const Pose2& predicted, double total_weight, double lever_m,
+                           const RegistrationRule& rule) {
+  const auto correction = [&](const Registration& r) {
+    return motion_between(predicted, r.map_from_sensor, lever_m).norm();
+  };
+  Registration found = register_on_lines(find_pairs, predicted, total_weight, lever_m, rule);
+  if (found.status == Status::no_match || correction(found) <= rule.narrow_gate_m) return found;
+  RegistrationRule narrow = rule;
+  narrow.wide_gate_m = rule.narrow_gate_m;
+  const Registration nearer = register_on_lines(find_pairs, predicted, total_weight, lever_m, narrow);
+  const bool fits_as_well = nearer.status != Status::no_match && nearer.share >= kAsWell * found.share;
+  if (fits_as_well && correction(nearer) < correction(found)) found = nearer;
+  if (found.status == Status::max_iterations && correction(found) > rule.narrow_gate_m)
+    found.map_from_sensor = predicted;
+  return found;
 }
 
 Registration with_search(const Locate& locate, const Pose2& predicted, const RegistrationRule& rule) {

@@ -46,6 +46,13 @@ struct Registration {
 Registration register_on_lines(const FindPairs& find_pairs, const Pose2& predicted, double total_weight, double lever_m,
                                const RegistrationRule& rule);
 
+/// The same, but a result that is farther from the prediction than the narrow gate (a radian counts as `lever_m`) must
+/// fit clearly better than the one that the narrow gate alone leads to. At a bend, where a scan has few lines, wide
+/// gates pair them with other walls, and those pairs may seem to determine every motion. A pose so far away that still
+/// moves is as predicted.
+Registration register_near(const FindPairs& find_pairs, const Pose2& predicted, double total_weight, double lever_m,
+                           const RegistrationRule& rule);
+
 /// Registers a scan from a predicted pose.
 using Locate = std::function<Registration(const Pose2& predicted)>;
 

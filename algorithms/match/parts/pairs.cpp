@@ -10,6 +10,10 @@ namespace {
 // A wall seen along has a normal that is too uncertain for the small noise across it.
 constexpr double kLeastPairCosine = 0.15;
 
+// How many times better than the guess pairs must know a motion if it contradicts the guess. Of the pairs of scans of
+// ACES that contradict it, those that are right know every motion to 1 cm, the wrong ones some motion to 3 to 12 cm.
+constexpr double kMuchBetter = 5.0;
+
 double sigma_across(const ReturnedPoints& scan, std::size_t k, const Vec2& normal_in_scan) {
   const double cosine = std::max(std::fabs(normal_in_scan.dot(scan.direction(k))), kLeastPairCosine);
   return std::max(scan.sigmas[k], kLeastSigmaM) * cosine;
@@ -124,19 +128,30 @@ Match no_match(const Pose2& guess) {
   return {Status::no_match, guess, Eigen::Matrix3d::Zero()};
 }
 
-Match conclusion(const PairInformation& information, const Pose2& reference_from_current, const Pose2& guess,
+Match conclusion(const PairInformation& information, const Pose2& reference_from_current, const Guess& guess, bool held,
                  double lever_m, bool settled) {
-  Match match{settled ? Status::converged : Status::max_iterations, reference_from_current, Eigen::Matrix3d::Zero()};
-  const Determined determined(information.equations, lever_m, kLeastRatioOfPoints);
-  if (determined.rank() < 3) {
-    match.status = Status::degenerate;
-    const Motion correction = motion_between(guess, reference_from_current);
-    match.reference_from_current = moved(guess, determined.project(correction));
-  }
   // Each scan's noise moves the pose by the inverse of the information: the reference is as noisy as the current scan.
   // Where residuals are larger than the noise, something else moves it too.
   const double excess = information.count > 3 ? information.misfit / (information.count - 3) : 1.0;
-  match.covariance = determined.covariance(2.0 * std::max(excess, 1.0));
+  const double scale = 2.0 * std::max(excess, 1.0);
+  const auto pose_by = [&](const Determined& known) {
+    const Motion correction = motion_between(guess.pose(), reference_from_current);
+    return known.rank() < 3 ? moved(guess.pose(), known.project(correction)) : reference_from_current;
+  };
+  Determined determined(information.equations, lever_m, kLeastRatioOfPoints);
+  const bool doubtful = held && !guess.unexplained_shift(pose_by(determined)).isZero(0.0);
+  if (doubtful) {
+    PoseEquations equations = information.equations;
+    equations.by_chance += kMuchBetter * kMuchBetter * scale / kLeastRatioOfPoints * guess.information();
+    determined = Determined(equations, lever_m, kLeastRatioOfPoints);
+  }
+  const Status of_iterations = settled ? Status::converged : Status::max_iterations;
+  Match match{determined.rank() < 3 ? Status::degenerate : of_iterations, pose_by(determined),
+              determined.covariance(scale)};
+  if (doubtful) {
+    const Vec2 rest = guess.unexplained_shift(match.reference_from_current);
+    match.covariance.topLeftCorner<2, 2>() += rest * rest.transpose();
+  }
   return match;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "algorithms/match/parts/guess.hpp"
 #include "algorithms/match/parts/nearest_return.hpp"
 #include "algorithms/match/parts/pose_information.hpp"
 #include "algorithms/match/parts/scan_points.hpp"
@@ -59,7 +60,12 @@ Match no_match(const Pose2& guess);
 
 /// The result of a matcher of points: status, pose with open motions as in the guess, covariance. `settled`: the
 /// iterations converged.
-Match conclusion(const PairInformation& information, const Pose2& reference_from_current, const Pose2& guess,
+///
+/// If `held`, the result is held against the guess. Few returns, on things that moved or on the jamb of another door,
+/// can pull a pose along a motion that hardly any others determine, and their residuals are small afterwards. Where the
+/// position is outside of 95 % of those that the guess allows, a motion that the pairs do not know five times better
+/// than the guess does is therefore open. If the position is still outside, the rest is added to the covariance.
+Match conclusion(const PairInformation& information, const Pose2& reference_from_current, const Guess& guess, bool held,
                  double lever_m, bool settled);
 
 }  // namespace scanbench::matching

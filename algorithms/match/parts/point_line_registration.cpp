@@ -38,21 +38,21 @@ bool nearly_still(const Motion& step) {
 
 Match register_points_on_lines(const ReturnedPoints& reference, const std::vector<LocalLine>& lines,
                                const ReturnedPoints& current, const std::vector<LocalLine>& current_lines,
-                               const Pose2& guess, const RegistrationRules& rules, Trace& trace) {
+                               const Guess& guess, const RegistrationRules& rules, Trace& trace) {
   const double lever = lever_of(current);
   std::vector<Vec2> on_lines;
   on_lines.reserve(current.size());
   for (std::size_t k = 0; k < current.size(); ++k) on_lines.push_back(current_lines[k].project(current.points[k]));
   NearestReturn nearest(reference);
   std::vector<Track> tracks(current.size());
-  Pose2 pose = guess;
+  Pose2 pose = guess.pose();
   PairInformation information;
   bool settled = false, near = false;
   double last_size = 0.0;
   for (int iteration = 0; iteration < rules.max_iterations && !settled; ++iteration) {
     std::vector<Pair> pairs = nearest_pairs(current, pose, rules.gate_m, nearest, tracks);
     const double overlap = static_cast<double>(pairs.size()) / static_cast<double>(current.size());
-    if (current.size() == 0 || !(overlap >= rules.min_overlap)) return no_match(guess);
+    if (current.size() == 0 || !(overlap >= rules.min_overlap)) return no_match(guess.pose());
     keep_aligned(pairs, lines, current_lines, pose);
     for (Pair& pair : pairs) {
       pair.point = pose * on_lines[pair.current];
@@ -73,7 +73,7 @@ Match register_points_on_lines(const ReturnedPoints& reference, const std::vecto
     near = near || small(step) || iteration == rules.max_iterations / 2;
     trace.row(PointLineIterationRow{static_cast<int>(pairs.size()), step.x(), step.y(), step.z(), information.misfit});
   }
-  return conclusion(information, pose, guess, lever, settled);
+  return conclusion(information, pose, guess, rules.held, lever, settled);
 }
 
 }  // namespace scanbench::matching

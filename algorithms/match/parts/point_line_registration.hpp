@@ -13,6 +13,7 @@ struct RegistrationRules {
   bool by_noise = true;      ///< that median is of residuals in standard deviations; else of residuals in metres
   double min_overlap = 0.3;  ///< share of the current returns that must have a partner
   int max_iterations = 30;
+  bool held = false;  ///< the result is held against the guess, see conclusion()
 };
 
 /// Gauss-Newton on the distances of the current returns, each moved onto its own local line, from the local lines of
@@ -21,6 +22,6 @@ struct RegistrationRules {
 /// as in the guess.
 Match register_points_on_lines(const ReturnedPoints& reference, const std::vector<LocalLine>& lines,
                                const ReturnedPoints& current, const std::vector<LocalLine>& current_lines,
-                               const Pose2& guess, const RegistrationRules& rules, Trace& trace);
+                               const Guess& guess, const RegistrationRules& rules, Trace& trace);
 
 }  // namespace scanbench::matching

@@ -66,6 +66,17 @@ std::map<std::string, int> conditions_won(const CellValues& rank, const study::B
   return won;
 }
 
+ConditionRange range_over(const CellValues& values, const std::string& pipeline,
+                          const std::vector<std::uint64_t>& seeds, const std::vector<std::string>& scenarios,
+                          bool geometric) {
+  ConditionRange range{kNaN, kNaN};
+  for (const auto& scenario : scenarios) {
+    const double mean = average(per_seed(values, pipeline, seeds, {scenario}), geometric);
+    range = {std::fmin(range.least, mean), std::fmax(range.most, mean)};
+  }
+  return range;
+}
+
 /// Whether a pipeline has a value in every cell of these scenarios.
 bool is_complete(const CellValues& values, const std::string& pipeline, const std::vector<std::uint64_t>& seeds,
                  const std::vector<std::string>& scenarios) {
@@ -136,6 +147,8 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<study::Scenario>& s
       std::vector<double>& by_seed = by_name[name].by_seed[column.metric];
       by_seed = per_seed(values, name, seeds, conditions, column.geometric);
       by_name[name].values[column.metric] = seed_interval(by_seed, range_of(column.description()));
+      if (column.shows_range)
+        by_name[name].ranges[column.metric] = range_over(values, name, seeds, conditions, column.geometric);
     }
   }
   std::vector<RankedPipeline> ranking;

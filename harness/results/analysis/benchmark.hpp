@@ -4,8 +4,9 @@
 // A condition is one scenario of the suite: a world seen by one sensor at one noise level. Every condition has the same
 // weight, independent of its number of lines: for each seed a value is averaged over the conditions, and the seeds then
 // give the interval. Shares, lengths and angles are averaged by the arithmetic mean, ratios and times by the geometric
-// mean. Values that are undefined in a cell (the error of an extractor that found nothing) are left out of the average;
-// F1 is always defined if there are walls.
+// mean; a value that should be 3 on average (NEES) by the arithmetic one, for 0.3 and 30 are not 3 together. Values
+// that are undefined in a cell (the error of an extractor that found nothing) are left out of the average; F1 is always
+// defined if there are walls.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +27,15 @@ namespace scanbench::results {
 /// Standard deviation of the readings of a simulated scenario, the part that does not grow with range.
 double noise_m(const study::Scenario& scenario);
 
+/// The least and the greatest average of a condition over the seeds; NaN without values.
+struct ConditionRange {
+  double least;
+  double most;
+};
+
 struct RankedPipeline {
   std::string name;
+  std::map<std::string, ConditionRange> ranges;        ///< by the metric of a column that shows its range
   std::map<std::string, MeanInterval> values;          ///< by the metric of a column; in the unit of summary.csv
   std::map<std::string, std::vector<double>> by_seed;  ///< what these are the means of
   int missing = 0;               ///< cells without a value of the rank's metric: not ok, or not there

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <variant>
 #include <vector>
@@ -60,6 +61,22 @@ std::string condition_text(const study::Scenario& scenario) {
   if (noise.sigma_relative > 0) parts.push_back(fmt::format("{:.3g} % of the range", 100.0 * noise.sigma_relative));
   return fmt::format("sensor {}, range noise {}", simulated->sensor_preset,
                      parts.empty() ? "none" : join(parts, noise.relative_from_m > 0 ? " or, farther away, " : " and "));
+}
+
+std::string bound_note(const study::Scenario& scenario) {
+  const auto* simulated = std::get_if<study::SimulatedInput>(&scenario.input);
+  const bool has_bound = std::ranges::any_of(scenario.metrics, [](const study::ModuleChoice& family) {
+    return family.module == "efficiency" || family.module == "pose_efficiency" || family.module == "alignment";
+  });
+  if (simulated == nullptr || !has_bound) return "";
+  std::vector<std::string> causes;
+  if (simulated->sweep) causes.emplace_back("the sensor moves while it scans");
+  if (!simulated->tilt.level()) causes.emplace_back("the sensor is tilted");
+  if (causes.empty()) return "";
+  return fmt::format(
+      "Bounds are those of a still, level sensor. Here {}: ratios to the bounds also contain what that does to the "
+      "readings, and 1 cannot be reached.",
+      join(causes, " and "));
 }
 
 std::string recording_title_note(const study::Scenario& scenario, std::span<const std::uint64_t> seeds) {

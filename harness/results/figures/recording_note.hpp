@@ -17,6 +17,10 @@ std::string recording_note(const study::Scenario& scenario, std::span<const std:
 /// lines instead of scans.
 std::string condition_text(const study::Scenario& scenario);
 
+/// A sentence for pages: ratios to bounds are to those of a still, level sensor. Empty if the scenario's sensor is one,
+/// or if no metric of the scenario has a bound.
+std::string bound_note(const study::Scenario& scenario);
+
 /// The same as recording_note() for titles, only what is unusual: "tilted sensor, seed 3 of 20 seeds"; empty if nothing
 /// is.
 std::string recording_title_note(const study::Scenario& scenario, std::span<const std::uint64_t> seeds);

@@ -12,6 +12,7 @@
 #include "core/geometry/geometry.hpp"
 #include "core/index.hpp"
 #include "harness/results/analysis/benchmark_finding.hpp"
+#include "harness/results/figures/recording_note.hpp"
 #include "harness/results/pages/benchmark_extremes.hpp"
 #include "harness/results/pages/page_parts.hpp"
 #include "harness/results/pages/run_links.hpp"
@@ -378,6 +379,9 @@ Document benchmark_document(const ReportInput& input) {
   const study::BenchmarkColumn& rank = spec.subject().rank_column();
   BulletList limits;
   for (const auto& limit : spec.subject().limits) limits.items.emplace_back(limit);
+  for (const auto& scenario : input.scenarios)
+    if (const std::string note = bound_note(scenario); !note.empty())
+      limits.items.emplace_back(scenario.name + ": " + note);
   add_blocks(page.blocks, section_blocks({{"ranking-section", "Ranking", ranking_section(input, spec)},
                                           {"time-section", rank.name() + " against time", accuracy_blocks(input)},
                                           {"figures-section", "Figures", figure_section(input, spec)},

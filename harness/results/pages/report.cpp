@@ -167,6 +167,7 @@ Blocks chapter_of(const ReportInput& input, const study::Scenario& scenario) {
     blocks.push_back(Paragraph{{link("Play its scans", fmt::format("{}#{}", kScansPage, scenario.name)),
                                 " with the lines that each pipeline found."}});
   blocks.push_back(links_to(tables, scenario, !figures.blocks.empty()));
+  if (std::string note = bound_note(scenario); !note.empty()) blocks.push_back(Paragraph{std::move(note)});
   if (!figures.blocks.empty()) blocks.push_back(std::move(figures));
   for (auto& table : tables) blocks.push_back(std::move(table));
   return blocks;

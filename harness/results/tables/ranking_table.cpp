@@ -24,7 +24,8 @@ std::string number(double value, int decimals) {
 }
 
 /// Larger values get fewer decimals if a column spans decades.
-TableCell interval_cell(const MeanInterval& interval, const study::BenchmarkColumn& column) {
+TableCell interval_cell(const RankedPipeline& ranked, const study::BenchmarkColumn& column) {
+  const MeanInterval& interval = ranked.values.at(column.metric);
   if (!std::isfinite(interval.mean)) return {"–"};
   const double mean = interval.mean * column.scale;
   const int large = column.geometric ? static_cast<int>(mean >= 10) + static_cast<int>(mean >= 100) : 0;
@@ -33,6 +34,10 @@ TableCell interval_cell(const MeanInterval& interval, const study::BenchmarkColu
   if (interval.count > 1)
     cell.spread =
         number(interval.low * column.scale, decimals) + " to " + number(interval.high * column.scale, decimals);
+  if (const auto range = ranked.ranges.find(column.metric); range != ranked.ranges.end())
+    cell.spread += (cell.spread.empty() ? "" : "; ") + fmt::format("conditions {} to {}",
+                                                                   number(range->second.least * column.scale, decimals),
+                                                                   number(range->second.most * column.scale, decimals));
   return cell;
 }
 
@@ -119,8 +124,7 @@ Table ranking_table(const std::vector<RankedPipeline>& ranking, const study::Ben
   for (const auto& ranked : ranking) {
     const std::string missing = ranked.missing > 0 ? fmt::format(" ({} cells missing)", ranked.missing) : "";
     Table::Row row{{std::to_string(++rank), ranked.name + missing}, {}, false};
-    for (const auto& column : subject.columns)
-      row.cells.push_back(interval_cell(ranked.values.at(column.metric), column));
+    for (const auto& column : subject.columns) row.cells.push_back(interval_cell(ranked, column));
     row.cells.push_back(next_cell(ranked, subject.rank_column()));
     row.cells.push_back({std::to_string(ranked.conditions_won)});
     table.rows.push_back(std::move(row));

@@ -24,7 +24,8 @@ PipelineRun run_in_own_folder(const std::filesystem::path& folder, const std::fi
                               const Recording& recording, Journal* journal) {
   const io::StagedFolder own(folder / "module");  // never committed
   return run_pipeline(pipeline, recording.observed, journal,
-                      {.sandbox = scenario.limits.sandbox, .writable_folder = own.path(), .hidden_folder = root});
+                      {.sandbox = scenario.limits.sandbox, .writable_folder = own.path(), .hidden_folder = root},
+                      skip_matches_requested(scenario.metrics));
 }
 
 /// Whatever a library, or a program outside of the sandbox, has put into the cell's folder is not taken for a result.
@@ -51,7 +52,7 @@ CellOutput make_cell(const std::filesystem::path& folder, const std::filesystem:
   io::write_staged_file(folder / kMetricsFile, metrics_csv(scores.rows));
   for (const auto& table : scores.tables)
     io::write_staged_file(folder / (table.name + ".csv"), metric_table_csv(table));
-  return {run.remarks, std::move(scores.rows)};
+  return {message_with(run.remarks, scores.refusals), std::move(scores.rows)};
 }
 
 }  // namespace scanbench::runs

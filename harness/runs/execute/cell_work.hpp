@@ -14,7 +14,7 @@
 namespace scanbench::runs {
 
 struct CellOutput {
-  std::string remarks;  ///< of the pipeline
+  std::string remarks;  ///< of the pipeline, and refusals of metrics
   std::vector<metrics::MetricRow> rows;
 };
 

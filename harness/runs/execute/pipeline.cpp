@@ -66,7 +66,7 @@ Listener written_into(Journal& journal) {
   };
 }
 
-constexpr double kFarthest_m = 1e6;  // larger than every scanner's range and every building
+constexpr double kFarthest_m = 1e6;  // larger than every scanner's range and every path of a robot
 constexpr double kOffLine_m = 1e-3;  // of an end point from its line, at 1 m; far more than rounding to float32
 
 bool is_near(const Vec2& p) {
@@ -125,14 +125,15 @@ void check_lines(const ScanLines& lines, int beams, std::size_t frame) {
   }
 }
 
-void check_pose(const Pose2& pose, const std::string& where) {
+/// `from`: the place of the first scan by its odometry, which may be far from zero, as in coordinates of a map.
+void check_pose(const Pose2& pose, const Vec2& from, const std::string& where) {
   if (!pose.translation().allFinite() || !std::isfinite(pose.cos()) || !std::isfinite(pose.sin()))
     throw InvalidResult(where + ": the pose is not finite");
-  if (!is_near(pose.translation())) throw InvalidResult(where + ": the pose is beyond 1e6 m");
+  if (!is_near(pose.translation() - from)) throw InvalidResult(where + ": the pose is beyond 1e6 m");
 }
 
 void check_match(const Match& match, const std::string& where) {
-  check_pose(match.reference_from_current, where);
+  check_pose(match.reference_from_current, Vec2::Zero(), where);
   if (const std::string fault = covariance_fault(match.covariance); !fault.empty())
     throw InvalidResult(where + ": the match has " + fault);
 }
@@ -156,8 +157,9 @@ void check_map(const LineMap& map, const std::string& slot) {
 /// One pass over the slots after `extract`.
 class Chain {
  public:
-  Chain(const ScanSet& scans, PipelineResult& result, const Listener& listener, const study::ForeignSetting& foreign)
-      : scans_(scans), result_(result), listener_(listener), foreign_(foreign) {
+  Chain(const ScanSet& scans, PipelineResult& result, const Listener& listener, const study::ForeignSetting& foreign,
+        int skip_matches = 0)
+      : scans_(scans), result_(result), listener_(listener), foreign_(foreign), skip_matches_(skip_matches) {
     views_.reserve(scans.frames.size());
     for (std::size_t k = 0; k < scans.frames.size(); ++k) {
       views_.push_back(scans.scan(k));
@@ -195,6 +197,7 @@ class Chain {
 
  private:
   Observation observation(std::size_t k) const { return {views_[k], result_.lines[k]}; }
+  const Vec2& start() const { return scans_.frames.front().odom_from_sensor.translation(); }
 
   void note(const std::string& slot, Status status) {
     if (status != Status::converged) ++outcomes_[slot][status];
@@ -212,7 +215,7 @@ class Chain {
       throw InvalidResult("align: " + std::to_string(alignment.world_from_sensor.size()) + " poses for " +
                           std::to_string(poses_.size()) + " scans");
     for (std::size_t k = 0; k < poses_.size(); ++k)
-      check_pose(alignment.world_from_sensor[k], "align, frame " + std::to_string(k));
+      check_pose(alignment.world_from_sensor[k], start(), "align, frame " + std::to_string(k));
     poses_ = std::move(alignment.world_from_sensor);
   }
 
@@ -232,6 +235,23 @@ class Chain {
       result_.matches.push_back({.frame = static_cast<int>(k), .reference = static_cast<int>(k) - 1, .match = found});
       poses_[k] = poses_[k - 1] * (found.status == Status::no_match ? guess : found.reference_from_current);
     }
+    if (skip_matches_ > 0 && views_.size() > 2) match_last_but_one(*matcher, odometry);
+  }
+
+  /// The guess does not use the matches of these scans with the one between them, so that both may be compared.
+  void match_last_but_one(const ScanMatcher& matcher, bool odometry) {
+    const std::size_t all = views_.size() - 2, most = static_cast<std::size_t>(skip_matches_);
+    for (std::size_t k = 2; k < views_.size(); k += (all + most - 1) / most) {
+      const Pose2 step = k > 2 ? poses_[k - 3].inverse() * poses_[k - 2] : Pose2();
+      const Pose2 guess =
+          odometry ? scans_.frames[k - 2].odom_from_sensor.inverse() * scans_.frames[k].odom_from_sensor : step * step;
+      Match found;
+      nobody_listens("match", static_cast<int>(k),
+                     [&](Trace& trace) { found = matcher.match(observation(k - 2), observation(k), guess, trace); });
+      check_match(found, "match, frame " + std::to_string(k) + " with the last but one");
+      result_.skip_matches.push_back(
+          {.frame = static_cast<int>(k), .reference = static_cast<int>(k) - 2, .match = found});
+    }
   }
 
   void map(const study::ModuleChoice& slot) {
@@ -245,7 +265,7 @@ class Chain {
       const std::string frame = "frame " + std::to_string(k);
       if (inserted.status != Status::converged && !inserted.message.empty())
         messages_.try_emplace("map", "first in " + frame + ": " + inserted.message);
-      check_pose(inserted.world_from_sensor, "map, " + frame);
+      check_pose(inserted.world_from_sensor, start(), "map, " + frame);
       if (inserted.lines < 0) throw InvalidResult("map, " + frame + ": " + std::to_string(inserted.lines) + " lines");
       placed.push_back(inserted.world_from_sensor);
     }
@@ -300,6 +320,7 @@ class Chain {
   PipelineResult& result_;
   const Listener& listener_;
   const study::ForeignSetting& foreign_;
+  const int skip_matches_;
   std::vector<Scan> views_;
   std::vector<Pose2> poses_;
   std::map<std::string, std::map<Status, int>> outcomes_;
@@ -327,7 +348,7 @@ std::vector<ScanLines> given_lines(const ScanSet& scans) {
 }  // namespace
 
 PipelineRun run_pipeline(const study::PipelineSpec& pipeline, const ScanSet& scans, Journal* journal,
-                         const study::ForeignSetting& foreign) {
+                         const study::ForeignSetting& foreign, int skip_matches) {
   const bool given = scans.has_given_lines();
   if (const auto fault = study::chain_fault(pipeline, !given)) throw ConfigError(fault->message);
   const std::span<const study::ModuleChoice> after_lines = std::span(pipeline.slots).subspan(given ? 0 : 1);
@@ -344,7 +365,7 @@ PipelineRun run_pipeline(const study::PipelineSpec& pipeline, const ScanSet& sca
   const Listener stopwatch = timed_into(run.result.times);
   all_lines(stopwatch);
 
-  Chain chain(scans, run.result, stopwatch, foreign);
+  Chain chain(scans, run.result, stopwatch, foreign, skip_matches);
   for (const study::ModuleChoice& slot : after_lines) chain.run(slot);
   run.remarks = chain.remarks();
 

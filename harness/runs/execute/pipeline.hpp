@@ -26,9 +26,12 @@ struct PipelineRun {
 /// other slots are timed in the first pass, because a second one could take as long. Stages of `extract` keep their
 /// names, those of the other slots begin with `<slot>.`. A journal, if given, records a separate pass over all slots.
 ///
+/// `skip_matches`: so many scans at most, evenly spread, are also matched with the last but one, from the odometry
+/// between them (without odometry, from twice the step before). These matches move no pose and are not timed.
+///
 /// Throws ConfigError for an unknown module or chain, ParamError for its parameters, InvalidResult, and what the
 /// modules throw. Faults of foreign modules name the slot and the frame.
 PipelineRun run_pipeline(const study::PipelineSpec& pipeline, const ScanSet& scans, Journal* journal = nullptr,
-                         const study::ForeignSetting& foreign = {});
+                         const study::ForeignSetting& foreign = {}, int skip_matches = 0);
 
 }  // namespace scanbench::runs

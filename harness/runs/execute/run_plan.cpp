@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/names.hpp"
+#include "harness/io/files/placed_error.hpp"
 #include "harness/runs/execute/cell_address.hpp"
 #include "harness/study/scenario/figure_pipelines.hpp"
 
@@ -20,9 +21,11 @@ void check_scenarios(const std::vector<study::Scenario>& scenarios, const RunOpt
     if (!names.insert(scenario.name).second)
       throw ConfigError("two scenarios have the name '" + scenario.name + "'; each needs a folder of its own");
     if (scenario.pipelines.empty())
-      throw ConfigError("scenario '" + scenario.name +
-                        "' has no pipelines; allowed: at least one in the key `pipelines` (`scanbench simulate` makes "
-                        "recordings without any)");
+      io::in_file(scenario.path.string(), {}, [&] {
+        throw io::PlacedError(scenario.begin, "scenario '" + scenario.name +
+                                                  "' has no pipelines; allowed: at least one in the key `pipelines` "
+                                                  "(`scanbench simulate` makes recordings without any)");
+      });
     std::set<std::string> pipelines;
     for (const auto& pipeline : scenario.pipelines) {
       io::check_name("pipeline", pipeline.name);

@@ -30,14 +30,16 @@ metrics::MetricInput metric_input(const Recording& recording, const PipelineResu
           recording.reference ? &*recording.reference : nullptr};
 }
 
-/// Calls `use` with every chosen family that applies to the input.
+/// Calls `use` with the name of every chosen family that applies to the input, and the family.
 template <class Use>
 void for_each_family(const std::vector<study::ModuleChoice>& families, const metrics::MetricInput& input, Use use) {
   for (const auto& choice : families) {
     const auto family = Registry<metrics::MetricFamily>::make(choice.module, choice.params);
-    if (family->applies(input)) use(*family);
+    if (family->applies(input)) use(choice.module, *family);
   }
 }
+
+constexpr std::string_view kRefusals = "metrics: ";  // begins the last part of a cell's message
 
 template <class T>
 void append(std::vector<T>& all, std::vector<T> more) {
@@ -64,12 +66,32 @@ class ScenarioAddresses {
 
 }  // namespace
 
-std::vector<metrics::MetricRow> evaluate_metrics(const std::vector<study::ModuleChoice>& families,
-                                                 const Recording& recording, const PipelineResult& result) {
+int skip_matches_requested(const std::vector<study::ModuleChoice>& families) {
+  int most = 0;
+  for (const auto& choice : families)
+    most = std::max(most, Registry<metrics::MetricFamily>::make(choice.module, choice.params)->skip_matches());
+  return most;
+}
+
+Scores evaluate_metrics(const std::vector<study::ModuleChoice>& families, const Recording& recording,
+                        const PipelineResult& result) {
   const metrics::MetricInput input = metric_input(recording, result);
-  std::vector<metrics::MetricRow> rows;
-  for_each_family(families, input, [&](const auto& family) { append(rows, family.evaluate(input)); });
-  return rows;
+  Scores scores;
+  for_each_family(families, input, [&](const std::string& name, const auto& family) {
+    try {
+      auto rows = family.evaluate(input);
+      auto tables = family.tables(input);
+      const auto names = family.table_names();
+      for (const auto& table : tables) SCANBENCH_ASSERT(std::ranges::find(names, table.name) != names.end());
+      append(scores.rows, std::move(rows));
+      append(scores.tables, std::move(tables));
+    } catch (const ConfigError& refusal) {
+      const std::string prefix = name + ": ", what = refusal.what();
+      scores.refusals +=
+          (scores.refusals.empty() ? std::string(kRefusals) : "; ") + (what.starts_with(prefix) ? "" : prefix) + what;
+    }
+  });
+  return scores;
 }
 
 Scores score_cell(const std::vector<study::ModuleChoice>& families, const Recording& recording, const fs::path& cell) {
@@ -77,16 +99,13 @@ Scores score_cell(const std::vector<study::ModuleChoice>& families, const Record
   if (result.lines.size() != recording.observed.frames.size())
     throw ConfigError(cell.string() + ": " + std::to_string(result.lines.size()) + " frames; the recording has " +
                       std::to_string(recording.observed.frames.size()));
-  Scores scores{evaluate_metrics(families, recording, result), {}};
-  const metrics::MetricInput input = metric_input(recording, result);
-  for_each_family(families, input, [&](const auto& family) {
-    for (auto& table : family.tables(input)) {
-      const auto names = family.table_names();
-      SCANBENCH_ASSERT(std::ranges::find(names, table.name) != names.end());
-      scores.tables.push_back(std::move(table));
-    }
-  });
-  return scores;
+  return evaluate_metrics(families, recording, result);
+}
+
+std::string message_with(const std::string& message, const std::string& refusals) {
+  const std::size_t old = message.starts_with(kRefusals) ? 0 : message.find("; " + std::string(kRefusals));
+  const std::string kept = message.substr(0, old);
+  return kept + (kept.empty() || refusals.empty() ? "" : "; ") + refusals;
 }
 
 std::string metric_table_csv(const metrics::MetricTable& table) {
@@ -127,8 +146,11 @@ std::size_t score_run(const fs::path& run, const std::vector<study::Scenario>& s
     }
     const Scores scores = score_cell(scenario->metrics, recordings.at(source), cell);
     files.emplace_back(cell / kMetricsFile, metrics_csv(scores.rows));
-    if (!addresses.is_of(*scenario, key, record->address)) {
-      record->address.clear();  // no run has these metrics, so --resume makes the cell again
+    const std::string message = message_with(record->outcome.message, scores.refusals);
+    const bool other_metrics = !addresses.is_of(*scenario, key, record->address);
+    if (other_metrics) record->address.clear();  // no run has these metrics, so --resume makes the cell again
+    if (other_metrics || message != record->outcome.message) {
+      record->outcome.message = message;
       files.emplace_back(cell / kStatusFile, status_json(*record));
     }
     std::set<std::string> others = known_tables;

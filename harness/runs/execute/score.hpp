@@ -13,21 +13,28 @@
 
 namespace scanbench::runs {
 
-/// Rows of all chosen families that apply, in the order of choice; a family that does not apply is absent. Throws
-/// ConfigError for an unknown family.
-std::vector<metrics::MetricRow> evaluate_metrics(const std::vector<study::ModuleChoice>& families,
-                                                 const Recording& recording, const PipelineResult& result);
+/// The most matches with the last scan but one that a chosen family requests (MetricFamily::skip_matches).
+int skip_matches_requested(const std::vector<study::ModuleChoice>& families);
 
 /// Rows and tables of one cell.
 struct Scores {
   std::vector<metrics::MetricRow> rows;
   std::vector<metrics::MetricTable> tables;
+  std::string refusals{};  ///< "metrics: raster_truth: ..."; empty if no family refuses
 };
 
-/// Scores the result in the cell's folder: the same rows, and the families' tables. `recording` comes from
-/// load_recording(), which returns the saved bits.
+/// Rows and tables of all chosen families that apply, in the order of choice. A family that does not apply is absent;
+/// so is one that throws ConfigError, whose message is in `refusals`. Throws ConfigError for an unknown family.
+Scores evaluate_metrics(const std::vector<study::ModuleChoice>& families, const Recording& recording,
+                        const PipelineResult& result);
+
+/// Scores the result in the cell's folder. `recording` comes from load_recording(), which returns the saved bits.
+/// Throws ConfigError for an unknown family and for files that cannot be read.
 Scores score_cell(const std::vector<study::ModuleChoice>& families, const Recording& recording,
                   const std::filesystem::path& cell);
+
+/// The message of a cell that is ok, with these refusals of metrics in place of those that it has.
+std::string message_with(const std::string& message, const std::string& refusals);
 
 /// A table as a file of the cell, <name>.csv.
 std::string metric_table_csv(const metrics::MetricTable& table);

@@ -140,7 +140,7 @@ void write_map(const fs::path& cell, const LineMap& map) {
   io::write_staged_file(cell / kMapFile, csv.str());
 }
 
-void write_matches(const fs::path& cell, const std::vector<FrameMatch>& matches) {
+void write_matches(const fs::path& file, const std::vector<FrameMatch>& matches) {
   io::CsvWriter csv(kMatchColumns);
   for (const auto& m : matches) {
     const Pose2& pose = m.match.reference_from_current;
@@ -149,7 +149,7 @@ void write_matches(const fs::path& cell, const std::vector<FrameMatch>& matches)
     csv.number(c(0, 0)).number(c(0, 1)).number(c(0, 2)).number(c(1, 1)).number(c(1, 2)).number(c(2, 2));
     csv.text(to_string(m.match.status)).end_row();
   }
-  io::write_staged_file(cell / kPoseMatchesFile, csv.str());
+  io::write_staged_file(file, csv.str());
 }
 
 Status status_from(const io::CsvTable& csv, std::size_t row) {
@@ -159,8 +159,9 @@ Status status_from(const io::CsvTable& csv, std::size_t row) {
   csv.refuse(row, "no outcome of a match is called '" + text + "'");
 }
 
-std::vector<FrameMatch> load_matches(const StoredFiles& cell, std::size_t frames) {
-  const io::CsvTable csv = cell.table(kPoseMatchesFile, kMatchColumns);
+std::vector<FrameMatch> load_matches(const StoredFiles& cell, const RunFile& file, std::size_t frames) {
+  if (!cell.has(file)) return {};
+  const io::CsvTable csv = cell.table(file, kMatchColumns);
   std::vector<FrameMatch> matches;
   for (std::size_t r = 0; r < csv.rows(); ++r) {
     FrameMatch m{.frame = csv.index(r, "frame"), .reference = csv.index(r, "reference"), .match = {}};
@@ -222,7 +223,8 @@ void write_result(const fs::path& cell, const study::PipelineSpec& pipeline, con
     }
     io::write_staged_file(cell / kPosesFile, csv.str());
   }
-  if (study::has_slot(pipeline, "match")) write_matches(cell, result.matches);
+  if (study::has_slot(pipeline, "match")) write_matches(cell / kPoseMatchesFile, result.matches);
+  if (!result.skip_matches.empty()) write_matches(cell / kSkipMatchesFile, result.skip_matches);
   if (result.has_map) write_map(cell, result.map);
   if (study::has_slot(pipeline, "merge")) {
     io::CsvWriter csv(kMergeColumns);
@@ -251,7 +253,8 @@ PipelineResult load_result(const StoredFiles& cell) {
       throw ConfigError(cell.path(kPosesFile).string() + ": " + std::to_string(csv.rows()) + " poses for " +
                         std::to_string(result.lines.size()) + " frames");
   }
-  if (cell.has(kPoseMatchesFile)) result.matches = load_matches(cell, result.lines.size());
+  result.matches = load_matches(cell, kPoseMatchesFile, result.lines.size());
+  result.skip_matches = load_matches(cell, kSkipMatchesFile, result.lines.size());
   result.has_map = cell.has(kMapFile);
   if (result.has_map) {
     const io::CsvTable csv = cell.table(kMapFile, kMapColumns);

@@ -20,6 +20,7 @@ inline const RunFile kLabelsFile("cells/*/*/*/labels.npy");
 inline const RunFile kMapFile("cells/*/*/*/map.csv");
 inline const RunFile kPosesFile("cells/*/*/*/poses.csv");
 inline const RunFile kPoseMatchesFile("cells/*/*/*/pose_matches.csv");
+inline const RunFile kSkipMatchesFile("cells/*/*/*/skip_matches.csv");
 inline const RunFile kMergeFile("cells/*/*/*/merge_labels.csv");
 inline const RunFile kTimingFile("cells/*/*/*/timing.csv");
 inline const RunFile kStatusFile("cells/*/*/*/status.json");
@@ -34,9 +35,10 @@ std::string status_json(const CellRecord& record);
 /// Throws ConfigError, naming the file.
 CellRecord load_status(const StoredFiles& cell);
 
-/// Writes lines.csv and labels.npy, poses.csv if there are poses, pose_matches.csv with a `match` slot, map.csv if the
-/// pipeline has a `map` or `merge` slot, merge_labels.csv with a `merge` slot, and timing.csv into an existing folder.
-/// Covariances of an algorithm's lines are the last columns: cov_offset_m2, cov_offset_angle, cov_angle_rad2.
+/// Writes lines.csv and labels.npy, poses.csv if there are poses, pose_matches.csv with a `match` slot,
+/// skip_matches.csv if there are such matches, map.csv if the pipeline has a `map` or `merge` slot, merge_labels.csv
+/// with a `merge` slot, and timing.csv into an existing folder. Covariances of an algorithm's lines are the last
+/// columns: cov_offset_m2, cov_offset_angle, cov_angle_rad2.
 void write_result(const std::filesystem::path& cell, const study::PipelineSpec& pipeline, const PipelineResult& result);
 
 /// Reads the files of write_result(); a part without a file is empty. Throws ConfigError with file and line for files

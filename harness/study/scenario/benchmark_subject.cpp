@@ -95,15 +95,20 @@ BenchmarkSubject matchers() {
             "largest error of a matched position in a condition; shows wrong matches, which a geometric mean hides"},
            {"pose_error_heading", "heading [°]", 1, 3, true, lower_is_better,
             "root mean square error of the matched heading"},
-           {"pose_nees", "NEES", 1, 2, true, target,
-            "mean normalised squared error; 3 is honest, more is overconfident", 3.0},
+           {"pose_nees", "NEES", 1, 2, false, target,
+            "mean normalised squared error; 3 is honest, more is overconfident, less cautious; \"conditions\": the "
+            "least "
+            "and the greatest mean of a condition",
+            3.0, true},
            {"pose_unmatched", "unmatched [%]", 100, 2, false, lower_is_better,
             "share of the pairs that determine a pose for which the matcher has no match or says that a motion "
             "is open"},
            {"ate_position", "ATE [cm]", 100, 2, true, lower_is_better,
-            "root mean square distance of the chained positions from the true ones, after planar alignment"},
+            "root mean square distance of the chained positions from the true ones, after the motion of the plane that "
+            "fits positions and headings best, a radian counting as 1 m (lever_m)"},
            {"ate_heading", "ATE [°]", 1, 2, true, lower_is_better,
-            "root mean square difference of the chained headings from the true ones, after planar alignment"},
+            "root mean square difference of the chained headings from the true ones, after the same motion as the "
+            "positions"},
            {"t_match", "time [µs]", 1, 1, true, lower_is_better, "median CPU time of a match, lines not included"},
            {"t_ratio", "time ratio", 1, 2, true, lower_is_better,
             "CPU time over that of the baseline in the same condition and seed"}},

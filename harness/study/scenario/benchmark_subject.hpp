@@ -21,6 +21,9 @@ struct BenchmarkColumn {
   metrics::Direction direction = metrics::Direction::lower_is_better;
   std::string definition;  ///< a sentence for the reader of the page
   double target = 0.0;     ///< the best value if direction is `target`
+  /// Also shows the least and the greatest condition: the average of some far below the target and others far above is
+  /// near it. Such a column is averaged by the arithmetic mean if the target is what a mean should be.
+  bool shows_range = false;
 
   bool is_share() const;                           ///< shown in percent
   std::string name() const;                        ///< the head without its unit

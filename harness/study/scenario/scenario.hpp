@@ -11,6 +11,7 @@
 
 #include "core/params.hpp"
 #include "core/sensor_model.hpp"
+#include "harness/io/files/placed_error.hpp"
 #include "harness/study/catalog/pipeline_spec.hpp"
 #include "sim/line_copies.hpp"
 #include "sim/odometry.hpp"
@@ -77,6 +78,7 @@ struct Scenario {
   std::string name;  ///< key `name`, or the file's name without extension
   std::filesystem::path path;
   std::string text;  ///< the file's bytes
+  io::Mark begin;    ///< where its keys begin in the file
   std::string about;
   std::variant<SimulatedInput, RecordedInput, LinesInput> input;
   std::vector<std::uint64_t> seeds;

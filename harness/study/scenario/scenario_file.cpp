@@ -252,6 +252,7 @@ Scenario parse(std::string_view text, const std::filesystem::path& path, const s
   io::in_file(path.string(), sets, [&] {
     // The larger limit applies, because a scenario may contain its world.
     io::YamlNode root = io::parse_yaml(text, io::kMaxWorldBytes);
+    scenario.begin = root.mark;
     io::apply_sets(root, sets);
     ScenarioReader(root, scenario, is_recorded).read();
   });

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "algorithms/match/optimal/guess.hpp"
+#include "algorithms/match/parts/guess.hpp"
 #include "core/rng.hpp"
 
 namespace scanbench::matching {

@@ -327,5 +327,49 @@ TEST(PairWalls, JoinsWhatAnObstacleCutsInTwo) {
   EXPECT_EQ(other[0].current, (std::vector<std::size_t>{0, 1}));
 }
 
+/// Walls along x known to 1 mm, headings to 0.5 mrad, and the motion along x to `along_m`, by noise of both scans.
+PairInformation corridor_information(double along_m) {
+  PairInformation information;
+  information.equations.matrix =
+      2.0 * Eigen::Vector3d(1.0 / (along_m * along_m), 1e6, 4e6).asDiagonal().toDenseMatrix();
+  information.misfit = 500.0;
+  information.count = 503;
+  return information;
+}
+
+const Guess kNearGuess({1.0, 2.0, 0.1}, 0.1, 0.05);
+
+Match concluded(double along_m, double off_m, bool held = true) {
+  return conclusion(corridor_information(along_m), {1.0 + off_m, 2.02, 0.12}, kNearGuess, held, 3.0, true);
+}
+
+TEST(Conclusion, AWeakMotionAgainstTheGuessIsOpen) {
+  for (const double along_m : {0.03, 0.08}) {
+    const Match match = concluded(along_m, 0.3);
+    EXPECT_EQ(match.status, Status::degenerate);
+    EXPECT_NEAR(match.reference_from_current.x(), 1.0, 1e-9) << "as guessed";
+    EXPECT_NEAR(match.reference_from_current.y(), 2.02, 1e-9) << "the walls know it";
+    EXPECT_NEAR(match.reference_from_current.yaw(), 0.12, 1e-9);
+    EXPECT_NEAR(match.covariance(0, 0), kOpenMotionM * kOpenMotionM, 1e-6);
+    EXPECT_NEAR(match.covariance(1, 1), 1e-6, 1e-12);
+  }
+}
+
+TEST(Conclusion, WithinTheGuessOrWithoutItTheWallsDecide) {
+  for (const Match& match : {concluded(0.03, 0.2), concluded(0.03, 0.3, false)}) {
+    EXPECT_EQ(match.status, Status::converged);
+    EXPECT_NEAR(match.covariance(0, 0), 0.03 * 0.03, 1e-9);
+  }
+  EXPECT_EQ(concluded(0.03, 0.2).reference_from_current.x(), 1.2);
+}
+
+TEST(Conclusion, WhatWallsKnowFarBetterStaysAndIsStatedWithDoubt) {
+  const Match match = concluded(0.01, 0.4);
+  EXPECT_EQ(match.status, Status::converged);
+  EXPECT_EQ(match.reference_from_current.x(), 1.4);
+  const double off = std::hypot(0.4, 0.02), rest = off - 0.1 * std::sqrt(5.99);
+  EXPECT_NEAR(match.covariance(0, 0), 0.01 * 0.01 + rest * rest * (0.4 / off) * (0.4 / off), 1e-9);
+}
+
 }  // namespace
 }  // namespace scanbench::matching

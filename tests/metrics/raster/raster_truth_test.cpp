@@ -100,6 +100,23 @@ TEST(RasterTruth, NeedsWalls) {
   EXPECT_FALSE(family("raster_truth")->applies(run.input()));
 }
 
+TEST(RasterTruth, InCoordinatesOfAMapIsAsNearTheOrigin) {
+  const std::vector<Segment> walls{{{0, 0}, {4, 0}}, {{4, 0}, {4, 3}}, {{1, 1}, {2.3, 2.9}}},
+      lines{{{0.5, 0.02}, {3, 0.01}}, {{4.03, 0}, {4.08, 2}}, {{1, 1.2}, {2.3, 3.1}}};
+  const auto moved_by = [](std::vector<Segment> segments, const Vec2& by) {
+    for (Segment& s : segments) s = {s.a + by, s.b + by};
+    return segments;
+  };
+  const auto near = evaluate("raster_truth", map_of(walls, lines));
+  EXPECT_GT(row(near, "raster_precision").value, 0.1);
+  EXPECT_LT(row(near, "raster_precision").value, 0.9);
+  for (const Vec2& by : {Vec2(500000, 5000000), Vec2(1e7, 1e7), Vec2(-1e7, 3)}) {
+    const auto far = evaluate("raster_truth", map_of(moved_by(walls, by), moved_by(lines, by)));
+    ASSERT_EQ(far.size(), near.size());
+    for (std::size_t k = 0; k < near.size(); ++k) EXPECT_EQ(far[k].value, near[k].value) << near[k].metric;
+  }
+}
+
 TEST(RasterTruth, RefusesLinesThatItsPixelsCannotHold) {
   const auto error_of = [](const Segment& line, double resolution_m) -> std::string {
     try {

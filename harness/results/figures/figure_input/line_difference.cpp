@@ -73,6 +73,8 @@ std::optional<render::PixelDifference> line_difference(const Recording& recordin
   for (const Segment& line : both.found_lines) cut(line, both.pixel_m, found, difference.right, difference.wrong);
   std::vector<Segment> covered;
   for (const Segment& line : both.visible_lines) cut(line, both.pixel_m, visible, covered, difference.missed);
+  for (std::vector<Segment>* lines : {&difference.right, &difference.wrong, &difference.missed})
+    for (Segment& line : *lines) line = {both.world_from_raster + line.a, both.world_from_raster + line.b};
   return difference;
 }
 

@@ -56,6 +56,47 @@ TEST(Registration, DoesNotMoveAnExactPrediction) {
   EXPECT_NEAR(found.map_from_sensor.yaw(), 0.2, 1e-12);
 }
 
+/// Pairs of a corridor along x; while the gate is wide also with a wall across it that is not the point's own.
+FindPairs corridor_with_a_stray(const Walls& corridor, double stray_from_m) {
+  return [&corridor, stray_from_m](const Pose2& pose, double gate) {
+    std::vector<PointOnLine> found = corridor.pairs()(pose, gate);
+    const double off = std::abs((pose * Vec2(3, 0)).x() - 3.3);
+    if (gate > stray_from_m && off <= gate)
+      for (int k = 0; k < 20; ++k) found.push_back({Vec2(3, 0.1 * k - 1), Vec2(1, 0), 3.3, 1.0});
+    return found;
+  };
+}
+
+TEST(Registration, AMotionThatIsOpenAtTheEndIsAsPredictedHoweverItMovedBefore) {
+  const Walls corridor({{{-10, -1}, {10, -1}}, {{10, 1}, {-10, 1}}}, {0, 0, 0});
+  const Pose2 predicted(0.02, 0.03, 0.01);
+  const Registration found = register_on_lines(corridor_with_a_stray(corridor, 0.2), predicted,
+                                               static_cast<double>(corridor.points.size()), 3.0, {});
+  EXPECT_EQ(found.status, Status::degenerate);
+  EXPECT_EQ(found.rank, 2);
+  EXPECT_NEAR(found.map_from_sensor.x(), 0.02, 1e-3) << "the stray moved it by 0.3 m";
+  EXPECT_NEAR(found.map_from_sensor.y(), 0.0, 1e-6);
+  EXPECT_NEAR(found.map_from_sensor.yaw(), 0.0, 1e-6);
+}
+
+TEST(Registration, AFarCorrectionMustFitBetterThanANearOne) {
+  const Walls corridor({{{-10, -1}, {10, -1}}, {{10, 1}, {-10, 1}}}, {0, 0, 0});
+  const Pose2 predicted(0.02, 0.03, 0.01);
+  const auto all = static_cast<double>(corridor.points.size());
+  const FindPairs pairs = corridor_with_a_stray(corridor, 0.05);  // the stray stays a pair to the end
+  EXPECT_NEAR(register_on_lines(pairs, predicted, all, 3.0, {}).map_from_sensor.x(), 0.3, 1e-6);
+  const Registration near = register_near(pairs, predicted, all, 3.0, {});
+  EXPECT_EQ(near.status, Status::degenerate);
+  EXPECT_NEAR(near.map_from_sensor.x(), 0.02, 1e-3);
+
+  // A prediction that is off by more than the narrow gate is corrected, because nothing fits there.
+  const Walls room(support::box(-3, -2, 4, 2), {0.5, 0.3, 0.2});
+  const Registration off =
+      register_near(room.pairs(), {0.8, 0.1, 0.24}, static_cast<double>(room.points.size()), 3.0, {});
+  EXPECT_EQ(off.status, Status::converged);
+  EXPECT_NEAR((off.map_from_sensor.translation() - room.truth.translation()).norm(), 0, 1e-9);
+}
+
 TEST(Registration, LeavesTheOpenMotionOfACorridorAsPredicted) {
   const Walls corridor({{{-10, -1}, {10, -1}}, {{10, 1}, {-10, 1}}}, {0, 0, 0});
   const Registration found = corridor.on({0.3, 0.1, 0.02});

@@ -44,6 +44,23 @@ std::vector<runs::SummaryRow> made_up_rows() {
   return rows;
 }
 
+TEST(Benchmark, AValueWhoseTargetIsItsMeanHasTheArithmeticMeanAndItsRange) {
+  study::BenchmarkSpec spec = kSpec;
+  spec.of = "match";
+  std::vector<runs::SummaryRow> rows;
+  add_rows(rows, "a", "pose_nees", {0.3, 30.0, 0.1, 20.0});  // geometric means 3 and 1.4: honest, one would read
+  add_rows(rows, "b", "pose_nees", {2.9, 3.0, 3.1, 3.2});
+  add_rows(rows, "a", "pose_efficiency", {2.0, 8.0, 2.0, 8.0});
+  add_rows(rows, "b", "pose_efficiency", {1.0, 1.0, 1.0, 1.0});
+  const auto ranking = rank_pipelines(two_scenarios(), rows, spec);
+  ASSERT_EQ(ranking[1].name, "a");
+  EXPECT_NEAR(ranking[1].values.at("pose_nees").mean, (0.3 + 30.0 + 0.1 + 20.0) / 4.0, 1e-12);
+  EXPECT_NEAR(ranking[1].values.at("pose_efficiency").mean, 4.0, 1e-12) << "a ratio has the geometric mean";
+  EXPECT_NEAR(ranking[1].ranges.at("pose_nees").least, 0.2, 1e-12);  // x: the mean of 0.3 and 0.1
+  EXPECT_NEAR(ranking[1].ranges.at("pose_nees").most, 25.0, 1e-12);
+  EXPECT_THAT(to_html(ranking_table(ranking, spec)), HasSubstr("conditions 0.20 to 25.00"));
+}
+
 TEST(Benchmark, AveragesOverConditionsFirstAndOverSeedsThen) {
   const auto ranking = rank_pipelines(two_scenarios(), made_up_rows(), kSpec);
   ASSERT_EQ(ranking.size(), 3u);

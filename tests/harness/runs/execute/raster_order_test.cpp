@@ -31,7 +31,7 @@ TEST(RasterTruth, OrdersPipelinesAsMapTruthDoesOnTheHallway) {
   for (const study::PipelineSpec& pipeline : scenario.pipelines) {
     std::map<std::string, double> values;
     for (const auto& row :
-         evaluate_metrics(scenario.metrics, recording, run_pipeline(pipeline, recording.observed).result))
+         evaluate_metrics(scenario.metrics, recording, run_pipeline(pipeline, recording.observed).result).rows)
       values[row.metric] = row.value;
     scores.emplace_back(harmonic_mean(values.at("covered_5cm"), values.at("true_share_5cm")), values.at("raster_f1"));
   }

@@ -6,6 +6,7 @@
 
 #include <numeric>
 
+#include "harness/study/scenario/scenario_file.hpp"
 #include "tests/support/inputs.hpp"
 
 namespace scanbench::runs {
@@ -34,6 +35,18 @@ TEST(RunPlan, RefusesASeedThatIsGivenTwice) {
   study::Scenario scenario = scenario_with(1, 3);
   scenario.seeds = {7, 8, 7};
   EXPECT_THAT(support::config_refusal([&] { plan_run({scenario}, {}); }), HasSubstr("the seed 7 is given twice"));
+}
+
+TEST(RunPlan, NamesTheFileOfAScenarioWithoutPipelines) {
+  const study::Scenario scenario = study::parse_scenario(R"(# a comment
+schema: 1
+world: {segments: [[a, 0, 0, 4, 0]]}
+sensor: {preset: ladar_2d30}
+trajectory: {kind: waypoints, points_m: {A: [1, 1], B: [3, 1]}, scans: 4}
+)",
+                                                         "rooms/empty.yaml");
+  EXPECT_THAT(support::config_refusal([&] { plan_run({scenario}, {}); }),
+              ::testing::StartsWith("rooms/empty.yaml:2:1: scenario 'empty' has no pipelines; allowed: at least one"));
 }
 
 }  // namespace

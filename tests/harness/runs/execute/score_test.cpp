@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/registry.hpp"
 #include "harness/io/files/atomic_file.hpp"
 #include "harness/runs/execute/pipeline.hpp"
 #include "harness/runs/execute/run_options.hpp"
+#include "harness/runs/store/cell_files.hpp"
 #include "harness/runs/store/summary.hpp"
 #include "tests/support/runs.hpp"
 
@@ -32,13 +34,53 @@ TEST(Score, LeavesOutFamiliesThatDoNotApply) {
     return text;
   };
   const auto score = [&](const study::PipelineSpec& pipeline, const Recording& recording) {
-    return names(evaluate_metrics(kFamilies, recording, run_pipeline(pipeline, recording.observed).result));
+    return names(evaluate_metrics(kFamilies, recording, run_pipeline(pipeline, recording.observed).result).rows);
   };
   EXPECT_EQ(score(extract, with_truth), "test_unlabelled test_lines test_undefined ");
   EXPECT_EQ(score(merge, with_truth), "test_map test_unlabelled test_lines test_undefined ");
   EXPECT_EQ(score(merge, log), "test_map ");
   EXPECT_EQ(score(extract, log), "");
   EXPECT_THROW(evaluate_metrics({{"metrics", "no such family", {}}}, log, {}), ConfigError);
+}
+
+/// Refuses every input.
+class RefusingMetrics final : public metrics::MetricFamily {
+ public:
+  using Params = NoParams;
+  explicit RefusingMetrics(const Params&) {}
+  std::vector<metrics::MetricDescription> describe() const override { return {}; }
+  bool applies(const metrics::MetricInput&) const override { return true; }
+  std::vector<metrics::MetricRow> evaluate(const metrics::MetricInput&) const override {
+    throw ConfigError("too large");
+  }
+};
+const bool kRefusesRegistered = Registry<metrics::MetricFamily>::add<RefusingMetrics>(
+    {.name = "test_refuses", .summary = "of the tests", .reference = "none"});
+
+TEST(Score, AMetricThatRefusesLosesItsOwnRowsOnly) {
+  ASSERT_TRUE(kRefusesRegistered);
+  const support::TemporaryFolder folder;
+  const fs::path run = folder.path() / "run";
+  study::Scenario scenario = fixtures::scenario_with("s", {fixtures::extract_with("p", "test_line")});
+  scenario.metrics = {{"metrics", "test_refuses", {}}, {"metrics", "test_metrics", {}}};
+  const RunResult result = fixtures::run_here({scenario}, {.out = run});
+  ASSERT_EQ(result.cells.size(), 1u);
+  EXPECT_EQ(result.cells[0].outcome.status, CellStatus::ok);
+  EXPECT_EQ(result.cells[0].outcome.message, "metrics: test_refuses: too large");
+  EXPECT_THAT(io::read_file(run / "summary.csv"), HasSubstr("s,p,1,test_lines,all,5,,5\n"));
+  EXPECT_TRUE(fs::exists(cell_path(run, {"s", "p", 1}) / "lines.csv"));
+
+  scenario.metrics = {{"metrics", "test_metrics", {}}};
+  score_run(run, {scenario});
+  EXPECT_EQ(load_status(cell_path(run, {"s", "p", 1})).outcome.message, "") << "nothing refuses any more";
+}
+
+TEST(Score, AMessageKeepsTheOutcomesOfThePipeline) {
+  const std::string outcomes = "match: 1 no_match; map: 2 degenerate";
+  EXPECT_EQ(message_with(outcomes, ""), outcomes);
+  EXPECT_EQ(message_with(outcomes, "metrics: a: b"), outcomes + "; metrics: a: b");
+  EXPECT_EQ(message_with(outcomes + "; metrics: a: b", "metrics: c: d"), outcomes + "; metrics: c: d");
+  EXPECT_EQ(message_with("metrics: a: b", ""), "");
 }
 
 TEST(Score, OfARunReadsFilesOnlyAndMayBeRepeatedWithOtherMetrics) {

@@ -24,6 +24,12 @@ class Guess {
     return Eigen::Vector3d(sigma_m_ * sigma_m_, sigma_m_ * sigma_m_, sigma_rad_ * sigma_rad_).asDiagonal();
   }
 
+  /// Inverse of the covariance.
+  Eigen::Matrix3d information() const {
+    return Eigen::Vector3d(1.0 / (sigma_m_ * sigma_m_), 1.0 / (sigma_m_ * sigma_m_), 1.0 / (sigma_rad_ * sigma_rad_))
+        .asDiagonal();
+  }
+
   /// The guess, turned by so many standard deviations.
   Pose2 turned(double sigmas) const { return moved(pose_, {0.0, 0.0, sigmas * sigma_rad_}); }
 
@@ -43,6 +49,15 @@ class Guess {
   /// The same for the position alone.
   bool excludes_position(const Pose2& pose) const {
     return position(motion_between(pose_, pose)) > 13.8;  // with 2
+  }
+
+  /// The part of the shift from the guess to a position that is beyond 95 % of those that the guess allows; zero
+  /// within.
+  Vec2 unexplained_shift(const Pose2& pose) const {
+    constexpr double kMost = 5.99;  // with 2
+    const Motion off = motion_between(pose_, pose);
+    const double distance = position(off);
+    return distance > kMost ? Vec2((1.0 - std::sqrt(kMost / distance)) * off.head<2>()) : Vec2(Vec2::Zero());
   }
 
  private:
