@@ -261,7 +261,7 @@ std::string split_text(const std::vector<RankedPipeline>& ranking, const study::
                        const BenchmarkFinding& finding) {
   if (finding.leaders.empty() || finding.levels.empty()) return "";
   const study::BenchmarkColumn& rank = spec.subject().rank_column();
-  if (finding.factor.empty()) return " No factor of the suite changes which is best.";
+  if (finding.factor.empty()) return "No factor of the suite changes which is best.";
   std::vector<std::string> levels;
   for (const auto& level : finding.levels) {
     if (level.leaders.empty()) continue;
@@ -271,7 +271,7 @@ std::string split_text(const std::vector<RankedPipeline>& ranking, const study::
                                  rank_text(rank, level.values[best]),
                                  others == 0 ? "" : fmt::format(", not separated from {} more", others)));
   }
-  return fmt::format(" Which is best depends most on the {}. {}.", finding.factor, fmt::join(levels, "; "));
+  return fmt::format("Which is best depends most on the {}. {}.", finding.factor, fmt::join(levels, "; "));
 }
 
 /// Adjacent ranks that differ significantly over the seeds, and those that do not.
@@ -370,11 +370,12 @@ Document benchmark_document(const ReportInput& input) {
   const BenchmarkFinding finding = find_leaders(input.scenarios, input.rows, spec, input.ranking);
   const std::string& noun = spec.subject().noun;
   Document page{.title = fmt::format("Benchmark of {}", with_count(input.ranking.size(), noun)),
-                .blocks = status_blocks(input.cells),
+                .blocks = {},
                 .lead = answer_text(input, spec, finding),
                 .stamp = stamp_of(input.facts, seeds_of(input.rows))};
   if (const std::string split = split_text(input.ranking, spec, finding); !split.empty())
     page.blocks.push_back(Paragraph{split});
+  add_blocks(page.blocks, status_blocks(input.cells));
   if (!spec.about.empty()) page.blocks.push_back(Paragraph{spec.about});
   const study::BenchmarkColumn& rank = spec.subject().rank_column();
   BulletList limits;
