@@ -43,6 +43,13 @@ void scale_marks(Scene& scene, double factor) {
   }
 }
 
+/// The least width of a panel [em], with the room for its letters.
+double panel_width_em(const Scene& scene) {
+  double letters = 0.0;
+  for (const Panel& panel : scene.panels) letters = std::max(letters, panel.room.left + panel.room.right);
+  return kPanelWidthEm + letters;
+}
+
 int own_columns(const Scene& scene) {
   return scene.columns > 0 ? scene.columns : scene.panels.size() == 4 ? 2 : 3;
 }
@@ -64,7 +71,7 @@ Scene styled(Scene scene, const OutputStyle& style) {
   if (slides) scale_marks(scene, kSlideScale);
   if (scene.height_in > 0) scene.height_in *= scene.width_in / own_width_in;
   if (scene.width_in != own_width_in || scene.font_pt != own_font_pt) {
-    const int fit = static_cast<int>(72.0 * scene.width_in / (kPanelWidthEm * scene.font_pt));
+    const int fit = static_cast<int>(72.0 * scene.width_in / (panel_width_em(scene) * scene.font_pt));
     scene.columns = std::clamp(fit, 1, own_columns(scene));
   }
   return scene;

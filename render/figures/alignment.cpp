@@ -35,6 +35,8 @@ class Alignment : public Figure {
   };
   explicit Alignment(const Params& params) : params_(params) {}
 
+  std::string why_nothing(const FigureInput&) const override { return "the recording has no scans"; }
+
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     const auto& frames = input.recording.observed.frames;
     if (frames.empty()) return {};

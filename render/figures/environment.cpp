@@ -29,6 +29,8 @@ class Environment : public Figure {
   };
   explicit Environment(const Params& params) : params_(params) {}
 
+  std::string why_nothing(const FigureInput&) const override { return "the recording has neither scans nor walls"; }
+
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     const Recording& recording = input.recording;
     const bool has_frames = !recording.observed.frames.empty();

@@ -25,7 +25,7 @@ constexpr double kChiSquare95 = 5.991464547107979;  // two degrees of freedom: -
 constexpr double kLargestOffset = 0.15, kLargestAngle = radians(10);
 constexpr std::size_t kLeastErrors = 8;  // fewer have no ellipse worth drawing
 constexpr std::size_t kMostDots = 3000;  // per panel
-constexpr double kSameScale = 4.0;       // ranges that differ more make the smallest ellipse a dot
+constexpr double kSameScale = 2.0;       // of ranges: an ellipse on the scale of a much larger one is a dot
 
 /// Errors in two coordinates and their covariances, in the units of the axes.
 struct Errors {

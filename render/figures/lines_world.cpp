@@ -23,6 +23,8 @@ class LinesWorld : public Figure {
   using Params = NoParams;
   explicit LinesWorld(const Params&) {}
 
+  std::string why_nothing(const FigureInput&) const override { return "no pipeline has lines"; }
+
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     const Recording& recording = input.recording;
     std::size_t total = 0;

@@ -24,6 +24,8 @@ class Map : public Figure {
   using Params = NoParams;
   explicit Map(const Params&) {}
 
+  std::string why_nothing(const FigureInput&) const override { return "no pipeline has lines in a map"; }
+
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     std::vector<std::size_t> with_map;
     std::size_t most_lines = 0;

@@ -32,6 +32,10 @@ class MergeDetail : public Figure {
   };
   explicit MergeDetail(const Params& params) : params_(params) {}
 
+  std::string why_nothing(const FigureInput&) const override {
+    return "no pipeline has finished, or the recording has no scans";
+  }
+
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     const BeforeAfter both = before_after(input, params_.pipeline);
     if (both.named == nullptr || input.recording.observed.frames.empty()) return {};

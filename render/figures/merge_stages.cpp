@@ -88,6 +88,8 @@ class MergeStages : public Figure {
     return {key_of<mean_shift::MergedRow>(kMergeSlot)};
   }
 
+  std::string why_nothing(const FigureInput&) const override { return "no pipeline has finished"; }
+
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     const BeforeAfter both = before_after(input, params_.pipeline);
     if (both.named == nullptr) return {};

@@ -61,6 +61,10 @@ class ScanOverlay : public Figure {
   };
   explicit ScanOverlay(const Params& params) : params_(params) {}
 
+  std::string why_nothing(const FigureInput&) const override {
+    return "the recording has no scans, or no pipeline has finished";
+  }
+
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     if (input.recording.observed.frames.empty() || input.results.empty()) return {};
     const std::vector<ShownScan> shown = shown_scans(input);

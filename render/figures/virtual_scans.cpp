@@ -44,6 +44,8 @@ class VirtualScans : public Figure {
     return keys_of_iterations();
   }
 
+  std::string why_nothing(const FigureInput&) const override { return "no pipeline has lines of every scan"; }
+
   std::vector<NamedScene> draw(const FigureInput& input) const override {
     const std::size_t scans = input.recording.observed.frames.size();
     const NamedResult* shown = nullptr;

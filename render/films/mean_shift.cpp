@@ -104,7 +104,7 @@ class MeanShiftClimbs final : public FilmKind {
     places.reserve(paths.size());
     for (const auto& path : paths) places.emplace_back(path.front().head<2>());
     set_view(places, places, above);
-    Panel beside{.title = "b) direction", .y = {.label = "direction [deg]", .range = std::pair(-5.0, 185.0)}};
+    Panel beside{.title = "b) direction", .y = {.label = "direction [°]", .range = std::pair(-5.0, 185.0)}};
     beside.x.range = above.x.range;
     beside.equal_aspect = false;
     return {std::move(above), std::move(beside)};

@@ -108,5 +108,13 @@ TEST(Dark, NoShapeOfAFigureKeepsTheWhiteOfPaper) {
   EXPECT_EQ(ground->color, kDarkGround);
 }
 
+TEST(Styled, GivesAPanelWithLettersOfItsOwnTheirRoomToo) {
+  Scene scene{.width_in = kDoubleColumnIn, .panels = std::vector<Panel>(2), .columns = 2};
+  EXPECT_EQ(styled(scene, {.width_mm = 84}).columns, 2);
+  scene.panels[1].room = {.left = 6.0, .right = 2.0};
+  EXPECT_EQ(styled(scene, {.width_mm = 84}).columns, 1);
+  EXPECT_EQ(styled(scene, {.width_mm = 180}).columns, 2);
+}
+
 }  // namespace
 }  // namespace scanbench::render

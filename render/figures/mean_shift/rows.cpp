@@ -107,7 +107,7 @@ View3 joint_space_view(const MeanShiftRows& rows) {
   const double margin = 0.04 * std::max((high - low).maxCoeff(), 0.5);
   // The label 180 = 0 names the seam: a point at the top is a neighbour of one on the floor.
   const Axis3 direction{
-      "direction [deg]", 0.0, 180.0, {{0, "0"}, {45, "45"}, {90, "90"}, {135, "135"}, {180, "180 = 0"}}};
+      "direction [°]", 0.0, 180.0, {{0, "0"}, {45, "45"}, {90, "90"}, {135, "135"}, {180, "180 = 0"}}};
   return View3({Axis3{"x [m]", low.x() - margin, high.x() + margin, {}},
                 Axis3{"y [m]", low.y() - margin, high.y() + margin, {}}, direction},
                {});

@@ -173,6 +173,7 @@ TEST_F(Figures, ThatTheRunCannotGiveSayWhatIsMissing) {
   EXPECT_THAT(refusal({"--figure", "joint_space"}),
               AllOf(HasSubstr("joint_space is not drawn: no pipeline has the trace rows merge."),
                     HasSubstr("scanbench run --trace")));
+  EXPECT_THAT(refusal({"--figure", "map"}), HasSubstr("map is not drawn: no pipeline has lines in a map"));
   EXPECT_THAT(refusal({"--figure", "sweep"}), HasSubstr("no two pipelines differ in one parameter alone"));
   EXPECT_THAT(refusal({"--figure", "enviroment"}), HasSubstr("did you mean 'environment'?"));
   EXPECT_THAT(refusal({"--only", "environment"}), HasSubstr("--figure"));
