@@ -9,8 +9,11 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "harness/runs/execute/cell_trial.hpp"
 #include "harness/runs/execute/run_plan.hpp"
