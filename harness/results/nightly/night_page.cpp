@@ -45,7 +45,7 @@ std::pair<std::string, std::string> answer_and_reasons(const std::string& senten
   const std::size_t end = sentence.find(". "), aside = sentence.find(" ("), closed = sentence.find(").");
   if (aside < end && closed != std::string::npos)
     return {sentence.substr(0, aside) + ".",
-            sentence.substr(aside + 2, closed - aside - 2) + sentence.substr(closed + 1)};
+            "Gates: " + sentence.substr(aside + 2, closed - aside - 2) + sentence.substr(closed + 1)};
   if (end == std::string::npos) return {sentence, ""};
   return {sentence.substr(0, end + 1), sentence.substr(end + 2)};
 }
