@@ -331,7 +331,7 @@ TEST(CheckClear, RefusesSensorsOnWallsOrWhereNothingCanBeSeen) {
   EXPECT_THAT(complaint([&] {
                 check_clear(world, driven({{-10, 4, 0}}), 1e-6);
               }),
-              HasSubstr("the sensor's range is 0.000001 m"));
+              HasSubstr("the sensor's range is 1e-06 m"));
   const double nan = std::nan("");
   Trajectory wild;
   wild.poses = {{0.0, Pose2(Vec2(nan, 0.0), 0.0)}};

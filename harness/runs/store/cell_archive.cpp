@@ -3,9 +3,9 @@
 
 #include <cerrno>
 #include <cstring>
+#include <ranges>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -14,6 +14,7 @@
 #include "harness/io/files/atomic_file.hpp"
 #include "harness/io/files/folder.hpp"
 #include "harness/io/files/folder_name.hpp"
+#include "harness/io/files/hash.hpp"
 #include "harness/io/files/size_text.hpp"
 #include "harness/io/files/system_error.hpp"
 #include "harness/io/files/tar.hpp"
@@ -26,18 +27,30 @@ namespace {
   throw io::SystemError("cannot write " + file.string() + ": " + std::strerror(error));
 }
 
-}  // namespace
-
-FolderFiles read_folder(const fs::path& folder, std::uint64_t most) {
-  const std::vector<std::string> names = io::names_in(folder);
+template <class Names>
+FolderFiles read_named(const fs::path& folder, const Names& names, std::uint64_t most) {
   std::uint64_t bytes = 0;
-  for (const auto& name : names) bytes += io::InputFile(folder / name).size();
+  for (const std::string& name : names) bytes += io::InputFile(folder / name).size();
   if (bytes > most)
     throw ConfigError("the files of " + folder.generic_string() + " have " + io::size_text(static_cast<double>(bytes)) +
                       "; allowed in an archive: " + io::size_text(static_cast<double>(most)));
   FolderFiles files;
-  for (const auto& name : names) files.emplace(name, io::read_file(folder / name));
+  for (const std::string& name : names) files.emplace(name, io::read_file(folder / name));
   return files;
+}
+
+}  // namespace
+
+FolderFiles read_files(const fs::path& folder, const io::FileHashes& listed, std::uint64_t most) {
+  FolderFiles files = read_named(folder, std::views::keys(listed), most);
+  for (const auto& [name, bytes] : files)
+    if (io::sha256_hex(bytes) != listed.at(name))
+      throw ConfigError((folder / name).generic_string() + " has changed since it was written");
+  return files;
+}
+
+FolderFiles read_folder(const fs::path& folder, std::uint64_t most) {
+  return read_named(folder, io::names_in(folder), most);
 }
 
 ArchiveWriter::ArchiveWriter(fs::path file)

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "harness/io/files/hash.hpp"
+#include "harness/io/files/hash_list.hpp"
 #include "harness/io/files/input_file.hpp"
 
 namespace scanbench::runs {
@@ -18,8 +19,12 @@ inline constexpr std::uint64_t kLargestFolder = std::uint64_t{2} << 30;
 
 /// The bytes of a folder's files, by name.
 using FolderFiles = std::map<std::string, std::string>;
-/// Throws ConfigError for a folder with something else than files, and, before anything is read, for one whose files
-/// have more than `most` bytes together.
+/// The files of a folder that `listed` names with their SHA-256; what else is there is not looked at. Throws
+/// ConfigError for a file that is missing or has changed, and, before anything is read, for more than `most` bytes
+/// together.
+FolderFiles read_files(const std::filesystem::path& folder, const io::FileHashes& listed,
+                       std::uint64_t most = kLargestFolder);
+/// All files of a folder, which has no more than `most` bytes.
 FolderFiles read_folder(const std::filesystem::path& folder, std::uint64_t most = kLargestFolder);
 
 /// The bytes of an archive that hold one folder.

@@ -5,12 +5,26 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "harness/io/files/hash_list.hpp"
+#include "harness/runs/store/cell_archive.hpp"
 
 namespace scanbench::runs {
 namespace fs = std::filesystem;
+namespace {
+
+/// What the child has written, and nothing that another process has added.
+FolderFiles read_listed(const io::StagedFolder& files, const std::string& hashes) {
+  return read_files(files.path(), io::parse_hash_list(hashes, files.path().string()));
+}
+
+}  // namespace
 
 ArchiveSink::ArchiveSink(const RunPlan& plan, const fs::path& sweep, int shard)
     : plan_(plan), sweep_(sweep), writer_(sweep, shard) {}
+
+std::string ArchiveSink::hashes_of(const fs::path& folder) const {
+  return io::hash_lines(folder);
+}
 
 ArchivedCell ArchiveSink::take_cell(std::size_t cell) {
   return std::move(kept_.extract(cell).mapped());
@@ -36,7 +50,7 @@ void ArchiveSink::keep(std::vector<FinishedRecording> recordings, std::vector<Fi
   for (auto& recording : recordings) {
     const PlannedGroup& group = plan_.groups[recording.group];
     try {
-      writer_.add_recording(group.scenario->name, group.seed, read_folder(recording.files.path()));
+      writer_.add_recording(group.scenario->name, group.seed, read_listed(recording.files, recording.file_hashes));
     } catch (const ConfigError& e) {
       lose_recording(recording.group, e.what());
     }
@@ -46,7 +60,8 @@ void ArchiveSink::keep(std::vector<FinishedRecording> recordings, std::vector<Fi
     cell.fault = fault_of(cell.group);
     try {
       if (cell.fault.empty())
-        kept_.emplace(cell.cell, writer_.add_cell(cell.result.key, cell.result.record, read_folder(cell.files.path())));
+        kept_.emplace(cell.cell,
+                      writer_.add_cell(cell.result.key, cell.result.record, read_listed(cell.files, cell.file_hashes)));
     } catch (const ConfigError& e) {
       cell.fault = e.what();
     }

@@ -20,6 +20,7 @@ class ArchiveSink : public CellSink {
   ArchiveSink(const RunPlan& plan, const std::filesystem::path& sweep, int shard);
 
   const std::filesystem::path& root() const override { return sweep_; }
+  std::string hashes_of(const std::filesystem::path& folder) const override;
   /// A cell that was kept; it is taken out.
   ArchivedCell take_cell(std::size_t cell);
   /// As CommitWriter::commit(); no child may write any more.

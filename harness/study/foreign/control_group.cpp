@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <sstream>
+#include <thread>
 
 namespace scanbench::study {
 namespace {
@@ -20,6 +23,7 @@ namespace fs = std::filesystem;
 constexpr const char* kMemory = "memory.max";
 constexpr const char* kMemoryOfVersion1 = "memory.limit_in_bytes";
 constexpr const char* kProcesses = "pids.max";
+constexpr int kRounds = 20;  // of a millisecond, for the processes of a group to end
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file);
@@ -129,8 +133,19 @@ void enter_groups(const GroupFolders& folders, double memory_bytes, int processe
 }
 
 void remove_groups(const GroupFolders& folders, pid_t pid) {
-  for (const fs::path& folder : {folders.memory, folders.processes})
-    if (!folder.empty()) ::rmdir(group_of(folder, pid).c_str());
+  static std::set<fs::path> left;  // of earlier calls, whose processes had not all ended
+  const auto remove = [](const fs::path& group) { return ::rmdir(group.c_str()) == 0 || errno != EBUSY; };
+  std::erase_if(left, remove);
+  for (const fs::path& folder : {folders.memory, folders.processes}) {
+    if (folder.empty()) continue;
+    const fs::path group = group_of(folder, pid);
+    bool removed = remove(group);
+    for (int round = 0; round < kRounds && !removed; ++round) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // a killed process ends soon
+      removed = remove(group);
+    }
+    if (!removed) left.insert(group);
+  }
 }
 
 std::vector<std::string> group_limits(const GroupFolders& folders) {

@@ -51,6 +51,20 @@ TEST(CellArchive, AFolderOfMoreBytesThanAllowedIsNotRead) {
   EXPECT_THROW(read_folder(folder.path(), 6), ConfigError);
 }
 
+TEST(CellArchive, FilesThatWereNotDeclaredAreLeftOutAndChangedOnesRefused) {
+  const support::TemporaryFolder folder;
+  folder.write("lines.csv", "abc");
+  folder.write("planted.csv", "not declared");
+  // SHA-256 of "abc": FIPS 180-4, its first example.
+  const std::string abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+  EXPECT_EQ(read_files(folder.path(), {{"lines.csv", abc}}), (FolderFiles{{"lines.csv", "abc"}}));
+  folder.write("lines.csv", "abd");
+  EXPECT_THAT(support::config_refusal([&] {
+                read_files(folder.path(), {{"lines.csv", abc}});
+              }),
+              HasSubstr("lines.csv has changed since it was written"));
+}
+
 TEST(CellArchive, AFolderThatDoesNotFitTheDiskLeavesTheArchiveAsItWas) {
   const support::TemporaryFolder folder;
   ArchiveWriter writer(folder.path() / "a.tar");

@@ -34,17 +34,19 @@ TEST(ArchiveSink, CommitsWhatWasPutAndUsesItsFoldersAgain) {
     io::StagedFolder recording = sink.begin(planned.group, recording_path("", key.scenario, key.seed));
     std::string hash = write_recording(recording.path(), fixtures::random_recording(key.seed, 2, 4, true));
     used.insert(recording.path());
-    sink.put(FinishedRecording{planned.group, hash, "", std::move(recording)});
+    sink.put(FinishedRecording{planned.group, hash, sink.hashes_of(recording.path()), std::move(recording)});
     io::StagedFolder files = sink.begin(planned.group, cell_path("", key));
     EXPECT_TRUE(fs::is_empty(files.path()));
     used.insert(files.path());
     io::write_staged_file(files.path() / "timing.csv", "stage,frame,seconds\nextract,0,1\nextract,1,2\n");
+    const std::string written = sink.hashes_of(files.path());
+    io::write_staged_file(files.path() / "planted.csv", "by another program");
     sink.put(FinishedCell{
         .cell = index,
         .group = planned.group,
         .result = {.key = key, .done = true, .record = {{.status = CellStatus::ok, .message = ""}, "address"}},
         .summary = "",
-        .file_hashes = "",
+        .file_hashes = written,
         .files = std::move(files)});
     const auto kept = sink.flush_if_due();
     ASSERT_EQ(kept.size(), 1u);
