@@ -2,6 +2,7 @@
 #include "harness/runs/execute/score.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <set>
@@ -28,6 +29,35 @@ namespace {
 metrics::MetricInput metric_input(const Recording& recording, const PipelineResult& result) {
   return {recording.observed, recording.truth ? &*recording.truth : nullptr, result,
           recording.reference ? &*recording.reference : nullptr};
+}
+
+/// Whole metres near the walls' corner if it is far from zero, as in coordinates of a map; else zero. Distances of
+/// lines from zero, which metrics compare, lose their meaning there: an angle of 1e-6 rad moves them by metres.
+Vec2 place_of_scene(const Recording& recording) {
+  constexpr double kFar_m = 1e4;
+  if (!recording.truth || recording.truth->walls.empty()) return Vec2::Zero();
+  Vec2 corner = recording.truth->walls.front().segment.a;
+  for (const Wall& wall : recording.truth->walls) corner = corner.cwiseMin(wall.segment.a).cwiseMin(wall.segment.b);
+  if (!corner.allFinite() || corner.cwiseAbs().maxCoeff() < kFar_m) return Vec2::Zero();
+  return {std::round(corner.x()), std::round(corner.y())};
+}
+
+void shift(Pose2& pose, const Vec2& by) {
+  pose = Pose2::from_unit(pose.translation() + by, {pose.cos(), pose.sin()});
+}
+
+void shift(Segment& segment, const Vec2& by) {
+  segment = {segment.a + by, segment.b + by};
+}
+
+void move_scene(Recording& recording, PipelineResult& result, const Vec2& by) {
+  for (Wall& wall : recording.truth->walls) shift(wall.segment, by);
+  for (Pose2& pose : recording.truth->world_from_sensor) shift(pose, by);
+  for (Frame& frame : recording.observed.frames) shift(frame.odom_from_sensor, by);
+  if (recording.reference)
+    for (Pose2& pose : recording.reference->world_from_sensor) shift(pose, by);
+  for (Pose2& pose : result.world_from_sensor) shift(pose, by);
+  for (MapLine& line : result.map.lines) shift(line.segment, by);
 }
 
 /// Calls `use` with the name of every chosen family that applies to the input, and the family.
@@ -75,6 +105,12 @@ int skip_matches_requested(const std::vector<study::ModuleChoice>& families) {
 
 Scores evaluate_metrics(const std::vector<study::ModuleChoice>& families, const Recording& recording,
                         const PipelineResult& result) {
+  if (const Vec2 place = place_of_scene(recording); !place.isZero(0.0)) {
+    Recording near = recording;
+    PipelineResult near_result = result;
+    move_scene(near, near_result, -place);
+    return evaluate_metrics(families, near, near_result);
+  }
   const metrics::MetricInput input = metric_input(recording, result);
   Scores scores;
   for_each_family(families, input, [&](const std::string& name, const auto& family) {

@@ -65,8 +65,8 @@ TEST(Score, AMetricThatRefusesLosesItsOwnRowsOnly) {
   scenario.metrics = {{"metrics", "test_refuses", {}}, {"metrics", "test_metrics", {}}};
   const RunResult result = fixtures::run_here({scenario}, {.out = run});
   ASSERT_EQ(result.cells.size(), 1u);
-  EXPECT_EQ(result.cells[0].outcome.status, CellStatus::ok);
-  EXPECT_EQ(result.cells[0].outcome.message, "metrics: test_refuses: too large");
+  EXPECT_EQ(result.cells[0].record.outcome.status, CellStatus::ok);
+  EXPECT_EQ(result.cells[0].record.outcome.message, "metrics: test_refuses: too large");
   EXPECT_THAT(io::read_file(run / "summary.csv"), HasSubstr("s,p,1,test_lines,all,5,,5\n"));
   EXPECT_TRUE(fs::exists(cell_path(run, {"s", "p", 1}) / "lines.csv"));
 

@@ -7,7 +7,7 @@
 
 #include "core/modules.hpp"
 #include "core/registry.hpp"
-#include "harness/io/files/text_file.hpp"
+#include "harness/io/files/atomic_file.hpp"
 #include "harness/runs/execute/pipeline.hpp"
 #include "harness/runs/execute/score.hpp"
 #include "harness/runs/store/cell_files.hpp"
