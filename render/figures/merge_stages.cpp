@@ -25,7 +25,7 @@ const Stroke kStageMergedStroke{kBlack, 1.0, Dash::solid};
 const Stroke kStageErasedStroke{kVermillion, 1.0, Dash::solid};
 constexpr double kStageDotPt = 0.7, kDetailDotPt = 1.6;
 constexpr std::size_t kDetailLines = 60;  // that the detail shows at most, if it can be that small
-constexpr int kMostHalvings = 8;
+constexpr int kMostHalvings = 4;          // to a twenty-fourth of the map: a door is still a door
 
 /// What a panel draws, from back to front.
 struct Stage {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Color kAxis{70, 70, 70};
 constexpr Color kGridLine{228, 228, 228};
-constexpr int kLabelLines = 3;          // at most
+constexpr int kLabelLines = 5;          // at most
 constexpr double kLabelHeight = 1.2;    // of a further line
 constexpr double kLabelOverhang = 2.0;  // an upright label may be longer than the box is high
 
@@ -139,9 +139,11 @@ void add_frame(const PanelLayout& place, LabelledSides sides, double em, std::ve
   }
   if (sides.left) {
     const std::vector<std::string> lines = y_label_lines(place, em);
-    double x = b.x0 - kTickLengthPt - 2.0 - widest - 0.5 * em;
-    for (std::size_t k = lines.size(); k-- > 0; x -= kLabelHeight * em)
+    const double last = b.x0 - kTickLengthPt - 2.0 - widest - 0.5 * em;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      const double x = last - kLabelHeight * em * static_cast<double>(lines.size() - 1 - k);
       add_text({x, 0.5 * (b.y0 + b.y1)}, 0.5, lines[k], em, true, shapes);
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "render/layout/layout.hpp"
+#include "render/output_style.hpp"
 #include "render/paper/font.hpp"
 
 namespace scanbench::render {
@@ -62,16 +63,16 @@ TEST(View3, ThePanelHoldsTheWholeBox) {
   }
 }
 
-TEST(View3, CutsNoLetterInAPanelOfHalfAColumn) {
+TEST(View3, CutsNoLetterInAColumnOf84Millimetres) {
   for (const double width_mm : {84.0, 180.0}) {
     Scene scene;
-    scene.width_in = width_mm / 25.4;
+    scene.width_in = kDoubleColumnIn;
     scene.columns = 2;
     const View3 v({Axis3{"x [m]", -3.0, 3.0, {}}, Axis3{"y [m]", -3.0, 3.0, {}},
                    Axis3{"direction [°]", 0.0, 180.0, {{0, "0"}, {90, "90"}, {180, "180 = 0"}}}},
                   {});
     scene.panels = {v.panel(257.0, scene.font_pt), v.panel(257.0, scene.font_pt)};
-    const Layout placed = layout(scene);
+    const Layout placed = layout(styled(scene, {.width_mm = width_mm}));
     int texts = 0;
     for (const Shape& shape : placed.shapes)
       if (const auto* text = std::get_if<TextShape>(&shape.what); text != nullptr && shape.clip >= 0) {

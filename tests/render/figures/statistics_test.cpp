@@ -259,7 +259,7 @@ TEST(ErrorEllipses, HaveTheAxesOfBothCovariances) {
 }
 
 TEST(ErrorEllipses, OfVeryDifferentSizeHaveTheirOwnScales) {
-  for (const double larger : {2.0, 50.0}) {
+  for (const double larger : {1.5, 50.0}) {
     MadeUp made = straight_path(10), other = made;
     const auto& poses = made.recording.truth->world_from_sensor;
     for (auto [result, size] : {std::pair(&made.result, 1.0), std::pair(&other.result, larger)})
@@ -280,7 +280,7 @@ TEST(ErrorEllipses, OfVeryDifferentSizeHaveTheirOwnScales) {
       const double wide = 2.0 * items<Ellipse>(scene, i).at(0).semi_axes.x();
       EXPECT_GT(wide / (placed.panels[i].x_max - placed.panels[i].x_min), 0.125) << larger;
     }
-    EXPECT_EQ(scene.share_axes, larger < 4.0);
+    EXPECT_EQ(scene.share_axes, larger < 2.0);
   }
 }
 

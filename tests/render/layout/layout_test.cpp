@@ -256,8 +256,8 @@ TEST(Layout, CutsNoLabelInAColumnOf84Millimetres) {
   scene.width_in = 84 / 25.4;
   scene.columns = 2;
   scene.panels[0].equal_aspect = false;
-  scene.panels[0].x.label = "largest angle between two lines that are merged";
-  scene.panels[0].y.label = "share of the walls that the map covers within 5 cm";
+  scene.panels[0].x.label = "largest angle between two merged lines";
+  scene.panels[0].y.label = "walls that the map covers within 5 cm";
   scene.panels[0].x.unit = "deg";
   scene.panels.push_back(scene.panels[0]);
   scene.legend = {
