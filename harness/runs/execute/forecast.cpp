@@ -164,7 +164,9 @@ class Forecaster {
     forecast.interrupted = trials_.interrupted();
     if (forecast.interrupted) return forecast;
     forecast.tried = recordings_.size();
-    for (std::size_t i = 0; i < candidates_.size(); ++i) forecast.scenarios.push_back(forecast_of(i, forecast));
+    std::set<std::string> unknown;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) forecast.scenarios.push_back(forecast_of(i, unknown));
+    forecast.cut_off = unknown.size();
     return forecast;
   }
 
@@ -203,25 +205,32 @@ class Forecaster {
     }
     const auto small = static_cast<double>(n), large = static_cast<double>(m);
     recordings_.push_back({index, through(small, costs[0], large, costs[1])});
-    for (std::size_t k = 0; k < candidate.works.size(); ++k) {
+    std::vector<const PlannedWork*> works = candidate.works;  // those first of which nothing is known
+    std::ranges::stable_partition(works, [&](const PlannedWork* work) { return !is_known(*work); });
+    for (std::size_t k = 0; k < works.size(); ++k) {
       const double rest = seconds - seconds_since(start);
-      if (rest <= 0.0 && k > 0) return;
-      try_cell(index, *candidate.works[k], samples, rest, rest / static_cast<double>(candidate.works.size() - k));
+      if (rest <= kLeastSeconds && (is_known(*works[k]) || left() <= 0.0)) return;
+      try_cell(index, *works[k], samples, rest / static_cast<double>(works.size() - k));
       if (trials_.interrupted()) return;
     }
   }
 
-  /// `rest`: the seconds that are left for all cells of the scenario; `share`: of these, the part of this cell.
-  void try_cell(std::size_t index, const PlannedWork& work, const std::vector<Recording>& samples, double rest,
-                double share) {
+  /// True if a trial of such a pipeline has ended.
+  bool is_known(const PlannedWork& work) const {
+    const auto known = cells_.find(signature(*work.pipeline));
+    return known != cells_.end() && std::ranges::count(known->second, false, &Tried::cut_off) > 0;
+  }
+
+  /// `share`: the seconds of this cell, if all of its scenario are equal. It may take more from those that follow.
+  void try_cell(std::size_t index, const PlannedWork& work, const std::vector<Recording>& samples, double share) {
     const auto small = static_cast<double>(samples[0].observed.frames.size());
     const auto large = static_cast<double>(samples[1].observed.frames.size());
-    const CellTrial first = trials_.run(work, samples[0], std::max(kLeastSeconds, rest / 2));
+    const CellTrial first = trials_.run(work, samples[0], std::max(kLeastSeconds, left() / 3));
     if (trials_.interrupted()) return;
     Tried tried{index, through_origin(small, first.cost), first.cut_off};
     std::string fault = first.fault;
     if (!first.cut_off && first.cost.seconds * large <= share * std::max(small, 1.0)) {
-      const CellTrial second = trials_.run(work, samples[1], std::max(kLeastSeconds, rest / 2));
+      const CellTrial second = trials_.run(work, samples[1], std::max(kLeastSeconds, left() / 3));
       if (trials_.interrupted()) return;
       fault = second.fault;
       if (!second.cut_off) tried.cost = through(small, first.cost, large, second.cost);
@@ -230,14 +239,14 @@ class Forecaster {
     cells_[signature(*work.pipeline)].push_back(tried);
   }
 
-  /// Of those that were tried, the scenario itself, else those of its group, else all: with the nearest number of
-  /// beams.
+  /// Of those that were tried and not cut off, if there are some: the scenario itself, else those of its group, else
+  /// all: with the nearest number of beams.
   std::vector<const Tried*> nearest(std::size_t index, const std::vector<Tried>& tried) const {
     const auto distance = [&](const Tried& other) {
       const Candidate& a = candidates_[index];
       const Candidate& b = candidates_[other.scenario];
       const double beams = a.beams() > 0 && b.beams() > 0 ? std::abs(std::log(a.beams() / b.beams())) : 0.0;
-      return std::tuple(other.scenario != index, a.group != b.group, beams);
+      return std::tuple(other.cut_off, other.scenario != index, a.group != b.group, beams);
     };
     std::vector<const Tried*> found;
     for (const Tried& each : tried) {
@@ -260,7 +269,8 @@ class Forecaster {
     return sum;
   }
 
-  ScenarioForecast forecast_of(std::size_t index, Forecast& all) const {
+  /// Adds pipelines of which no trial has ended to `unknown`.
+  ScenarioForecast forecast_of(std::size_t index, std::set<std::string>& unknown) const {
     const Candidate& candidate = candidates_[index];
     const auto seeds = static_cast<double>(candidate.scenario->seeds.size());
     ScenarioForecast forecast{.scenario = candidate.scenario->name,
@@ -274,15 +284,12 @@ class Forecaster {
     TrialCost sum = cost_of(index, nearest(index, recordings_));
     sum.seconds += candidate.reading_seconds;
     for (const PlannedWork* work : candidate.works) {
+      if (!is_known(*work)) unknown.insert(signature(*work->pipeline));
       const auto known = cells_.find(signature(*work->pipeline));
-      if (known == cells_.end()) {
-        ++all.cut_off;  // there was no time for it anywhere
-        continue;
-      }
+      if (known == cells_.end()) continue;
       const auto tried = nearest(index, known->second);
       const TrialCost cost = cost_of(index, tried);
       sum = {sum.seconds + cost.seconds, sum.bytes + cost.bytes};
-      all.cut_off += std::ranges::any_of(tried, &Tried::cut_off) ? 1 : 0;
     }
     forecast.seconds = seeds * sum.seconds;
     forecast.bytes = seeds * sum.bytes;

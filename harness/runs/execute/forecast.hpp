@@ -25,7 +25,7 @@ struct ScenarioForecast {
 struct Forecast {
   std::vector<ScenarioForecast> scenarios;
   std::size_t tried = 0;    ///< scenarios of which scans were tried
-  std::size_t cut_off = 0;  ///< pipelines of scenarios that had no time to end: they take at least what is foretold
+  std::size_t cut_off = 0;  ///< pipelines of which no trial ended in time: they take at least what is foretold
   bool interrupted = false;
 };
 
