@@ -48,7 +48,9 @@ Eigen::Vector3d motion_between(const Pose2& from, const Pose2& to, double lever)
 Pose2 with_open_motions_of(const Pose2& predicted, const Pose2& pose, const align::Observable& known, double lever) {
   Pose2 result = predicted;
   const Eigen::Vector3d motion = motion_between(predicted, pose, lever);
-  align::move_by(known.motions * (known.motions.transpose() * motion), lever, result);
+  Eigen::Vector3d known_part = Eigen::Vector3d::Zero();
+  for (int k = 0; k < known.rank(); ++k) known_part += known.motions.col(k).dot(motion) * known.motions.col(k);
+  align::move_by(known_part, lever, result);
   return result;
 }
 

@@ -17,11 +17,6 @@ std::string html_text(const std::string& text) {
   return html_escaped(plain_text(text));
 }
 
-/// ' name="value"', or nothing without a value.
-std::string attribute(const char* name, const std::string& value) {
-  return value.empty() ? "" : fmt::format(" {}=\"{}\"", name, html_text(value));
-}
-
 std::string html_line(const Prose& prose) {
   std::string out;
   for (const TextSpan& span : prose.spans) {
@@ -29,7 +24,8 @@ std::string html_line(const Prose& prose) {
     if (span.look != TextSpan::Look::plain)
       text = fmt::format("<{0}>{1}</{0}>", span.look == TextSpan::Look::bold ? "b" : "code", text);
     if (!span.address.empty())
-      text = fmt::format("<a{}{}>{}</a>", attribute("href", span.address), attribute("title", span.hint), text);
+      text =
+          fmt::format("<a{}{}>{}</a>", html_attribute("href", span.address), html_attribute("title", span.hint), text);
     out += text;
   }
   return out;
@@ -37,10 +33,11 @@ std::string html_line(const Prose& prose) {
 
 struct HtmlWriter {
   std::string operator()(const Heading& heading) const {
-    return fmt::format("<h{0}{1}>{2}</h{0}>\n", heading.level, attribute("id", heading.id), html_line(heading.text));
+    return fmt::format("<h{0}{1}>{2}</h{0}>\n", heading.level, html_attribute("id", heading.id),
+                       html_line(heading.text));
   }
   std::string operator()(const Paragraph& paragraph) const {
-    return fmt::format("<p{}>{}</p>\n", attribute("class", paragraph.style), html_line(paragraph.text));
+    return fmt::format("<p{}>{}</p>\n", html_attribute("class", paragraph.style), html_line(paragraph.text));
   }
   std::string operator()(const BulletList& list) const {
     std::string out = "<ul>\n";
@@ -73,7 +70,7 @@ struct HtmlWriter {
     return fmt::format("<details><summary>{}</summary>\n{}</details>\n", html_text(fold.summary), to_html(fold.blocks));
   }
   std::string operator()(const BlockGroup& group) const {
-    return fmt::format("<div{}{}>\n{}</div>\n", attribute("class", group.style), attribute("id", group.id),
+    return fmt::format("<div{}{}>\n{}</div>\n", html_attribute("class", group.style), html_attribute("id", group.id),
                        to_html(group.blocks));
   }
 };

@@ -11,11 +11,6 @@
 namespace scanbench::results {
 namespace {
 
-/// ' name="value"', or nothing without a value.
-std::string attribute(const char* name, const std::string& value) {
-  return value.empty() ? "" : fmt::format(" {}=\"{}\"", name, html_escaped(value));
-}
-
 /// `words` behind a blank, if there are any before it.
 void add_word(std::string& words, const std::string& word) {
   if (!word.empty()) words += (words.empty() ? "" : " ") + word;
@@ -35,7 +30,7 @@ std::string html_content(const TableCell& cell) {
   const std::size_t interval = interval_at(cell.text);
   const std::string value = cell.text.substr(0, interval);
   std::string text = html_escaped(cell.best ? value + "*" : value) + cell.drawing;
-  const std::string hint = attribute("title", cell.hint);
+  const std::string hint = html_attribute("title", cell.hint);
   if (!cell.link.empty())
     text = fmt::format("<a href=\"{}\"{}>{}</a>", html_escaped(cell.link), hint, text);
   else if (!hint.empty())
@@ -71,7 +66,7 @@ std::string html_heads(const Table& table) {
     for (const ColumnGroup& group : column_groups(table)) {
       const TableColumn& first = table.columns[group.first];
       out += fmt::format(R"(<th class="group" scope="colgroup" colspan="{}"{}>{}</th>)", group.count,
-                         attribute("title", first.metric), html_head(page_group(first)));
+                         html_attribute("title", first.metric), html_head(page_group(first)));
     }
     out += "</tr>\n";
   }
@@ -81,8 +76,8 @@ std::string html_heads(const Table& table) {
     const TableColumn& column = table.columns[c];
     std::string classes = column.published ? "published" : "";
     if (begins_group(table, c)) add_word(classes, "first");
-    out += fmt::format("<th scope=\"col\"{}{}>{}</th>", attribute("class", classes), attribute("title", column.metric),
-                       html_head(page_head(column)));
+    out += fmt::format("<th scope=\"col\"{}{}>{}</th>", html_attribute("class", classes),
+                       html_attribute("title", column.metric), html_head(page_head(column)));
   }
   return out + "</tr>";
 }
@@ -104,7 +99,7 @@ std::string html_row(const Table& table, const Table::Row& row) {
     if (cell.not_eligible) add_word(classes, "not-eligible");
     add_word(classes, cell.state);
     if (begins_group(table, c)) add_word(classes, "first");
-    out += "<td" + attribute("class", classes) + ">" + html_content(cell) + "</td>";
+    out += "<td" + html_attribute("class", classes) + ">" + html_content(cell) + "</td>";
   }
   return out + "</tr>\n";
 }
@@ -116,7 +111,7 @@ std::string chips_to_html(const Table& table) {
     const TableCell& cell = row.cells.front();
     const std::string tag = cell.link.empty() ? "span" : "a";
     out += fmt::format("<{0} class=\"chip {1}\"{2}><b>{3}</b>{4}<small>{5}</small></{0}>\n", tag, cell.state,
-                       attribute("href", cell.link), html_escaped(row.heads.front()), html_escaped(cell.text),
+                       html_attribute("href", cell.link), html_escaped(row.heads.front()), html_escaped(cell.text),
                        html_escaped(cell.spread));
   }
   return out + "</div></section>\n";
@@ -127,10 +122,10 @@ std::string chips_to_html(const Table& table) {
 std::string to_html(const Table& table) {
   if (table.side_by_side) return chips_to_html(table);
   const bool titled = !table.title.empty();
-  std::string out = fmt::format("<section class=\"table\"{}>", titled ? attribute("id", table.id) : "");
+  std::string out = fmt::format("<section class=\"table\"{}>", titled ? html_attribute("id", table.id) : "");
   // The box takes the keyboard, so that its columns can be reached without a pointer.
   out += fmt::format("<div class=\"scroll\" tabindex=\"0\"{}><table>\n",
-                     titled ? " role=\"region\"" + attribute("aria-label", table.title) : "");
+                     titled ? " role=\"region\"" + html_attribute("aria-label", table.title) : "");
   if (titled) out += "<caption><h3>" + html_escaped(table.title) + "</h3></caption>\n";
   out += "<thead>" + html_heads(table) + "</thead>\n<tbody>\n";
   for (const auto& row : table.rows) out += html_row(table, row);

@@ -2,7 +2,6 @@
 #include "harness/results/document/plain_text.hpp"
 
 #include <algorithm>
-#include <regex>
 
 #include <fmt/format.h>
 
@@ -130,13 +129,8 @@ std::string html_escaped(std::string_view text) {
   return out;
 }
 
-std::string words_of_name(const std::string& name) {
-  static const std::regex year("([a-z])((?:19|20)[0-9]{2})(?![0-9])");
-  std::string words = std::regex_replace(name, year, "$1 $2");
-  std::ranges::replace(words, '_', ' ');
-  if (!words.empty() && words.front() >= 'a' && words.front() <= 'z')
-    words.front() = static_cast<char>(words.front() - 'a' + 'A');
-  return words;
+std::string html_attribute(const char* name, const std::string& value) {
+  return value.empty() ? "" : fmt::format(" {}=\"{}\"", name, html_escaped(plain_text(value)));
 }
 
 std::string shell_word(std::string_view text) {

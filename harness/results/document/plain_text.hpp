@@ -20,8 +20,8 @@ std::string markdown_escaped(std::string_view text);
 /// The five characters that HTML and XML reserve, escaped.
 std::string html_escaped(std::string_view text);
 
-/// A name as the words of a title: "lakaemper2010_four_rooms" as "Lakaemper 2010 four rooms".
-std::string words_of_name(const std::string& name);
+/// ' name="value"' with the value escaped, or nothing without a value.
+std::string html_attribute(const char* name, const std::string& value);
 
 /// The text as one word of a POSIX shell: as it is, or in single quotes if it has other characters than letters, digits
 /// and -_./=:,+@%.

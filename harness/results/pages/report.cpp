@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/names.hpp"
 #include "core/registry.hpp"
 #include "harness/results/document/plain_text.hpp"
 #include "harness/results/figures/recording_note.hpp"

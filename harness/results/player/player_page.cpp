@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "harness/io/files/atomic_file.hpp"
 #include "harness/io/files/json.hpp"
 #include "harness/results/document/document.hpp"

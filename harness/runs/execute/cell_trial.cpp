@@ -9,6 +9,7 @@
 
 #include "harness/io/files/system_error.hpp"
 #include "harness/runs/execute/cell_work.hpp"
+#include "harness/runs/execute/elapsed.hpp"
 #include "harness/runs/store/cell_status.hpp"
 #include "harness/runs/store/recording_folder.hpp"
 
@@ -17,10 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 double bytes_below(const fs::path& folder) {
   double bytes = 0.0;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "harness/runs/execute/cell_trial.hpp"
+#include "harness/runs/execute/elapsed.hpp"
 #include "harness/runs/execute/run_plan.hpp"
 #include "harness/runs/execute/scan_source.hpp"
 
@@ -27,10 +28,6 @@ constexpr std::size_t kSmallSample = 2;
 constexpr std::size_t kLargeSample = 12;
 constexpr std::size_t kVisits = 6;      // scenarios that are tried at least, if there are so many
 constexpr double kLeastSeconds = 0.05;  // that a cell gets
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Seconds and bytes of a part of a run as a line over the number of scans.
 struct CostLine {

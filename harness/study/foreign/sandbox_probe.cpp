@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSeconds = 10.0;
+constexpr double kProbeSeconds = 10.0;
 
 /// Writes words "NAME VALUE".
 constexpr const char* kLook =
@@ -36,7 +36,7 @@ std::map<std::string, std::string> seen_in_sandbox() {
                           {.output = printed.write_end.number(), .errors = io::kNullDevice, .own_group = true});
     printed.write_end.close();
     io::PipeReader output(std::move(printed.read_end), io::kOutputKept);
-    child.wait(kSeconds, {&output});
+    child.wait(kProbeSeconds, {&output});
     std::istringstream words(output.bytes());
     for (std::string name, value; words >> name >> value;) seen[name] = value;
   } catch (const std::system_error&) {
