@@ -9,7 +9,7 @@
 namespace scanbench::app {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   return "'" + text + "'";
 }
 
@@ -24,8 +24,8 @@ std::string unknown_option(const ParseFault& fault) {
     const std::string name = fault.argv[i].substr(0, fault.argv[i].find('='));
     if (!name.starts_with("--") || name == "--" || std::ranges::count(known, name) > 0) continue;
     const std::string subject =
-        fault.verb.path.empty() ? "there is no option " : quoted(fault.verb.path) + " has no option ";
-    return subject + quoted(name) + known_names(name, known);
+        fault.verb.path.empty() ? "there is no option " : in_quotes(fault.verb.path) + " has no option ";
+    return subject + in_quotes(name) + known_names(name, known);
   }
   return "";
 }
@@ -40,15 +40,15 @@ std::string missing_verb(const ParseFault& fault) {
   if (fault.verb.verbs.empty() || given.starts_with('-')) return "";
   Words names;
   for (const VerbDescription& verb : fault.verb.verbs) names.push_back(verb.name);
-  const std::string owner = path.empty() ? "" : quoted(path) + ": ";
-  return owner + (is_given ? "there is no verb " + quoted(given) : "a verb is missing") + known_names(given, names);
+  const std::string owner = path.empty() ? "" : in_quotes(path) + ": ";
+  return owner + (is_given ? "there is no verb " + in_quotes(given) : "a verb is missing") + known_names(given, names);
 }
 
 /// "'compare' takes no argument 'c.json'; --json has no value"; empty if there are no such arguments.
 std::string extra_argument(const ParseFault& fault) {
   if (fault.extras.empty()) return "";
   const std::string& extra = fault.extras.front();
-  const std::string text = quoted(fault.verb.path) + " takes no further argument " + quoted(extra);
+  const std::string text = in_quotes(fault.verb.path) + " takes no further argument " + in_quotes(extra);
   const auto at = std::ranges::find(fault.argv, extra);
   if (at == fault.argv.begin() || at == fault.argv.end()) return text;
   const std::string& before = *(at - 1);
@@ -73,7 +73,7 @@ std::string message_of(const ParseFault& fault) {
   if (fault.is_required || !fault.extras.empty())
     if (const std::string text = unknown_option(fault); !text.empty()) return text;
   if (!fault.is_required) return extra_argument(fault);
-  if (!fault.missing.empty()) return quoted(fault.verb.path) + " needs " + fault.missing.front();
+  if (!fault.missing.empty()) return in_quotes(fault.verb.path) + " needs " + fault.missing.front();
   return missing_verb(fault);
 }
 

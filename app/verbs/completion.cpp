@@ -48,7 +48,7 @@ std::string brief(const std::string& help) {
 }
 
 /// In single quotes, as bash and zsh read them.
-std::string quoted(const std::string& text) {
+std::string in_single_quotes(const std::string& text) {
   std::string word = "'";
   for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return word + "'";
@@ -65,7 +65,7 @@ std::string fish_quoted(const std::string& text) {
 std::string path_pattern(const std::vector<VerbDescription>& verbs) {
   Words paths;
   for (const VerbDescription& verb : verbs)
-    if (!verb.path.empty()) paths.push_back(quoted(verb.path));
+    if (!verb.path.empty()) paths.push_back(in_single_quotes(verb.path));
   return join(paths, "|");
 }
 
@@ -89,7 +89,7 @@ std::string value_cases(const std::vector<VerbDescription>& verbs, fmt::format_s
     for (const OptionDescription& option : verb.options) {
       if (option.choices.empty()) continue;
       for (const std::string& name : names_of(option))
-        out += fmt::format("    {}) {} ;;\n", quoted(verb.path + ":" + name),
+        out += fmt::format("    {}) {} ;;\n", in_single_quotes(verb.path + ":" + name),
                            fmt::format(action, join(option.choices, " ")));
     }
   return out;
@@ -101,8 +101,8 @@ std::string bash_script(const std::vector<VerbDescription>& verbs) {
     Words options;
     for (const OptionDescription& option : verb.options)
       for (const std::string& name : names_of(option)) options.push_back(name);
-    cases += fmt::format("    {}) words={} options={} ;;\n", quoted(verb.path), quoted(join(words_of(verb), " ")),
-                         quoted(join(options, " ")));
+    cases += fmt::format("    {}) words={} options={} ;;\n", in_single_quotes(verb.path),
+                         in_single_quotes(join(words_of(verb), " ")), in_single_quotes(join(options, " ")));
   }
   return "# Completion of scanbench's command line for bash: source <(scanbench completion bash)\n"
          "_scanbench() {\n"
@@ -120,7 +120,7 @@ std::string bash_script(const std::vector<VerbDescription>& verbs) {
 
 /// "'plan:Divides the cells'": a word and what is said of it, for _describe.
 std::string described_word(const std::string& word, const std::string& help) {
-  return quoted(word + ":" + brief(help));
+  return in_single_quotes(word + ":" + brief(help));
 }
 
 std::string zsh_script(const std::vector<VerbDescription>& verbs) {
@@ -129,14 +129,14 @@ std::string zsh_script(const std::vector<VerbDescription>& verbs) {
     Words words, options, files;
     for (const VerbDescription& each : verb.verbs) words.push_back(described_word(each.name, each.help));
     if (verb.verbs.empty())
-      for (const std::string& word : words_of(verb)) words.push_back(quoted(word));
+      for (const std::string& word : words_of(verb)) words.push_back(in_single_quotes(word));
     for (const OptionDescription& option : verb.options)
       for (const std::string& name : names_of(option)) {
         options.push_back(described_word(name, option.help));
-        if (option.has_value && option.choices.empty()) files.push_back(quoted(verb.path + ":" + name));
+        if (option.has_value && option.choices.empty()) files.push_back(in_single_quotes(verb.path + ":" + name));
       }
-    cases +=
-        fmt::format("    {}) words_=({}) options_=({}) ;;\n", quoted(verb.path), join(words, " "), join(options, " "));
+    cases += fmt::format("    {}) words_=({}) options_=({}) ;;\n", in_single_quotes(verb.path), join(words, " "),
+                         join(options, " "));
     if (!files.empty()) with_value += "    " + join(files, "|") + ") _files; return ;;\n";
   }
   return "#compdef scanbench\n"

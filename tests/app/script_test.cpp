@@ -229,7 +229,8 @@ TEST_F(Script, AModuleThatDoesNotCompileIsBadInputAndAnythingElseABug) {
   folder_.write("algorithms/extract/mine.cpp", "int mine() { return; }\n");
   folder_.write(".gitignore", "build\nbin\ncalls\n");
   const auto git = [&](const std::string& command) {
-    return std::system(("cd " + folder_.path().string() + " && git -c user.name=a -c user.email=a@b " + command).c_str());
+    return std::system(
+        ("cd " + folder_.path().string() + " && git -c user.name=a -c user.email=a@b " + command).c_str());
   };
   ASSERT_EQ(git("init -q && git add . && git rm -r -q --cached algorithms"), 0);
   ASSERT_EQ(git("commit -q -m first"), 0);

@@ -31,8 +31,9 @@ struct Format {
 constexpr std::string_view kAngleRule =
     "beam angles: first_angle_deg and step_deg (or span_deg / n) if one of them is given; else -90 deg + i * 180/n for "
     "n = 180 and 360 beams, -90 deg + i * 180/(n-1) for 181 and 361; other numbers of beams need step_deg or span_deg";
-constexpr std::string_view kNoReturn = "the log does not state which readings mean that nothing is in range: no_return_m "
-                                       "does, and must be given";
+constexpr std::string_view kNoReturn =
+    "the log does not state which readings mean that nothing is in range: no_return_m "
+    "does, and must be given";
 
 const std::array<Format, 3>& formats() {
   static const std::array<Format, 3> all = {

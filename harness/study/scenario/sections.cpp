@@ -19,7 +19,8 @@ std::vector<RecordingFormat> recording_formats() {
         "beside these keys: relations, a file of poses of scans relative to each other, and odometry, errors that are "
         "added to the poses of the log, as in a trajectory"};
     notes.insert(notes.end(), text.notes.begin(), text.notes.end());
-    formats.push_back({{name, text.summary, ""}, io::log_param_specs(name), std::move(notes), io::required_log_params(name)});
+    formats.push_back(
+        {{name, text.summary, ""}, io::log_param_specs(name), std::move(notes), io::required_log_params(name)});
   }
   return formats;
 }

@@ -69,8 +69,8 @@ TEST_F(Nightly, FailsWhenAParameterMakesAGateWorseAndPassesWhenItIsRestored) {
   const Outcome restored = night();
   EXPECT_EQ(restored.code, 0) << restored.out;
   EXPECT_THAT(restored.out, HasSubstr("PASS: none of 4 gates is worse (4 equal to the bit)."));
-  EXPECT_THAT(page(), AllOf(HasSubstr("PASS: none of 4 gates is worse.</p>"),
-                            HasSubstr("<p>Gates: 4 equal to the bit.</p>")));
+  EXPECT_THAT(page(),
+              AllOf(HasSubstr("PASS: none of 4 gates is worse.</p>"), HasSubstr("<p>Gates: 4 equal to the bit.</p>")));
   EXPECT_THAT(here({"night", "accept", "out/nightly/suite", "--reason", "again"}).err,
               HasSubstr("has these values already"));
 }

@@ -177,9 +177,7 @@ TEST(SweepVerbs, AnArchivedRunIsReportedComparedAndUnpacked) {
     }
   EXPECT_EQ(read(folder / "archived.apng"), read(folder / "files.apng"));
   EXPECT_EQ(read(folder / "archived.png"), read(folder / "files.png"));
-  const auto scans = [&](const std::string& name) {
-    return without(read(folder / name / "scans.html"), " UTC · ");
-  };
+  const auto scans = [&](const std::string& name) { return without(read(folder / name / "scans.html"), " UTC · "); };
   EXPECT_EQ(scans("archived"), scans("files"));
   for (const char* made : {"figures", "export"}) {
     std::size_t files = 0;
