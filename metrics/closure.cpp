@@ -55,7 +55,7 @@ class ClosureFamily : public MetricFamily {
         {"closure_heading", "closure, heading", "deg", neither, 0.0,
          "root mean square difference of the headings by the two ways"},
         share({"closure_counted", "closures counted", "", neither, 0.0,
-               "share of the triples that count: all three matches succeed, state covariances and leave a motion in "
+               "share of the triples that count: the three matches succeed, state covariances and leave a motion in "
                "common determined"}),
         share({"closure_open", "closures with an open motion", "", neither, 0.0,
                "share of those in which a match leaves a motion open; they have fewer degrees of freedom, and are not "

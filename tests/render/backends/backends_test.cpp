@@ -239,7 +239,7 @@ TEST(Files, OfEmptyAndNonFiniteScenesAreStillWritten) {
   odd.panels[0].x.range = {kNan, kNan};
   for (const Scene& scene : {Scene{}, odd}) {
     const DecodedPng image = decode_png(to_png(scene));
-    EXPECT_EQ(image.width, 700);
+    EXPECT_EQ(image.width, 1050);  // 88.9 mm at 300 dpi
     expect_well_formed(to_svg(scene));
     EXPECT_TRUE(to_pdf(scene).starts_with("%PDF-"));
   }

@@ -60,8 +60,8 @@ TEST(MainDirectionsFigure, NamesTheScanThatAdoptsADirectionAndShowsTheOnesAround
   ASSERT_EQ(scenes.size(), 2u);
   EXPECT_THAT(scenes[0].caption, ::testing::HasSubstr("45.0 deg"));
   EXPECT_THAT(scenes[0].caption, ::testing::HasSubstr("adopted in scan 3"));
-  EXPECT_THAT(scenes[0].scene.panels.at(1).title, ::testing::HasSubstr("scan 2: 0 deg"));
-  EXPECT_THAT(scenes[0].scene.panels.at(2).title, ::testing::HasSubstr("scan 4: 0, 45 deg"));
+  EXPECT_THAT(scenes[0].scene.panels.at(1).title, ::testing::HasSubstr("scan 2: 0°"));
+  EXPECT_THAT(scenes[0].scene.panels.at(2).title, ::testing::HasSubstr("scan 4: 0, 45°"));
 }
 
 TEST(MapGrowthFigure, DrawsTheLinesAfterEveryScan) {

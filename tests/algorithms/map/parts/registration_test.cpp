@@ -62,7 +62,7 @@ FindPairs corridor_with_a_stray(const Walls& corridor, double stray_from_m) {
     std::vector<PointOnLine> found = corridor.pairs()(pose, gate);
     const double off = std::abs((pose * Vec2(3, 0)).x() - 3.3);
     if (gate > stray_from_m && off <= gate)
-      for (int k = 0; k < 20; ++k) found.push_back({Vec2(3, 0.1 * k - 1), Vec2(1, 0), 3.3, 1.0});
+      for (int k = 0; k < 10; ++k) found.push_back({Vec2(3, 0.2 * k - 1), Vec2(1, 0), 3.3, 1.0});
     return found;
   };
 }

@@ -30,7 +30,7 @@ ComparedColumn column_of(const std::vector<std::vector<double>>& paper,
                          const std::vector<std::vector<std::vector<double>>>& ours,
                          Direction direction = Direction::lower_is_better) {
   ComparedColumn column;
-  column.metric = {.metric = "n_lines", .unit = "", .direction = direction, .doc = "lines"};
+  column.metric = {.metric = "n_lines", .label = "lines", .unit = "", .direction = direction, .doc = "lines"};
   column.seeds = ours[0][0].size();
   column.methods = {{"lt", "LT"}, {"iepf", "IEPF"}, {"smf", "SMF"}};
   for (std::size_t s = 0; s < paper.size(); ++s) {
@@ -220,7 +220,7 @@ TEST(PaperTables, HaveARowForEachLineOfAnyColumn) {
 
 TEST(PaperTables, ShowTimesAsRatiosToTheFirstFamily) {
   ComparedColumn column;
-  column.metric = {.metric = "t", .unit = "ms", .doc = "time", .timing = true};
+  column.metric = {.metric = "t", .label = "time", .unit = "ms", .doc = "time", .timing = true};
   column.printed_unit = "ms";
   column.seeds = 1;
   column.methods = {{"a", "SEF T=6cm"}, {"b", "SEF T=9cm"}, {"c", "LT T=6cm"}};

@@ -9,6 +9,7 @@
 #include "harness/io/files/atomic_file.hpp"
 #include "harness/results/analysis/error_bins.hpp"
 #include "harness/results/document/html_page.hpp"
+#include "harness/results/document/html_table.hpp"
 #include "harness/results/tables/level_table.hpp"
 #include "harness/results/tables/ranking_table.hpp"
 #include "harness/runs/store/run_scenarios.hpp"
