@@ -13,14 +13,13 @@
 #include <vector>
 
 #include "app/exit_code.hpp"
+#include "app/verb_description.hpp"
 
 namespace scanbench::app {
 
 struct OptionState;
 struct VerbState;
 struct CommandLineState;
-
-using Words = std::vector<std::string>;
 
 /// An option or a positional argument of a verb. Copies refer to the same option, which the CommandLine owns.
 class Option {
@@ -87,27 +86,6 @@ class Verb {
 
  private:
   VerbState* state_;
-};
-
-/// What a shell and `man` need to know of an option, in the order of the help.
-struct OptionDescription {
-  Words short_names;  ///< "-o"
-  Words long_names;   ///< "--out"; a positional argument has neither
-  std::string name;   ///< "RUN", "--out"
-  std::string help;
-  std::string default_value;  ///< empty if the help shows none
-  bool has_value = true;      ///< false: a flag
-  Words choices;              ///< of one_of()
-  std::function<Words()> words;
-};
-
-struct VerbDescription {
-  std::string name;  ///< "run", "plan"
-  std::string path;  ///< as it is typed: "run", "sweep plan"
-  std::string help;
-  std::string details;
-  std::vector<OptionDescription> options;
-  std::vector<VerbDescription> verbs;
 };
 
 struct ProgramDescription {

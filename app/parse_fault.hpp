@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "app/options.hpp"
+#include "app/verb_description.hpp"
 
 namespace scanbench::app {
 

@@ -160,7 +160,7 @@ void add_figures(CommandLine& line) {
   verb.option("--entry", options->only, "of a catalogue: only these entries, separated by commas")
       .separated_by_commas();
   verb.renamed("--pipelines", "`figures --pipelines` is now `figures --pipeline`");
-  verb.renamed("--only", "`figures --only` is now `figures --entry`");
+  verb.renamed("--only", "`figures --only` is now `figures --entry`; --figure names the figures of a run");
   add_jobs_option(verb, options->jobs, "of a catalogue: number of cells that run at the same time");
   verb.flag("-q,--quiet", options->quiet, "print only errors");
   verb.runs([&line, options] { return figures(*options, line.argv()); });

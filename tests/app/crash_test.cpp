@@ -85,23 +85,23 @@ TEST_F(Crash, APlanCanBeRepeated) {
 
 /// The merged run of two shards that were not disturbed.
 std::map<std::string, std::string> merged_results(const Folder& folder) {
-  must(run({"merge", "sweep", "--out", "merged", "--cells", "files"}, {}, folder.path()));
+  must(run({"sweep", "merge", "sweep", "--out", "merged", "--cells", "files"}, {}, folder.path()));
   return results(folder / "merged");
 }
 
 TEST_F(Crash, AShardCanBeRunAgain) {
-  const Args shard{"run", "--plan", "sweep", "--shard", "1", "-q"};
+  const Args shard{"sweep", "run", "sweep", "--shard", "1", "-q"};
   const auto planned = copy_of([](const Folder& folder) {
     folder.write("room.yaml", room());
-    must(run({"plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "2"}, {}, folder.path()));
-    must(run({"run", "--plan", "sweep", "--shard", "2", "-q"}, {}, folder.path()));
+    must(run({"sweep", "plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "2"}, {}, folder.path()));
+    must(run({"sweep", "run", "sweep", "--shard", "2", "-q"}, {}, folder.path()));
   });
   Folder whole;
   planned(whole);
   must(run(shard, {}, whole.path()));
   const auto expected = merged_results(whole);
   const auto check = [&](const Folder& folder) {
-    const Outcome status = run({"status", "sweep"}, {}, folder.path());
+    const Outcome status = run({"sweep", "status", "sweep"}, {}, folder.path());
     EXPECT_TRUE(status.code == 0 || status.code == 4) << status.err;
     must(run(shard, {}, folder.path()));
     EXPECT_THAT(differences(merged_results(folder), expected), IsEmpty());
@@ -112,20 +112,20 @@ TEST_F(Crash, AShardCanBeRunAgain) {
 TEST_F(Crash, AMergeCanBeRepeated) {
   const auto run_shards = copy_of([](const Folder& folder) {
     folder.write("room.yaml", room());
-    must(run({"plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "2"}, {}, folder.path()));
+    must(run({"sweep", "plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "2"}, {}, folder.path()));
     for (const char* shard : {"1", "2"})
-      must(run({"run", "--plan", "sweep", "--shard", shard, "-q"}, {}, folder.path()));
+      must(run({"sweep", "run", "sweep", "--shard", shard, "-q"}, {}, folder.path()));
   });
   Folder whole;
   run_shards(whole);
   const auto expected = merged_results(whole);
   const auto sweep = files(whole / "sweep");
   for (const char* cells : {"files", "archives"}) {
-    const Args merge{"merge", "sweep", "--out", "merged", "--cells", cells, "-q"};
+    const Args merge{"sweep", "merge", "sweep", "--out", "merged", "--cells", cells, "-q"};
     const auto check = [&](const Folder& folder) {
       EXPECT_THAT(differences(files(folder / "sweep"), sweep), IsEmpty());
       must(run(merge, {}, folder.path()));
-      if (fs::exists(folder / "merged/archives")) must(run({"unpack", "merged"}, {}, folder.path()));
+      if (fs::exists(folder / "merged/archives")) must(run({"sweep", "unpack", "merged"}, {}, folder.path()));
       EXPECT_THAT(differences(results(folder / "merged"), expected), IsEmpty());
       EXPECT_THAT(half_written(folder.path()), IsEmpty());
     };

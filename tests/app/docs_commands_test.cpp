@@ -53,7 +53,7 @@ const Outcome& help_of(const Args& path) {
   return known.at(path);
 }
 
-TEST(Pages, NameVerbsAndOptionsThatTheProgramHas) {
+TEST(CommandsOfPages, NameVerbsAndOptionsThatTheProgramHas) {
   std::size_t count = 0;
   for (const auto& page : pages()) {
     for (const Args& args : commands_in(read(places::source_dir() / page))) {

@@ -81,15 +81,16 @@ TEST_F(FullDisk, ARunContinues) {
 }
 
 TEST_F(FullDisk, AShardContinues) {
-  const std::string command = "$scanbench run --plan sweep --shard 1 -q";
-  expect_continues("$scanbench plan room.yaml --seed 1,2 --out sweep --shards 1 -q >/dev/null; ", command,
-                   command + " && $scanbench merge sweep --out merged --cells files -q", "merged");
+  const std::string command = "$scanbench sweep run sweep --shard 1 -q";
+  expect_continues("$scanbench sweep plan room.yaml --seed 1,2 --out sweep --shards 1 -q >/dev/null; ", command,
+                   command + " && $scanbench sweep merge sweep --out merged --cells files -q", "merged");
 }
 
 TEST_F(FullDisk, AMergeIsRepeated) {
-  const std::string command = "$scanbench merge sweep --out merged --cells files -q";
+  const std::string command = "$scanbench sweep merge sweep --out merged --cells files -q";
   expect_continues(
-      "$scanbench plan room.yaml --seed 1,2 --out sweep --shards 1 -q >/dev/null; $scanbench run --plan sweep --shard "
+      "$scanbench sweep plan room.yaml --seed 1,2 --out sweep --shards 1 -q >/dev/null; $scanbench sweep run sweep "
+      "--shard "
       "1 "
       "-q >/dev/null; ",
       command, command, "merged");

@@ -34,7 +34,7 @@ class Mutator {
   std::string mutate_one(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
-      if (entry.is_regular_file()) files.push_back(entry.path());
+      if (entry.symlink_status().type() == fs::file_type::regular) files.push_back(entry.path());
     if (files.empty()) return "nothing is left";
     std::ranges::sort(files);
     const fs::path file = files.at(below(files.size()));

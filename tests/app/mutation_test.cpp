@@ -74,36 +74,36 @@ TEST_F(Mutations, OfARunAreRefused) {
                           {"figures", "out", "-q"},
                           {"score", "out", "-q"},
                           {"export", "out", "--out", "logs"},
-                          {"accept", "out", "--reason", "r", "--suite", "s"},
+                          {"night", "accept", "out", "--reason", "r", "--suite", "s"},
                           {"run", "room.yaml", "--out", "out", "--resume", "-q", "--no-figures"}});
 }
 
 TEST_F(Mutations, OfASweepAreRefused) {
-  must({"plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "2"});
-  must({"run", "--plan", "sweep", "--shard", "1", "-q"});
-  must({"run", "--plan", "sweep", "--shard", "2", "-q"});
-  expect_refusals("sweep", {{"status", "sweep"},
-                            {"merge", "sweep", "--out", "merged", "-q"},
-                            {"merge", "sweep", "--out", "merged", "--cells", "archives", "-q"},
-                            {"run", "--plan", "sweep", "--shard", "1", "-q"}});
+  must({"sweep", "plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "2"});
+  must({"sweep", "run", "sweep", "--shard", "1", "-q"});
+  must({"sweep", "run", "sweep", "--shard", "2", "-q"});
+  expect_refusals("sweep", {{"sweep", "status", "sweep"},
+                            {"sweep", "merge", "sweep", "--out", "merged", "-q"},
+                            {"sweep", "merge", "sweep", "--out", "merged", "--cells", "archives", "-q"},
+                            {"sweep", "run", "sweep", "--shard", "1", "-q"}});
 }
 
 TEST_F(Mutations, OfAnArchivedRunAreRefused) {
-  must({"plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "1"});
-  must({"run", "--plan", "sweep", "--shard", "1", "-q"});
-  must({"merge", "sweep", "--out", "merged", "--cells", "archives", "-q"});
+  must({"sweep", "plan", "room.yaml", "--seed", "1,2", "--out", "sweep", "--shards", "1"});
+  must({"sweep", "run", "sweep", "--shard", "1", "-q"});
+  must({"sweep", "merge", "sweep", "--out", "merged", "--cells", "archives", "-q"});
   expect_refusals("merged", {{"report", "merged"},
-                             {"unpack", "merged"},
+                             {"sweep", "unpack", "merged"},
                              {"compare", "merged", "merged"},
                              {"show", "merged", "--frame", "0", "--seed", "1", "--out", "scan.svg"}});
 }
 
 TEST_F(Mutations, OfAStoreOfNightsAreRefused) {
-  must({"nightly", "room.yaml", "--no-figures", "--store", "nights/n.sqlite", "--out", "night", "-q"});
-  must({"nightly", "room.yaml", "--no-figures", "--store", "nights/n.sqlite", "--out", "night", "-q"});
+  must({"night", "run", "room.yaml", "--no-figures", "--store", "nights/n.sqlite", "--out", "night", "-q"});
+  must({"night", "run", "room.yaml", "--no-figures", "--store", "nights/n.sqlite", "--out", "night", "-q"});
   expect_refusals("nights",
-                  {{"nightly", "room.yaml", "--no-figures", "--store", "nights/n.sqlite", "--out", "night", "-q"},
-                   {"store", "nights/n.sqlite", "night"}});
+                  {{"night", "run", "room.yaml", "--no-figures", "--store", "nights/n.sqlite", "--out", "night", "-q"},
+                   {"night", "store", "nights/n.sqlite", "night"}});
 }
 
 TEST_F(Mutations, OfTheFramesOfAProgramSpoilOnlyItsOwnCell) {

@@ -104,13 +104,14 @@ class SandboxEscapes : public testing::TestWithParam<std::string> {
   /// Runs all ways at a terminal. The result is what each says.
   std::map<std::string, std::string> tried(const std::string& run, const Args& options) const {
     const fs::path out = folder_ / run;
-    const fs::path service = folder_ / "service";
+    const fs::path service = folder_ / (folder_.path().filename().string() + "-service");  // a name of this test alone
     fs::remove(service);
     // The sandbox shows the folder of the module, which is beside this one.
     const fs::path shown = folder_ / "module/service";
     fs::create_directories(shown.parent_path());
     fs::remove(shown);
-    const Listener local(service.string(), true), beside(shown.string(), true), abstract("service", false), tcp;
+    const Listener local(service.string(), true), beside(shown.string(), true),
+        abstract(service.filename().string(), false), tcp;
     for (const fs::path& socket : {service, shown}) fs::permissions(socket, fs::perms::all);
     Args args{"python3",
               "-c",

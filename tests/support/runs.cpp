@@ -100,6 +100,17 @@ struct Hang {
     while (true) ::usleep(1000);
   }
 };
+/// Hangs on every scan.
+class HangAtOnce final : public LineExtractor {
+ public:
+  using Params = NoParams;
+  explicit HangAtOnce(const Params&) {}
+  ScanLines extract(const Scan&, Trace&) const override {
+    ScanLines none;
+    Hang{}(none);
+    return none;
+  }
+};
 struct Eat {
   void operator()(ScanLines&) const {
     // Never touched: the limit is on address space, and the machine of the test stays usable.
@@ -262,8 +273,8 @@ bool add(const std::string& name) {
 
 const bool registered =
     add<LineExtractor, LineOfAll>("test_line") && add<LineExtractor, Misbehaving<Crash>>("test_crash") &&
-    add<LineExtractor, Misbehaving<Hang>>("test_hang") && add<LineExtractor, Misbehaving<Eat>>("test_eat") &&
-    add<LineExtractor, Misbehaving<Throw>>("test_throw") &&
+    add<LineExtractor, Misbehaving<Hang>>("test_hang") && add<LineExtractor, HangAtOnce>("test_hang_at_once") &&
+    add<LineExtractor, Misbehaving<Eat>>("test_eat") && add<LineExtractor, Misbehaving<Throw>>("test_throw") &&
     add<LineExtractor, Misbehaving<WrongLabels>>("test_wrong_labels") &&
     add<LineExtractor, Misbehaving<Leave>>("test_leave") &&
     add<LineExtractor, Misbehaving<FillDisk>>("test_full_disk") && add<SegmentMerger, MergeAll>("test_merge") &&

@@ -21,7 +21,7 @@
 #include "harness/results/figures/figure_input/measured.hpp"
 #include "harness/results/figures/line_verdicts.hpp"
 #include "harness/results/figures/recording_note.hpp"
-#include "harness/results/figures/requested_figures.hpp"
+#include "harness/results/figures/why_not_drawn.hpp"
 #include "harness/runs/store/cell_files.hpp"
 #include "harness/runs/store/cell_status.hpp"
 #include "harness/runs/store/json_file.hpp"

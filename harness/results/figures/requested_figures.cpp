@@ -49,18 +49,6 @@ std::vector<study::Scenario> with_figures(std::vector<study::Scenario> scenarios
   return scenarios;
 }
 
-std::string why_not_drawn(const render::Figure& figure, const render::FigureInput& input) {
-  std::set<std::string> wanted;
-  for (const render::NamedResult& result : input.results)
-    for (const std::string& row : figure.trace_rows(result.pipeline)) {
-      if (result.trace != nullptr && result.trace->contains(row)) return figure.why_nothing(input);
-      wanted.insert(row);
-    }
-  if (wanted.empty()) return figure.why_nothing(input);
-  const std::vector<std::string> rows(wanted.begin(), wanted.end());
-  return fmt::format("no pipeline has the trace rows {}; `scanbench run --trace` keeps all that there are", join(rows));
-}
-
 std::vector<FigureFile> beside(std::vector<FigureFile> earlier, const std::vector<FigureFile>& drawn) {
   const auto is_drawn = [&](const FigureFile& file) {
     return std::ranges::any_of(drawn, [&](const FigureFile& d) {

@@ -6,7 +6,6 @@
 
 #include "harness/results/figures/figures.hpp"
 #include "harness/study/scenario/scenario.hpp"
-#include "render/figure.hpp"
 
 namespace scanbench::results {
 
@@ -14,9 +13,6 @@ namespace scanbench::results {
 /// Throws ConfigError for a name that is not that of a figure.
 std::vector<study::Scenario> with_figures(std::vector<study::Scenario> scenarios,
                                           const std::vector<std::string>& names);
-
-/// Why a figure draws nothing of this input: the trace rows that nothing kept, or its own reason.
-std::string why_not_drawn(const render::Figure& figure, const render::FigureInput& input);
 
 /// The index of a folder after some of its figures were drawn again: these replace those of the same name and the notes
 /// on them, and new ones follow. What could not be drawn is left as it was.

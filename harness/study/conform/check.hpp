@@ -1,4 +1,4 @@
-// Checks that every module of a kind must pass. The conformance tests and `scanbench conform` run them.
+// Checks that every module of a kind must pass. The conformance tests and `scanbench module conform` run them.
 #pragma once
 
 #include <functional>

@@ -6,14 +6,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <set>
 #include <sstream>
-#include <thread>
 
 namespace scanbench::study {
 namespace {
@@ -141,7 +139,7 @@ void remove_groups(const GroupFolders& folders, pid_t pid) {
     const fs::path group = group_of(folder, pid);
     bool removed = remove(group);
     for (int round = 0; round < kRounds && !removed; ++round) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // a killed process ends soon
+      ::usleep(1000);  // a killed process ends soon
       removed = remove(group);
     }
     if (!removed) left.insert(group);

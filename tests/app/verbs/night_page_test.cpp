@@ -52,7 +52,7 @@ class NightPage : public testing::Test {
     ASSERT_EQ(night().code, 0);
   }
   Outcome night(const Args& more = {}) const {
-    Args args{"nightly", "suite.yaml", "--store", "nights.sqlite"};
+    Args args{"night", "run", "suite.yaml", "--store", "nights.sqlite"};
     args.insert(args.end(), more.begin(), more.end());
     return run(args, {}, folder_.path());
   }

@@ -83,10 +83,10 @@ TEST(SweepVerbs, AProgramThatFillsTheFoldersOfCellsDoesNotEndTheShard) {
                                 "        return []\nscanbench.serve(M)\n");
   folder.write("room.yaml",
                room_with("metrics:", "  - {name: sparse, extract: {program: [python3, sparse.py]}}\nmetrics:"));
-  ASSERT_EQ(run({"plan", "room.yaml", "--out", "sweep", "--shards", "1"}, {}, folder.path()).code, 0);
-  const auto shard = run({"run", "--plan", "sweep", "--shard", "1", "-q", "--jobs", "1"}, {}, folder.path());
+  ASSERT_EQ(run({"sweep", "plan", "room.yaml", "--out", "sweep", "--shards", "1"}, {}, folder.path()).code, 0);
+  const auto shard = run({"sweep", "run", "sweep", "--shard", "1", "-q", "--jobs", "1"}, {}, folder.path());
   EXPECT_EQ(shard.code, 0) << shard.err;
-  const auto merged = run({"merge", "sweep", "--out", "merged", "--cells", "files"}, {}, folder.path());
+  const auto merged = run({"sweep", "merge", "sweep", "--out", "merged", "--cells", "files"}, {}, folder.path());
   EXPECT_EQ(merged.code, 0) << merged.err;
   EXPECT_EQ(nlohmann::json::parse(read(folder / "merged/manifest.json")).at("without_sandbox"),
             nlohmann::json({"extract m of python3 sparse.py, version 1"}));

@@ -68,6 +68,7 @@ TEST(FarRoom, HasTheMetricsOfARoomNearZero) {
     const auto far = values_of(room_at(x, y));
     ASSERT_EQ(far.size(), near.size());
     for (const auto& [name, value] : near) {
+      if (name.find(" t_") != std::string::npos) continue;  // times
       if (std::isnan(value)) {
         EXPECT_TRUE(std::isnan(far.at(name))) << name;
         continue;

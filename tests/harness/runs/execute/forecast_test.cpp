@@ -115,8 +115,8 @@ TEST(Forecast, OfAPipelineThatDoesNotEndIsCutOff) {
   // Nine scenarios whose second pipeline never ends.
   std::vector<study::Scenario> rooms;
   for (int i = 0; i < 9; ++i) {
-    rooms.push_back(
-        room("{name: a, extract: {module: iepf}}, {name: b" + std::to_string(i) + ", extract: {module: test_hang}}"));
+    rooms.push_back(room("{name: a, extract: {module: iepf}}, {name: b" + std::to_string(i) +
+                         ", extract: {module: test_hang_at_once}}"));
     rooms.back().name += std::to_string(i);
   }
   const auto start = std::chrono::steady_clock::now();
