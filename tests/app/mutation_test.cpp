@@ -99,6 +99,7 @@ TEST_F(Mutations, OfAnArchivedRunAreRefused) {
 }
 
 TEST_F(Mutations, OfAStoreOfNightsAreRefused) {
+  fs::create_directory(good_ / "nights");
   must({"night", "run", "room.yaml", "--no-figures", "--store", "nights/n.sqlite", "--out", "night", "-q"});
   must({"night", "run", "room.yaml", "--no-figures", "--store", "nights/n.sqlite", "--out", "night", "-q"});
   expect_refusals("nights",

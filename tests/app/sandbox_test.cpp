@@ -74,9 +74,10 @@ class SandboxEscapes : public testing::TestWithParam<std::string> {
     if (std::system("python3 -c pass >/dev/null 2>&1") != 0) GTEST_SKIP() << "there is no python3";
     if (GetParam() == "nobody") {
       if (getuid() != 0) GTEST_SKIP() << "only root can become another user";
-      as_user_ = {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
+      as_user_ = {"PATH=/usr/bin:/bin", "setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
       if (chown(folder_.path().c_str(), 65534, 65534) != 0) GTEST_SKIP() << "the folder cannot be given away";
       if (shell({places::program(), "--version"}).code != 0) GTEST_SKIP() << "nobody cannot execute the program";
+      if (shell({"python3", "-c", "pass"}).code != 0) GTEST_SKIP() << "nobody cannot execute python3";
     }
     if (shell({"bwrap", "--unshare-all", "--ro-bind", "/", "/", "true"}).code != 0)
       GTEST_SKIP() << "bubblewrap is not installed or not allowed";
