@@ -172,17 +172,12 @@ std::vector<RankedPipeline> rank_pipelines(const std::vector<study::Scenario>& s
   };
   std::ranges::sort(ranking, {}, key);
 
-  std::vector<double> p_values;
-  for (std::size_t i = 0; i < ranking.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < ranking.size(); ++i) {
     std::vector<double> differences;
-    if (i + 1 < ranking.size())
-      std::ranges::transform(rank_of[ranking[i].name], rank_of[ranking[i + 1].name], std::back_inserter(differences),
-                             std::minus<>{});
-    ranking[i].next_difference = average(differences, false);
-    p_values.push_back(std::ssize(seeds) < kFewestForInterval ? kNaN : paired_p_value(differences));
+    std::ranges::transform(rank_of[ranking[i].name], rank_of[ranking[i + 1].name], std::back_inserter(differences),
+                           std::minus<>{});
+    ranking[i].next = seed_interval(differences, ValueRange::any);
   }
-  const std::vector<double> adjusted = holm_adjusted(p_values);
-  for (std::size_t i = 0; i < ranking.size(); ++i) ranking[i].next_p = adjusted[i];
   return ranking;
 }
 

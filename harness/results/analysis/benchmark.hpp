@@ -38,12 +38,10 @@ struct RankedPipeline {
   std::map<std::string, ConditionRange> ranges;        ///< by the metric of a column that shows its range
   std::map<std::string, MeanInterval> values;          ///< by the metric of a column; in the unit of summary.csv
   std::map<std::string, std::vector<double>> by_seed;  ///< what these are the means of
-  int missing = 0;               ///< cells without a value of the rank's metric: not ok, or not there
-  double next_difference = 0.0;  ///< mean of the rank's metric minus that of the next in rank, paired by seed, of the
-                                 ///< logarithms where the mean is geometric; NaN for the last
-  double next_p = 1.0;           ///< of that difference, paired t test, corrected after Holm; NaN: no test, as of
-                                 ///< fewer than kFewestForInterval seeds
-  int conditions_won = 0;        ///< in which it is the best, averaged over the seeds
+  int missing = 0;         ///< cells without a value of the rank's metric: not ok, or not there
+  MeanInterval next{};     ///< seed_interval() of the rank's metric minus that of the next in rank, paired by seed, of
+                           ///< the logarithms where the mean is geometric; count 0 for the last
+  int conditions_won = 0;  ///< in which it is the best, averaged over the seeds
 };
 
 /// The value of a metric (subject "all") in every cell: by pipeline, seed and scenario.

@@ -136,21 +136,6 @@ double paired_p_value(std::span<const double> all) {
   return student_two_sided(t, n - 1.0);
 }
 
-std::vector<double> holm_adjusted(std::span<const double> p_values) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < p_values.size(); ++i)
-    if (std::isfinite(p_values[i])) order.push_back(i);
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p_values[i]; });
-  std::vector<double> adjusted(p_values.begin(), p_values.end());
-  double largest = 0.0;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const double corrected = static_cast<double>(order.size() - k) * p_values[order[k]];
-    largest = std::min(1.0, std::max(largest, corrected));
-    adjusted[order[k]] = largest;
-  }
-  return adjusted;
-}
-
 std::vector<double> benjamini_hochberg(std::span<const double> p_values) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < p_values.size(); ++i)

@@ -36,10 +36,6 @@ constexpr std::int64_t kFewestForInterval = 6;
 /// smallest and the largest one: so few say little about their spread.
 MeanInterval seed_interval(std::span<const double> all, ValueRange range);
 
-/// p-values corrected for multiple tests, in the same order: Holm, "A simple sequentially rejective multiple test
-/// procedure", Scandinavian Journal of Statistics 1979. NaN values do not count as tests and stay NaN.
-std::vector<double> holm_adjusted(std::span<const double> p_values);
-
 /// The same after Benjamini and Hochberg, "Controlling the false discovery rate", Journal of the Royal Statistical
 /// Society B 1995: of the tests whose corrected value is at most 0.05, on average at most 5 % are false alarms; if
 /// nothing has changed, there is an alarm in at most 5 % of all cases.

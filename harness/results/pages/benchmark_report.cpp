@@ -274,27 +274,20 @@ std::string split_text(const std::vector<RankedPipeline>& ranking, const study::
   return fmt::format("Which is best depends most on the {}. {}.", finding.factor, fmt::join(levels, "; "));
 }
 
-/// Adjacent ranks that differ significantly over the seeds, and those that do not.
-std::string significance_text(const std::vector<RankedPipeline>& ranking) {
-  std::vector<std::string> ties;
-  std::size_t tests = 0;
-  for (std::size_t i = 0; i + 1 < ranking.size(); ++i) {
-    if (std::isnan(ranking[i].next_p)) continue;
-    ++tests;
-    if (ranking[i].next_p >= 0.05) ties.push_back(ranking[i].name + " and " + ranking[i + 1].name);
-  }
-  if (tests == 0)
+/// What stands below the values, and the neighbours in the ranking that the seeds do not separate.
+std::string interval_text(const std::vector<RankedPipeline>& ranking) {
+  if (ranking.front().values.begin()->second.count < kFewestForInterval)
     return fmt::format(
-        "Below a value: the smallest and the largest one of the seeds. Fewer than {} seeds have no "
-        "intervals, and their differences are not tested.",
+        "Below a value: the smallest and the largest one of the seeds. Fewer than {} seeds have no intervals.",
         kFewestForInterval);
-  const std::string method = fmt::format(
-      "Below a value: its 95 % interval. Neighbours in the ranking were compared by paired t tests over the seeds, "
-      "corrected for their number ({}) after "
-      "Holm. ",
-      tests);
-  if (ties.empty()) return method + "All of them differ at the 5 % level.";
-  return method + fmt::format("All of them differ at the 5 % level, except {}.", fmt::join(ties, "; "));
+  std::vector<std::string> together;
+  for (std::size_t i = 0; i + 1 < ranking.size(); ++i)
+    if (ranking[i].next.low <= 0.0 && 0.0 <= ranking[i].next.high)
+      together.push_back(ranking[i].name + " and " + ranking[i + 1].name);
+  const std::string below =
+      "Below a value: its 95 % interval. That of the difference to the next in rank, paired by seed, contains no "
+      "difference ";
+  return below + (together.empty() ? "nowhere." : fmt::format("for {}.", fmt::join(together, "; ")));
 }
 
 Definitions column_definitions(const study::BenchmarkSpec& spec) {
@@ -343,7 +336,7 @@ std::vector<std::pair<std::string, std::string>> numbered_figures(const study::B
 
 Blocks ranking_section(const ReportInput& input, const study::BenchmarkSpec& spec) {
   Blocks blocks{BlockGroup{"compact ranks", {ranking_table(input.ranking, spec)}}, Paragraph{kArrowKey, "caption"},
-                Paragraph{significance_text(input.ranking)}};
+                Paragraph{interval_text(input.ranking)}};
   add_blocks(blocks, level_blocks(input, spec));
   return blocks;
 }

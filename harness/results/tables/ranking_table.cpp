@@ -42,12 +42,13 @@ TableCell interval_cell(const RankedPipeline& ranked, const study::BenchmarkColu
 }
 
 TableCell next_cell(const RankedPipeline& ranked, const study::BenchmarkColumn& rank) {
-  if (!std::isfinite(ranked.next_difference)) return {"–"};
-  TableCell cell{rank.geometric ? fmt::format("× {:.3f}", std::exp(ranked.next_difference))
-                                : fmt::format("{:+.2f}", rank.scale * ranked.next_difference)};
-  if (!std::isfinite(ranked.next_p)) return cell;
-  cell.spread = ranked.next_p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", ranked.next_p);
-  if (ranked.next_p >= 0.05) cell.spread += " n.s.";
+  if (ranked.next.count == 0) return {"–"};
+  const auto text = [&](double difference) {
+    return rank.geometric ? fmt::format("× {:.3f}", std::exp(difference))
+                          : fmt::format("{:+.2f}", rank.scale * difference);
+  };
+  TableCell cell{text(ranked.next.mean)};
+  if (ranked.next.count > 1) cell.spread = text(ranked.next.low) + " to " + text(ranked.next.high);
   return cell;
 }
 

@@ -88,13 +88,7 @@ TEST(Benchmark, TimesAreGeometricMeansAndTheirRatiosArePaired) {
   EXPECT_NEAR(ranking[2].values.at("t_ratio").mean, 2.0, 1e-12);
 }
 
-/// Two-sided p-value of Student's t with five degrees of freedom (Abramowitz and Stegun 1964, 26.7.3).
-double p_of_t5(double t) {
-  const double theta = std::atan(t / std::sqrt(5.0)), c = std::cos(theta);
-  return 1.0 - 2.0 / kPi * (theta + std::sin(theta) * c * (1.0 + 2.0 / 3.0 * c * c));
-}
-
-TEST(Benchmark, TestsNeighboursInRankFromSixSeedsOn) {
+TEST(Benchmark, NeighboursInRankHaveAPairedDifference) {
   std::vector<runs::SummaryRow> rows;
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U})
     for (const char* scenario : {"x", "y"}) {
@@ -104,14 +98,15 @@ TEST(Benchmark, TestsNeighboursInRankFromSixSeedsOn) {
       rows.push_back({scenario, "c", seed, "f1", "all", seed == 6 ? -0.5 : 0.1, "", 10});
     }
   const auto ranking = rank_pipelines(two_scenarios(), rows, kSpec);
-  EXPECT_NEAR(ranking[0].next_difference, 0.1, 1e-12);  // b - a: t = 1
-  EXPECT_NEAR(ranking[0].next_p, p_of_t5(1.0), 1e-9);
-  EXPECT_NEAR(ranking[1].next_difference, 0.5, 1e-12);     // a - c: t = 5
-  EXPECT_NEAR(ranking[1].next_p, 2 * p_of_t5(5.0), 1e-9);  // the smaller of two tests
-  EXPECT_TRUE(std::isnan(ranking[2].next_p));
+  // t(0.975, 5) = 2.5706 (tables of Student's t).
+  EXPECT_NEAR(ranking[0].next.mean, 0.1, 1e-12);  // b - a
+  EXPECT_NEAR(ranking[0].next.low, 0.1 - 2.5706 * 0.1, 1e-5);
+  EXPECT_NEAR(ranking[1].next.mean, 0.5, 1e-12);  // a - c
+  EXPECT_NEAR(ranking[1].next.high, 0.5 + 2.5706 * 0.1, 1e-5);
+  EXPECT_EQ(ranking[2].next.count, 0);
   std::erase_if(rows, [](const runs::SummaryRow& row) { return row.seed == 6; });
-  for (const auto& ranked : rank_pipelines(two_scenarios(), rows, kSpec))
-    EXPECT_TRUE(std::isnan(ranked.next_p)) << "five seeds are not tested";
+  const auto few = rank_pipelines(two_scenarios(), rows, kSpec);
+  EXPECT_EQ(few[1].next.low, few[1].next.high) << "five equal differences have a range, and it is a point";
 }
 
 TEST(Benchmark, CountsTheConditionsWon) {
@@ -152,7 +147,7 @@ TEST(Benchmark, TableMarksTheBestOfEveryColumn) {
       EXPECT_TRUE(table.rows[0].cells[c].best);  // 1.5 against 4, F1 within 5 points
     }
     if (table.columns[c].head == "F1 − next") {
-      EXPECT_EQ(table.rows[0].cells[c].spread, "");  // two seeds are not tested
+      EXPECT_EQ(table.rows[0].cells[c].spread, "+0.00 to +10.00");  // b - a in seeds 1 and 2
     }
   }
 }
@@ -349,7 +344,7 @@ TEST(Benchmark, RanksMatchersByTheLowestErrorOverBound) {
   EXPECT_EQ(ranking[0].name, "b");
   EXPECT_NEAR(ranking[0].values.at("pose_efficiency").mean, 1.5, 1e-12);  // of 2 and 1
   EXPECT_NEAR(ranking[1].values.at("pose_efficiency").mean, 3.0, 1e-12);  // of 2 and 4, each a geometric mean
-  EXPECT_NEAR(ranking[0].next_difference, 0.5 * (std::log(2.0 / 2.0) + std::log(1.0 / 4.0)), 1e-12);
+  EXPECT_NEAR(ranking[0].next.mean, 0.5 * (std::log(2.0 / 2.0) + std::log(1.0 / 4.0)), 1e-12);
   EXPECT_EQ(ranking[0].conditions_won, 2);  // y is a tie: both have the geometric mean of 2 and 1
   EXPECT_EQ(ranking[1].conditions_won, 1);
   EXPECT_NEAR(ranking[0].values.at("t_ratio").mean, 0.5 * (0.5 + 2.0), 1e-12);

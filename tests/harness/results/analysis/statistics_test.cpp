@@ -102,17 +102,6 @@ TEST(PairedPValue, HasAnAnswerForFewAndForEqualDifferences) {
   EXPECT_EQ(paired_p_value(std::array{0.5, 0.5}), 0.0);
 }
 
-TEST(HolmAdjusted, MultipliesTheSmallestByTheirNumberAndNeverFalls) {
-  // Sorted 0.01, 0.03, 0.04: times 3, 2, 1; the last may not be below the one before.
-  const auto p = holm_adjusted(std::array{0.01, 0.04, std::nan(""), 0.03});
-  ASSERT_EQ(p.size(), 4u);
-  EXPECT_DOUBLE_EQ(p[0], 0.03);
-  EXPECT_DOUBLE_EQ(p[1], 0.06);
-  EXPECT_TRUE(std::isnan(p[2]));
-  EXPECT_DOUBLE_EQ(p[3], 0.06);
-  EXPECT_EQ(holm_adjusted(std::array{0.9, 0.8})[1], 1.0);
-}
-
 // The example of Benjamini and Hochberg 1995, section 3: of 15 tests four are findings at 5 %, where Bonferroni's
 // correction leaves three.
 TEST(BenjaminiHochberg, GivesTheFindingsOfTheOriginalExample) {
