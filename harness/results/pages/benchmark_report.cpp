@@ -298,10 +298,9 @@ Definitions column_definitions(const study::BenchmarkSpec& spec) {
     if (column.geometric) text += "; geometric mean over the conditions";
     all.items.emplace_back(column.metric == "t_ratio" ? "time / " + spec.baseline : column.head, text);
   }
-  all.items.emplace_back(
-      next_head(rank), rank.geometric ? "mean ratio of the first column to that of the next in rank, with the p-value"
-                                      : "mean difference of the first column to the next in rank, in points, with the "
-                                        "p-value");
+  all.items.emplace_back(next_head(rank),
+                         rank.geometric ? "mean ratio of the first column to that of the next in rank, paired by seed"
+                                        : "mean difference of the first column to the next in rank, paired by seed");
   all.items.emplace_back("best in", "conditions in which its first column is the best; ties count for all");
   return all;
 }

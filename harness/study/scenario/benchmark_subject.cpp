@@ -52,7 +52,7 @@ BenchmarkSubject extractors() {
           "matches it if they differ by at most 10° and 15 cm and overlap by more than half of the shorter; pairs are "
           "one to one, by decreasing overlap. Found lines shorter than 0.5 m that match nothing are skipped. For every "
           "seed a value is averaged over the conditions with equal weight; the table shows the mean over the seeds "
-          "and, after ±, half of its 95 % interval (the wider of Student's t and a bootstrap). Undefined values are "
+          "with its 95 % interval. Undefined values are "
           "left out. * marks the best.",
       .limits =
           // NOLINTNEXTLINE(*-suspicious-missing-comma): sentences over two lines
@@ -175,8 +175,8 @@ BenchmarkSubject aligners() {
       .method =
           "Every scan is given with a pose whose error is drawn from a normal distribution; the poses are not chained. "
           "An aligner that gives no answer leaves the poses as they were given, and these are scored. For every seed a "
-          "value is averaged over the conditions with equal weight; the table shows the mean over the seeds and, after "
-          "±, half of its 95 % interval (the wider of Student's t and a bootstrap). Undefined values are left out. * "
+          "value is averaged over the conditions with equal weight; the table shows the mean over the seeds with its "
+          "95 % interval. Undefined values are left out. * "
           "marks the best.",
       .limits =
           // NOLINTNEXTLINE(*-suspicious-missing-comma): sentences over two lines
