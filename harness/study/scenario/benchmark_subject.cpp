@@ -122,10 +122,8 @@ BenchmarkSubject matchers() {
       .method =
           "Consecutive scans are matched, with the odometry between them as the guess. A pair counts if the "
           "unknown-walls bound of its pose leaves no motion a standard deviation above 25 cm. For every seed a value "
-          "is "
-          "averaged over the conditions with equal weight; the table shows the mean over the seeds and, after ±, half "
-          "of its 95 % interval (the wider of Student's t and a bootstrap). Undefined values are left out. * marks the "
-          "best.",
+          "is averaged over the conditions with equal weight; the table shows the mean over the seeds with its 95 % "
+          "interval. Undefined values are left out. * marks the best.",
       .limits =
           // NOLINTNEXTLINE(*-suspicious-missing-comma): sentences over two lines
       {"The seeds change the noise and the guesses, not the worlds: intervals and tests show that a difference "
