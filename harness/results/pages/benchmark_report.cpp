@@ -284,10 +284,10 @@ std::string interval_text(const std::vector<RankedPipeline>& ranking) {
   for (std::size_t i = 0; i + 1 < ranking.size(); ++i)
     if (ranking[i].next.low <= 0.0 && 0.0 <= ranking[i].next.high)
       together.push_back(ranking[i].name + " and " + ranking[i + 1].name);
-  const std::string below =
-      "Below a value: its 95 % interval. That of the difference to the next in rank, paired by seed, contains no "
-      "difference ";
-  return below + (together.empty() ? "nowhere." : fmt::format("for {}.", fmt::join(together, "; ")));
+  const std::string below = "Below a value: its 95 % interval. ";
+  return below + (together.empty() ? "The seeds separate all neighbours in rank."
+                                   : fmt::format("The seeds do not separate these neighbours in rank: {}.",
+                                                 fmt::join(together, "; ")));
 }
 
 Definitions column_definitions(const study::BenchmarkSpec& spec) {
