@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "core/special_values.hpp"
 #include "harness/io/files/atomic_file.hpp"
 #include "harness/io/files/folder_name.hpp"
@@ -238,6 +239,11 @@ fs::path accept_baseline(const fs::path& baselines, const std::string& suite, co
   if (reason.find_first_not_of(" \t\n") == std::string::npos)
     throw ConfigError("--reason is empty; allowed: why the baseline moves, for those who read it later");
   check_complete(results);
+  if (!results.overrides.empty())
+    throw ConfigError(
+        fmt::format("the run was made with --set {}, and a baseline is of the suite as it stands in its "
+                    "files; change the file, run the night again, and accept that",
+                    join(results.overrides)));
   const RunResults reduced = gate_values(results, gates);
   Json groups = Json::array();
   for (const auto& group : groups_of(reduced)) groups.push_back(group_json(group));

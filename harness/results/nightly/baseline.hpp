@@ -36,8 +36,8 @@ Baseline load_baseline(const std::filesystem::path& file);
 
 /// Writes the next file of the suite, never over another one, also if several processes accept at once: per pipeline
 /// and metric the seeds' values, their median and the 95 % interval of their mean, and per pipeline the hash of its
-/// values. Returns its path. Throws ConfigError if a cell is missing or not ok, if the reason is empty, and if nothing
-/// differs from the newest baseline.
+/// values. Returns its path. Throws ConfigError if a cell is missing or not ok, if the reason is empty, if the run has
+/// overrides of --set, and if nothing differs from the newest baseline.
 std::filesystem::path accept_baseline(const std::filesystem::path& baselines, const std::string& suite,
                                       const RunResults& results, const Gates& gates, const std::string& reason);
 

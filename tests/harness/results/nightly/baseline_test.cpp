@@ -102,6 +102,9 @@ TEST(Baseline, MovesOnPurposeOnly) {
   const auto refusal = [&](const RunResults& run, const std::string& reason) {
     return support::config_refusal([&] { accept_baseline(folder.path(), "suite", run, f1_gate(), reason); });
   };
+  RunResults overridden = f1_run({0.5, 0.6});
+  overridden.overrides = {"sensor.sigma_m=0.02"};
+  EXPECT_THAT(refusal(overridden, "by mistake"), HasSubstr("--set sensor.sigma_m=0.02"));
   accept_baseline(folder.path(), "suite", f1_run({0.5, 0.6}), f1_gate(), "first");
   EXPECT_THAT(refusal(f1_run({0.5, 0.6}), "again"), HasSubstr("has these values already"));
   EXPECT_THAT(refusal(f1_run({0.7, 0.6}), "  "), HasSubstr("--reason is empty"));
