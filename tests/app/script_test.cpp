@@ -169,8 +169,8 @@ TEST_F(Script, AnInterruptWhileItWaitsForAnotherBuildEndsIt) {
   const Child other({"/bin/bash", "-c", "exec 9>" + lock + "; flock 9; touch held; sleep 20"}, {}, folder_.path());
   ASSERT_TRUE(other.wait_until([&] { return fs::exists(folder_ / "held"); }));
   const auto outcome =
-      Child({"/usr/bin/env", "timeout", "-s", "INT", "1", "/bin/bash", (folder_ / "scanbench").string(), "list"}, {},
-            folder_.path())
+      Child({"/usr/bin/env", "timeout", "-s", "INT", "1", "/bin/bash", (folder_ / "scanbench").string(), "list"},
+            {{"SCANBENCH_PRESET", ""}}, folder_.path())
           .wait();
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("waiting for it"), HasSubstr("interrupted")));
   EXPECT_THAT(outcome.out, Not(HasSubstr("the program")));
