@@ -241,8 +241,8 @@ fs::path accept_baseline(const fs::path& baselines, const std::string& suite, co
   check_complete(results);
   if (!results.overrides.empty())
     throw ConfigError(
-        fmt::format("the run was made with --set {}, and a baseline is of the suite as it stands in its "
-                    "files; change the file, run the night again, and accept that",
+        fmt::format("the run was made with --set {}, and a baseline is of the suite as its files say; "
+                    "change a file, run the night again, and accept that",
                     join(results.overrides)));
   const RunResults reduced = gate_values(results, gates);
   Json groups = Json::array();
